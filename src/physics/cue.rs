@@ -1,4 +1,4 @@
-//! The cue strike: from the player's five inputs to the ball's velocity and spin (thesis 2.2.1).
+//! The cue strike: computes the ball's velocity and spin from the player's five inputs (thesis 2.2.1).
 
 use std::f64::consts::TAU;
 
@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 use super::{Cloth, SpatialState};
 use crate::table::{Table, is_zero};
 
-/// Fastest ball that is accepted, m/s: a light ball leaves the fastest cue at twice that cue's speed.
+/// Fastest accepted ball, m/s: a light ball leaves the fastest cue at twice the cue's speed.
 const MAX_BALL_SPEED: f64 = 2.0 * CueInputs::MAX_SPEED;
 
-/// Fastest spin that is accepted, rad/s: about what a tip at the edge of a 30 mm ball gives it at that speed.
+/// Fastest accepted spin, rad/s: approximately that of a 30 mm ball that is struck at its edge and leaves at that speed.
 const MAX_SPIN: f64 = 20_000.0;
 
 /// The five inputs of a stroke (thesis Figures 4 and 5).
@@ -20,8 +20,8 @@ const MAX_SPIN: f64 = 20_000.0;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "CueDegrees", into = "CueDegrees")]
 pub struct CueInputs {
-    /// Horizontal offset of the tip from the ball's centre in units of R. Positive is the side on which the spin
-    /// `w_z` comes out negative (thesis equation 16): to the *left* of centre for the player behind the cue.
+    /// Horizontal offset of the tip from the ball's centre in units of R. For positive `a` the spin `w_z` is negative (thesis equation 16):
+    /// the tip is to the *left* of the centre for the player behind the cue.
     pub a: f64,
     /// Vertical offset of the tip in units of R, positive above the centre.
     pub b: f64,
@@ -33,8 +33,8 @@ pub struct CueInputs {
     pub speed: f64,
 }
 
-/// The five inputs as [`CueInputs`], but with the angles in degrees, as people read and write them: turning radians back into degrees
-/// would lose the last bit.
+/// The five inputs of [`CueInputs`] with the angles in degrees, as people read and write them. Converting radians back to degrees would
+/// lose the last bit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CueDegrees {
     /// Horizontal offset of the tip in units of R.
@@ -78,7 +78,7 @@ pub enum CueError {
         a: f64,
         /// Vertical offset in units of R.
         b: f64,
-        /// Their squares' sum.
+        /// The sum of their squares.
         offset: f64,
         /// The largest accepted sum.
         limit: f64,
@@ -98,28 +98,28 @@ pub enum CueError {
     Text(String),
 }
 
-/// Why a motion of the cue ball is refused.
+/// Why an initial motion of the cue ball is refused.
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum ImpulseError {
-    /// The velocity along the cloth, m/s, is not a number, or too large.
+    /// The velocity along the cloth, m/s, is not a number or is too large.
     #[error("velocity = {0} m/s is not accepted; accepted are finite numbers and at most {MAX_BALL_SPEED} m/s")]
     Velocity(DVec2),
-    /// The upward velocity, m/s, is not a number, downwards, or too large.
+    /// The upward velocity, m/s, is not a number, negative or too large.
     #[error("velocity has {0} m/s upwards; accepted are 0 to {MAX_BALL_SPEED} m/s")]
     Lift(f64),
-    /// The spin, rad/s, is not a number, or too large.
+    /// The spin, rad/s, is not a number or is too large.
     #[error("spin = {0} rad/s is not accepted; accepted are finite numbers and at most {MAX_SPIN} rad/s")]
     Spin(DVec3),
 }
 
-/// How far one direction is turned from another, rad, from -π to π however many whole turns are between them.
+/// Returns the angle from one direction to another, rad, between -π and π: whole turns are removed.
 pub fn turn(from: f64, to: f64) -> f64 {
     let turn = to - from;
     turn - TAU * (turn / TAU).round()
 }
 
 impl CueInputs {
-    /// Fastest cue that is accepted, m/s. The fastest human break shots stay below 20 m/s.
+    /// Fastest accepted cue, m/s. The fastest human break shots stay below 20 m/s.
     pub const MAX_SPEED: f64 = 100.0;
 
     /// Checks that the tip meets the ball (thesis equation 46) and that every input is in its range.
@@ -139,28 +139,28 @@ impl CueInputs {
         range("V", self.speed, speed_ok, "above 0 and at most 100 m/s")
     }
 
-    /// Checks that the place on the ball, `a² + b²`, or how far the cue's line passes by the centre,
-    /// [`Self::offset_across_squared`], is within the limit; a [`Table`]'s `miscue_limit` is where a real tip begins to slip. A
-    /// level cue has the same of both. A steep one may meet the ball further up, by the second; a low tip with a cue that is
-    /// raised a little is not refused, by the first.
+    /// Checks that the tip does not slip: either the tip offset `a² + b²` or the distance of the cue's line from the centre,
+    /// [`Self::offset_across_squared`], must be within `limit`. [`Table::miscue_limit`] is the value at which a real tip starts to slip.
+    /// For a level cue both measures are equal. The second one lets a steep cue hit the ball further up; the first one keeps a low tip
+    /// accepted if the cue is slightly raised.
     ///
     /// # Errors
-    /// [`CueError::Tip`] where it is larger or not a number.
+    /// [`CueError::Tip`] if both are larger or not a number.
     pub fn validate_tip(&self, limit: f64) -> Result<(), CueError> {
         let offset = self.tip_offset_squared();
-        // Written so that NaN is refused.
+        // The comparisons are written so that NaN is refused.
         let holds = offset <= limit || offset <= 1.0 && self.offset_across_squared() <= limit;
         if holds { Ok(()) } else { Err(CueError::Tip { a: self.a, b: self.b, offset, limit }) }
     }
 
-    /// Whether the tip slips off the ball on this table: no ball is moved then, and no point is made.
+    /// Whether the tip slips off the ball on this table. The shot then moves no ball and scores no point.
     pub fn is_miscue(&self, table: &Table) -> bool {
         self.validate_tip(table.miscue_limit).is_err()
     }
 
-    /// How far the cue's line passes by the ball's centre, squared, in units of R²: `a² + (b cos theta - c sin theta)²`, as in
-    /// thesis equation 9. For a level cue it is `a² + b²`. A place on the far side, which no cue reaches but through the ball,
-    /// is as far off as can be: 1.
+    /// Returns the squared distance of the cue's line from the ball's centre in units of R²: `a² + (b cos theta - c sin theta)²`, as in
+    /// thesis equation 9. For a level cue it is `a² + b²`. A point on the far side, which the cue could only reach through the ball, has
+    /// the maximum, 1.
     pub fn offset_across_squared(&self) -> f64 {
         let (sin, cos) = libm::sincos(self.theta);
         let c = (1.0 - self.tip_offset_squared()).max(0.0).sqrt();
@@ -169,22 +169,22 @@ impl CueInputs {
         if faces_cue { self.a * self.a + lever * lever } else { 1.0 }
     }
 
-    /// `a² + b²`, in units of R².
+    /// Returns `a² + b²`, in units of R².
     pub fn tip_offset_squared(&self) -> f64 {
         self.a * self.a + self.b * self.b
     }
 
-    /// The direction in degrees as people read it: from 0 to below 360, with so many decimals. Strokes are accepted and
-    /// computed with any number of turns.
+    /// Formats the direction in degrees in the range 0 to below 360, with `decimals` decimals. Strokes accept and use any number of whole
+    /// turns.
     pub fn phi_text(&self, decimals: usize) -> String {
         let text = |degrees: f64| format!("{degrees:.decimals$}");
-        // Adding zero takes the sign from minus zero.
+        // Adding zero turns minus zero into zero.
         let degrees = text(self.phi.to_degrees().rem_euclid(360.0) + 0.0);
-        // What is rounded up to a whole turn is none.
+        // A value that rounds to 360 is displayed as 0.
         if degrees == text(360.0) { text(0.0) } else { degrees }
     }
 
-    /// Reads `"a,b,theta,phi,V"`: radii, degrees, m/s. The values are not checked: see [`CueInputs::validate`].
+    /// Parses `"a,b,theta,phi,V"`: radii, degrees, m/s. The values are not checked: see [`CueInputs::validate`].
     ///
     /// # Errors
     /// [`CueError::Text`].
@@ -197,25 +197,25 @@ impl CueInputs {
     }
 }
 
-/// What a stroke gives the cue ball: the equivalent ball impulse.
+/// Motion of the cue ball just after the stroke: the equivalent ball impulse.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Impulse {
     /// Initial velocity `V0` along the cloth, m/s.
     pub velocity: DVec2,
     /// Initial angular velocity `w0`, rad/s.
     pub spin: DVec3,
-    /// Upward velocity after the cloth's answer, m/s: zero on a table that keeps its balls on the cloth.
+    /// Upward velocity after the impulse of the cloth, m/s: zero on a table that keeps its balls on the cloth.
     #[serde(skip_serializing_if = "is_zero")]
     pub lift: f64,
 }
 
 impl Impulse {
-    /// A motion along the cloth.
+    /// Creates a motion along the cloth.
     pub const fn on_cloth(velocity: DVec2, spin: DVec3) -> Self {
         Self { velocity, spin, lift: 0.0 }
     }
 
-    /// Checks that all three are numbers and not out of all proportion. A ball at rest is accepted: it stays where it lies.
+    /// Checks that velocity, spin and lift are finite and within their limits. A ball at rest is accepted: it stays where it is.
     ///
     /// # Errors
     /// The first problem found.
@@ -235,10 +235,10 @@ impl Impulse {
     }
 }
 
-/// Angle by which the cue ball leaves the cue's direction when it is struck at side `a`, rad, counter-clockwise: a tip on
-/// the left sends it off to the right. Zero on a table whose cue has no end mass.
+/// Returns the squirt angle for a side offset `a`, rad, counter-clockwise from the cue's direction: a tip on the left deflects the ball to
+/// the right. Zero on a table without an end mass of the cue.
 ///
-/// The end of the cue has to be pushed aside as the ball turns under it (Alciatore, TP A.31).
+/// Squirt occurs because the ball's rotation pushes the end of the cue aside (Alciatore, TP A.31).
 pub fn squirt(table: &Table, a: f64) -> f64 {
     table.cue_end_mass.map_or(0.0, |end| {
         let rest = 1.0 - a * a;
@@ -247,15 +247,15 @@ pub fn squirt(table: &Table, a: f64) -> f64 {
     })
 }
 
-/// Velocity and spin of the cue ball just after the stroke (thesis equations 9, 15 and 16), along the direction in which
-/// the ball squirts. Where balls can leave the cloth, the downward part of (15) presses the ball into it and the cloth
-/// answers at the same moment: it rubs, and gives a part of the speed back.
+/// Returns velocity and spin of the cue ball just after the stroke (thesis equations 9, 15 and 16), in the direction of squirt. If balls
+/// can leave the cloth, the downward part of (15) presses the ball into the cloth, which responds at the same moment with friction and
+/// restitution.
 pub fn strike(table: &Table, cue: &CueInputs) -> Impulse {
     let (a, b) = (cue.a, cue.b);
     let c = (1.0 - cue.tip_offset_squared()).max(0.0).sqrt();
     let (sin_theta, cos_theta) = libm::sincos(cue.theta);
     let (sin_phi, cos_phi) = libm::sincos(cue.phi + squirt(table, a));
-    // (9) per ball mass. Its last three terms are the square of b cos - c sin.
+    // (9) per ball mass. The last three terms of (9) are the square of b cos - c sin.
     let lever = b * cos_theta - c * sin_theta;
     let force = 2.0 * cue.speed / (1.0 + table.ball_mass / table.cue_mass + 2.5 * (a * a + lever * lever));
     // F R / I with I = 2/5 m R².
@@ -278,14 +278,14 @@ pub fn strike(table: &Table, cue: &CueInputs) -> Impulse {
     }
 }
 
-/// The stroke with a level cue that gives the cue ball this motion, the inverse of [`strike`]; `None` where none does: the
-/// ball does not move, or the tip would have to meet it beside its outline. Spin about the ball's way, which a level cue
-/// does not give, is left out.
+/// Returns the stroke with a level cue that gives the cue ball this motion, the inverse of [`strike`]. `None` if there is no such stroke:
+/// the ball does not move, or the tip would have to be outside the ball's outline. Spin about the direction of motion is ignored, because a
+/// level cue does not create it.
 pub fn level_stroke(table: &Table, impulse: &Impulse) -> Option<CueInputs> {
     let Impulse { velocity, spin, .. } = *impulse;
     let speed = velocity.length();
     let ahead = velocity.try_normalize()?;
-    // (15) and (16) at theta = 0: w R is 5/2 of the speed and the tip's place.
+    // (15) and (16) at theta = 0: `w R` is 5/2 of the speed times the tip offset.
     let tip = table.radius / (2.5 * speed);
     let (a, b) = (-tip * spin.z, tip * spin.truncate().dot(ahead.perp()));
     let offset = a * a + b * b;
@@ -304,7 +304,7 @@ mod tests {
         let cue = CueInputs::parse("-0.204,-0.440,24.379,-1.020,3.977").unwrap();
         let impulse = strike(&table, &cue);
         assert!(impulse.velocity.abs_diff_eq(DVec2::new(2.461, -0.044), 5.1e-4), "{impulse:?}");
-        // The inputs are rounded to 5e-4, which moves the spin by up to 0.1 rad/s.
+        // The inputs are rounded to 5e-4, which changes the spin by up to 0.1 rad/s.
         assert!(impulse.spin.abs_diff_eq(DVec3::new(15.628, -169.046, 41.122), 0.15), "{impulse:?}");
     }
 
@@ -343,7 +343,7 @@ mod tests {
         assert!(refused(Impulse { velocity: DVec2::new(f64::NAN, 1.0), ..still }).contains("velocity = [NaN, 1]"));
         assert!(refused(Impulse { velocity: DVec2::new(0.0, 200.1), ..still }).contains("at most 200 m/s"));
         assert!(refused(Impulse { spin: DVec3::new(0.0, f64::INFINITY, 0.0), ..still }).contains("spin = [0, inf, 0]"));
-        // What the fastest stroke gives is accepted: side at the edge of the ball.
+        // The fastest stroke with the tip at the ball's edge is accepted.
         let hardest = CueInputs { a: 1.0, b: 0.0, theta: 0.0, phi: 0.0, speed: CueInputs::MAX_SPEED };
         assert_eq!(strike(&Table::default(), &hardest).validate(), Ok(()));
     }
@@ -360,16 +360,16 @@ mod tests {
     }
 
     #[test]
-    fn directions_are_told_from_nought_to_below_a_whole_turn() {
-        let told = |degrees: f64| {
+    fn directions_are_formatted_from_zero_to_below_a_whole_turn() {
+        let formatted = |degrees: f64| {
             CueInputs { phi: degrees.to_radians(), ..CueInputs::parse("0,0,0,0,1").unwrap() }.phi_text(2)
         };
-        let directions = [-27.0, 333.0, 0.0, -0.001, 359.999, 720.5, -0.0].map(told);
+        let directions = [-27.0, 333.0, 0.0, -0.001, 359.999, 720.5, -0.0].map(formatted);
         assert_eq!(directions, ["333.00", "333.00", "0.00", "0.00", "0.00", "0.50", "0.00"]);
     }
 
     #[test]
-    fn json_speaks_degrees() {
+    fn json_uses_degrees() {
         let json = r#"{"a":0.1,"b":0.2,"theta_deg":10.0,"phi_deg":90.0,"speed":3.0}"#;
         let cue: CueInputs = serde_json::from_str(json).unwrap();
         assert!((cue.phi - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
@@ -382,11 +382,11 @@ mod tests {
         let cue = |theta: &str| CueInputs::parse(&format!("0.2,0.9,{theta},0,2")).unwrap();
         let (level, steep) = (cue("5"), cue("75"));
         assert!(level.is_miscue(&table) && !steep.is_miscue(&table));
-        // Its line passes the centre by less than half a radius.
+        // The cue's line passes the centre at less than half a radius.
         assert!(steep.offset_across_squared() < 0.25, "{}", steep.offset_across_squared());
         let flat = CueInputs { theta: 0.0, ..level };
         assert!((flat.offset_across_squared() - flat.tip_offset_squared()).abs() < 1e-15);
-        // A steep cue does not reach the ball's lower half, and beside the ball there is nothing to meet.
+        // A steep cue does not reach the ball's lower half, and an offset beyond the ball's outline misses it.
         let below = CueInputs { b: -0.9, ..steep };
         assert!(below.is_miscue(&table));
         let beside = CueInputs { a: 0.6, b: 0.9, ..steep };

@@ -1,4 +1,4 @@
-//! Balls that leave the cloth: how it answers a ball that is pressed into it or comes down on it (thesis 6.1.3).
+//! Balls that leave the cloth: impulses of the cloth on a ball that is pressed into it or lands on it (thesis 6.1.3).
 
 use glam::{DVec2, DVec3};
 use serde::Serialize;
@@ -6,10 +6,10 @@ use serde::Serialize;
 use super::{BallState, slip};
 use crate::table::Table;
 
-/// Where a ball is in space and how it moves.
+/// Position and motion of a ball in three dimensions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SpatialState {
-    /// Centre, m; `z` is its height above where it is when the ball lies on the cloth.
+    /// Centre, m; `z` is its height above that of a ball on the cloth.
     pub position: DVec3,
     /// Velocity, m/s.
     pub velocity: DVec3,
@@ -24,12 +24,12 @@ impl From<BallState> for SpatialState {
 }
 
 impl SpatialState {
-    /// What of it is seen from above: the state of a ball on the cloth if it is there.
+    /// Returns the horizontal part of the state, which is the full state for a ball on the cloth.
     pub fn seen_from_above(&self) -> BallState {
         BallState { position: self.position.truncate(), velocity: self.velocity.truncate(), spin: self.spin }
     }
 
-    /// Kinetic and potential energy per unit of mass, m²/s².
+    /// Returns the kinetic and potential energy per unit of mass, m²/s².
     pub fn specific_energy(&self, radius: f64, gravity: f64) -> f64 {
         0.5 * self.velocity.length_squared()
             + 0.2 * radius * radius * self.spin.length_squared()
@@ -37,7 +37,7 @@ impl SpatialState {
     }
 }
 
-/// The cloth as a ball meets it from above.
+/// Properties of the cloth for impacts from above.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cloth {
     /// Coefficient of restitution `e_c`.
@@ -49,7 +49,7 @@ pub struct Cloth {
 }
 
 impl Cloth {
-    /// That of a table; `None` where balls never leave it.
+    /// Returns the cloth of a table; `None` if balls never leave it.
     pub fn of(table: &Table) -> Option<Self> {
         table.flight.map(|flight| Self {
             restitution: flight.restitution,
@@ -58,19 +58,19 @@ impl Cloth {
         })
     }
 
-    /// Answers a ball that moves into the cloth: the normal impulse per mass is `(1 + e_c) |v_z|`, the friction `mu_c` times
-    /// that against the slip, up to no slip, which is two sevenths of it. A ball that moves upwards is left alone.
+    /// Applies the impact of a ball on the cloth. The normal impulse per mass is `(1 + e_c) |v_z|`. The friction impulse is `mu_c` times
+    /// that, opposite to the slip, limited by the no-slip value of two sevenths of the slip. Does nothing to a ball that moves upwards.
     pub fn answer(&self, radius: f64, ball: &mut SpatialState) {
         if ball.velocity.z >= 0.0 {
             return;
         }
         let push = -(1.0 + self.restitution) * ball.velocity.z;
         ball.velocity.z *= -self.restitution;
-        self.rub(radius, push, ball);
+        self.apply_friction(radius, push, ball);
     }
 
-    /// What friction does to a ball that is pressed into the cloth by the impulse `push` per mass, m/s.
-    pub fn rub(&self, radius: f64, push: f64, ball: &mut SpatialState) {
+    /// Applies the friction impulse on a ball that is pressed into the cloth by the impulse `push` per mass, m/s.
+    pub fn apply_friction(&self, radius: f64, push: f64, ball: &mut SpatialState) {
         let u = slip(radius, ball.velocity.truncate(), ball.spin);
         let size = u.length();
         let friction = (self.friction * push).min(2.0 / 7.0 * size);
@@ -82,7 +82,7 @@ impl Cloth {
     }
 }
 
-/// Change of the spin by an impulse per mass at the ball's lowest point, rad/s: `-5/(2R) z×J`.
+/// Returns the change of spin by an impulse per mass at the ball's lowest point, rad/s: `-5/(2R) z×J`.
 pub fn turned_by_cloth(radius: f64, impulse: DVec2) -> DVec2 {
     (-2.5 / radius) * impulse.perp()
 }

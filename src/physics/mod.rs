@@ -1,4 +1,5 @@
-//! The formulas of motion, impact and contact, one file a chapter, and where the cue has room: none of them knows when things happen.
+//! Formulas of motion, impact and contact, one file per topic, and the clearance of the cue. They know nothing about time: the simulation
+//! decides when events occur.
 
 mod contact;
 mod cue;

@@ -1,72 +1,72 @@
-//! Rolling resistance that grows with speed, `a = c0 + c1 v`, in bands of constant deceleration.
+//! Rolling resistance that grows with speed, `a = c0 + c1 v`, approximated by bands of constant deceleration.
 //!
-//! Within a band the course stays a parabola. A band's deceleration stands between the one that keeps the time it takes
-//! and the one that keeps its length, and a band ends early enough that a roll from any speed to rest is right in both to
-//! five thousandths: far less than what is known of `c0` and `c1`, and every band costs as much as an impact.
+//! Within a band the trajectory is a parabola. The deceleration of a band lies between the value that gives the exact duration and the one
+//! that gives the exact length. The bands are narrow enough that length and time of a roll from any speed to rest are correct to 0.5 %.
+//! This error is far below the uncertainty of `c0` and `c1`, and every additional band costs as much as an impact.
 
 use super::rolling_deceleration;
 use crate::table::Table;
 
-/// One over a band's share of its first speed `v` is this and this times `c1 v / a`: the relative error of a whole roll's
-/// length and of its time is then five thousandths at most.
-const SHARE: [f64; 2] = [1.0, 4.3];
+/// Coefficients of the band width: a band that starts at the speed `v` spans the share `1 / (1 + 4.3 x)` of it, with `x = c1 v / a`. The
+/// relative errors of a whole roll's length and time are then at most 0.005.
+const BAND_WIDTH: [f64; 2] = [1.0, 4.3];
 
-/// The last band begins where `c1 v` is this share of the least deceleration.
-const LAST: f64 = 0.059;
+/// In the last band, `c1 v` is at most this share of the least deceleration.
+const LAST_BAND: f64 = 0.059;
 
-/// The law of a rolling ball's deceleration.
+/// Deceleration law of a rolling ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rolling {
     /// Deceleration of a ball about to stop, `5/7 mu_r g` (thesis equation 5), m/s².
     pub least: f64,
-    /// Growth with speed, 1/s; zero for the thesis' law, whose only band reaches from any speed to rest.
+    /// Growth with speed, 1/s; zero for the thesis' law, which has a single band from any speed to rest.
     pub growth: f64,
 }
 
 impl Rolling {
-    /// The law on `table`.
+    /// Returns the law of `table`.
     pub fn of(table: &Table) -> Self {
         Self { least: rolling_deceleration(table), growth: table.rolling_growth }
     }
 
-    /// Deceleration for a roll that begins with `speed`, m/s², and the speed at which it changes, zero for rest.
+    /// Returns the deceleration of the band that starts at `speed`, m/s², and the speed at its end, m/s (zero for rest).
     #[inline]
     pub fn band(&self, speed: f64) -> (f64, f64) {
         let Self { least, growth } = *self;
         if growth == 0.0 {
             return (least, 0.0);
         }
-        // Bands that each take the share k of their first speed v make a roll too long, at the right time, by
-        // x/6 k²/(3 - 3k + k²) of its length, x = c1 v / a. Half of that is moved over to the time. This k keeps it in bounds.
+        // Bands that span the share k of their initial speed v and have the exact duration make a roll too long by x/6 k²/(3 - 3k + k²) of
+        // its length, x = c1 v / a. Half of this error is shifted to the time. This k keeps both errors within their bound.
         let end = if self.is_last(speed) {
             0.0
         } else {
             let fast = least + growth * speed;
-            speed - speed * fast / (SHARE[0] * fast + SHARE[1] * growth * speed)
+            speed - speed * fast / (BAND_WIDTH[0] * fast + BAND_WIDTH[1] * growth * speed)
         };
         (self.between(speed, end), end)
     }
 
-    /// Deceleration for a roll that begins with `speed`, m/s², also with none.
+    /// Returns the deceleration of a roll that starts at `speed`, m/s²; zero speed is accepted, too.
     pub fn deceleration(&self, speed: f64) -> f64 {
         if speed > 0.0 { self.band(speed).0 } else { self.least }
     }
 
-    /// The constant deceleration that stands for the law between two speeds, m/s².
+    /// Returns the constant deceleration that approximates the law between two speeds, m/s².
     #[inline]
     pub fn between(&self, speed: f64, end: f64) -> f64 {
         let Self { least, growth } = *self;
         let (width, middle) = (speed - end, 0.5 * (speed + end));
         let mean = least + growth * middle;
-        // The mean deceleration over the time, to second order in the width, and half of what would keep the length.
+        // Mean deceleration over time, to second order in the width, with half the correction that would give the exact length.
         let second = growth * width * width;
         mean + second * (1.0 / (24.0 * middle) - growth / (12.0 * mean))
     }
 
-    /// Whether a roll that begins with `speed` comes to rest in its first band.
+    /// Whether a roll that starts at `speed` comes to rest in its first band.
     #[inline]
     pub fn is_last(&self, speed: f64) -> bool {
-        self.growth * speed <= LAST * self.least
+        self.growth * speed <= LAST_BAND * self.least
     }
 }
 
@@ -74,7 +74,7 @@ impl Rolling {
 mod tests {
     use super::*;
 
-    /// Length and time of a roll to rest: exactly, and band by band.
+    /// Length and time of a roll to rest: exact values, and sums over the bands.
     fn roll(rolling: &Rolling, speed: f64) -> ([f64; 2], [f64; 2], usize) {
         let Rolling { least, growth } = *rolling;
         let time = libm::log(1.0 + growth * speed / least) / growth;

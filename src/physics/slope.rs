@@ -1,41 +1,41 @@
-//! Sliding and rolling on a table that is not level, as parabolas that are right to the first order of the slope.
+//! Sliding and rolling on a table that is not level, as parabolas that are correct to first order in the slope.
 //!
-//! Friction turns with the ball. Where a ball slows down from `v0` to `v` under `a`, a pull `p` across its way has moved it
-//! sideways at `p/a v ln(v0/v)`, which is less than `p t`: friction takes a part of what the pull gives, and in the end all.
+//! Friction is opposite to the motion and turns with it. While a ball decelerates from `v0` to `v` at the rate `a`, a transverse pull `p`
+//! gives it the transverse velocity `p/a v ln(v0/v)`. This is less than `p t`: friction removes a part of it, and in the end all.
 
 use glam::DVec2;
 
 use super::Rolling;
 
-/// The most of its speed that a band on a slope takes: within it the course strays from a parabola by up to 1/5000 of
-/// `p v²/a²`, some tenths of a millimetre of the fastest rolls.
-const WIDEST: f64 = 0.2;
+/// Largest share of the speed that a band on a slope may span. Within such a band the trajectory deviates from a parabola by up to 1/5000
+/// of `p v²/a²`, some tenths of a millimetre for the fastest rolls.
+const MAX_BAND_SHARE: f64 = 0.2;
 
-/// A last band to rest may stray from a parabola by this much, m.
-const STRAY: f64 = 1e-5;
+/// Largest accepted deviation of a last band to rest from a parabola, m.
+const MAX_DEVIATION: f64 = 1e-5;
 
 /// A stretch of constant acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
     /// Half the acceleration, m/s².
     pub half_acceleration: DVec2,
-    /// How long it lasts, s.
-    pub lasts: f64,
-    /// Velocity behind it, m/s, which is zero for rest. What moves sideways does not do so evenly, so that the stretch itself
-    /// ends with a little more.
+    /// Duration, s.
+    pub duration: f64,
+    /// Initial velocity of the next stretch, m/s; zero for rest. The transverse acceleration is not constant, so that the parabola itself
+    /// ends with a slightly larger velocity.
     pub velocity: DVec2,
 }
 
-/// Speed at the end of a stretch that begins with `speed` under the pull on a rolling ball, m/s: zero for rest.
+/// Returns the speed at the end of a band that starts at `speed` under the pull on a rolling ball, m/s; zero for rest.
 fn end_on_slope(rolling: &Rolling, pull: DVec2, speed: f64) -> f64 {
     let (_, end) = rolling.band(speed);
-    let is_wide = 0.04 * pull.length() * speed * speed > STRAY * rolling.least * rolling.least;
-    if is_wide { end.max((1.0 - WIDEST) * speed) } else { end }
+    let is_wide = 0.04 * pull.length() * speed * speed > MAX_DEVIATION * rolling.least * rolling.least;
+    if is_wide { end.max((1.0 - MAX_BAND_SHARE) * speed) } else { end }
 }
 
-/// The next stretch of a ball that rolls with `velocity` on a table whose slope gives free bodies the acceleration `tilt`.
+/// Returns the next stretch of a ball that rolls with `velocity` on a table whose slope accelerates free bodies by `tilt`.
 pub fn roll_on_slope(rolling: &Rolling, tilt: DVec2, velocity: DVec2) -> Stretch {
-    // A rolling ball takes up five sevenths of any pull.
+    // A rolling ball has five sevenths of the acceleration of a free body.
     let pull = 5.0 / 7.0 * tilt;
     let speed = velocity.length();
     let direction = velocity / speed;
@@ -44,7 +44,7 @@ pub fn roll_on_slope(rolling: &Rolling, tilt: DVec2, velocity: DVec2) -> Stretch
     let along = pull.dot(direction);
     let across = pull - along * direction;
     let (left, lost) = (end / speed, 1.0 - end / speed);
-    // The means over the band of what friction leaves of the pull across, for the way and for the speed at the end.
+    // Mean shares of the transverse pull that friction leaves over the band: for the displacement and for the final velocity.
     let (for_way, for_speed) = if end > 0.0 {
         let fall = libm::log(left);
         (2.0 * (0.25 - 0.25 * left * left + 0.5 * left * left * fall) / (lost * lost), -left * fall / lost)
@@ -52,29 +52,30 @@ pub fn roll_on_slope(rolling: &Rolling, tilt: DVec2, velocity: DVec2) -> Stretch
         (0.5, 0.0)
     };
     let braked = deceleration - along;
-    let lasts = (speed - end) / braked;
+    let duration = (speed - end) / braked;
     Stretch {
         half_acceleration: 0.5 * (for_way * across - braked * direction),
-        lasts,
-        velocity: end * direction + (for_speed * lasts) * across,
+        duration,
+        velocity: end * direction + (for_speed * duration) * across,
     }
 }
 
-/// The course of a ball that slides with `velocity` and `slip` under a friction of `sliding`, m/s², until it rolls.
+/// Returns the stretch of a ball that slides with `velocity` and `slip` under the friction `sliding`, m/s², until it rolls.
 pub fn slide_on_slope(sliding: f64, tilt: DVec2, velocity: DVec2, slip: DVec2) -> Stretch {
     let speed = slip.length();
     let direction = slip / speed;
     let along = tilt.dot(direction);
     let across = tilt - along * direction;
-    // The slip falls by 7/2 of the friction, less what the slope adds to it.
-    let lasts = speed / (3.5 * sliding - along);
+    // The slip decreases by 7/2 of the friction, less the slope's contribution.
+    let duration = speed / (3.5 * sliding - along);
     Stretch {
-        // Across its slip the ball goes 6/7 as far as the slope alone would take it, and ends with 5/7 of that speed. A parabola has but one
-        // of them: the speed, so that no course has a jump. The place is a millimetre or two off at the steepest slope, and 4 µm at a usual one.
+        // Transverse to its slip, the ball moves 6/7 as far as the slope alone would take it and ends with 5/7 of that velocity. A parabola
+        // can match only one of them: it matches the velocity, so that the velocity has no jump. The position error is 1-2 mm at the
+        // steepest slope and 4 µm at a usual one.
         half_acceleration: 0.5 * (tilt - sliding * direction - 2.0 / 7.0 * across),
-        lasts,
-        // This holds whatever the friction does meanwhile.
-        velocity: velocity - 2.0 / 7.0 * slip + (5.0 / 7.0 * lasts) * tilt,
+        duration,
+        // Exact, whatever the direction of the friction is during the slide.
+        velocity: velocity - 2.0 / 7.0 * slip + (5.0 / 7.0 * duration) * tilt,
     }
 }
 
@@ -84,8 +85,8 @@ mod tests {
 
     const SLIDING: f64 = 2.0;
 
-    /// Where a ball comes to rest by the exact equations, in steps of Runge and Kutta, and when, and its place on the way as
-    /// `(time, place)`. What is integrated is place, velocity and slip; the slip is zero where the ball rolls.
+    /// Integrates the exact equations for position, velocity and slip by the Runge-Kutta method until rest. Returns the trajectory as
+    /// `(time, position)`. A slip of zero means rolling.
     fn integrated(rolling: &Rolling, tilt: DVec2, start: [DVec2; 3]) -> Vec<(f64, DVec2)> {
         let rates = |[_, velocity, slip]: [DVec2; 3]| {
             if slip == DVec2::ZERO {
@@ -105,7 +106,7 @@ mod tests {
             if slip == DVec2::ZERO && speed < 2e-6 {
                 return way;
             }
-            // Shorter steps towards the end, where directions turn faster and faster.
+            // Shorter steps towards the end, where the directions turn ever faster.
             let step = (0.2 * speed / rate).min(1e-4);
             let moved = |rates: [DVec2; 3], time: f64| std::array::from_fn(|i| state[i] + time * rates[i]);
             let first = rates(state);
@@ -121,7 +122,7 @@ mod tests {
         }
     }
 
-    /// The same as a chain of stretches: the start of each, its place, velocity and half acceleration, and the end.
+    /// The same trajectory as a chain of stretches: start time, position, velocity and half the acceleration of each, then the end.
     fn chained(rolling: &Rolling, tilt: DVec2, [place, velocity, slip]: [DVec2; 3]) -> Vec<(f64, DVec2, DVec2, DVec2)> {
         let mut stretch = slide_on_slope(SLIDING, tilt, velocity, slip);
         if slip == DVec2::ZERO {
@@ -130,7 +131,7 @@ mod tests {
         let mut chain = vec![(0.0, place, velocity, stretch.half_acceleration)];
         loop {
             let (start, place, velocity, half) = chain[chain.len() - 1];
-            let time = stretch.lasts;
+            let time = stretch.duration;
             let end = place + time * (velocity + time * half);
             if stretch.velocity == DVec2::ZERO {
                 chain.push((start + time, end, DVec2::ZERO, DVec2::ZERO));
@@ -142,7 +143,7 @@ mod tests {
         }
     }
 
-    /// Greatest distance of the chain from the exact course at its end and on the way, m.
+    /// Largest distance between the chain and the exact trajectory: at the end, and along the way, m.
     fn off(rolling: &Rolling, tilt: DVec2, start: [DVec2; 3]) -> [f64; 2] {
         let (exact, chain) = (integrated(rolling, tilt, start), chained(rolling, tilt, start));
         let at = |time: f64| {
@@ -155,8 +156,8 @@ mod tests {
 
     const SPEEDS: [f64; 4] = [0.05, 0.3, 1.0, 2.0];
 
-    /// Compares courses on slopes in eight directions with integrated ones. `most` gives, for a speed, by how much a ball may be off
-    /// at the end and on the way, m; `slip` is that of a ball of 1 m/s.
+    /// Compares trajectories on slopes in eight directions with integrated ones. For a speed, `most` returns the largest accepted error at
+    /// the end and along the way, m; `slip` is that of a ball at 1 m/s.
     fn keeps_to_the_integrated_course(
         rolling: Rolling,
         tilt: f64,
@@ -177,7 +178,7 @@ mod tests {
     #[test]
     fn a_ball_on_a_slope_keeps_to_the_integrated_course() {
         for slip in [DVec2::ZERO, DVec2::new(0.5, -1.2)] {
-            // Such a slope moves these balls by up to 0.3 m. Found are 2.2e-4 m at rest and 2.5e-4 m on the way.
+            // Such a slope moves these balls by up to 0.3 m. Measured errors: 2.2e-4 m at rest and 2.5e-4 m along the way.
             keeps_to_the_integrated_course(Rolling { least: 0.05, growth: 0.0 }, 1e-3, &SPEEDS, slip, |_| [3e-4; 2]);
         }
     }
@@ -186,7 +187,7 @@ mod tests {
     fn with_a_resistance_that_grows_it_is_right_to_a_thousandth_of_the_way() {
         let rolling = Rolling { least: 0.036, growth: 0.0155 };
         keeps_to_the_integrated_course(rolling, 1e-3, &SPEEDS[..3], DVec2::ZERO, |speed| {
-            // The bands alone leave a thousandth of the length.
+            // The bands alone cause an error of a thousandth of the length.
             [1.05e-3, 1.5e-3].map(|share| share * speed * speed / (2.0 * 0.036))
         });
     }

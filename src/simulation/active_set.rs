@@ -1,5 +1,4 @@
-//! The active set at the start of a step of a resting contact: which slips have ended, which contacts press, which
-//! frictions stick.
+//! Active set at the start of a step of a resting contact: slips that have ended, contacts that press, frictions that stick.
 
 use glam::DVec2;
 
@@ -12,23 +11,23 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// The step that has just ended.
+/// The contact step that has just ended.
 #[derive(Clone, Copy)]
 pub struct Ended<'a> {
-    /// The contacts that pressed.
+    /// Contacts that pressed.
     pub contacts: &'a Contacts,
-    /// What its frictions did.
+    /// Active set of the step.
     pub set: &'a ActiveSet,
-    /// The forces at the end.
+    /// Forces at the end of the step.
     pub forces: &'a Forces,
-    /// Whether something else has ended the step.
+    /// Whether another event has ended the step.
     pub interrupted: bool,
-    /// Whether many steps in a row have begun anew.
+    /// Whether many consecutive steps have restarted.
     pub repeats: bool,
 }
 
 impl Ended<'_> {
-    /// Frictions that have yielded go on so while their slips are small.
+    /// Keeps frictions yielding that yielded before, while their slips are small.
     fn goes_on_yielding(
         &self,
         radius: f64,
@@ -57,20 +56,20 @@ impl Ended<'_> {
     }
 }
 
-/// Balls without the slips that end, and what holds then.
+/// State without the slips that end, and the resulting active set.
 struct Stopped {
     begin: State,
     resolved: Resolved,
-    /// Whether a slip begins again that has been taken to end.
+    /// Whether a slip begins again that was treated as ended.
     departs: bool,
 }
 
-/// The state without the slips that end here, and the active set that holds then; none where no contact presses a ball that
-/// moves. `balls` become what they are where they stay free, and `contacts` what may rest.
+/// Finds the state without the slips that end here, and the resulting active set. `None` if no contact presses on a moving ball. `balls`
+/// become their states if they stay free, and `contacts` those that may rest.
 ///
-/// Friction without limit leaves states in which no forces obey all laws (Painlevé's paradox): what would hold the slip of two
-/// balls parts them, and once they have parted, and nothing holds, they come back. They begin to bounce then, each time
-/// higher, and each bounce takes their slip as every impact of theirs does (17).
+/// Unlimited friction has states in which no forces obey all laws (Painlevé's paradox): the force that would prevent the slip of two balls
+/// separates them; once they are separated, nothing acts, and they come back. They then begin to bounce, each time higher, and each bounce
+/// removes their slip as every impact of such balls does (17).
 pub fn find_active_set(
     table: &Table,
     constants: &Constants,
@@ -95,8 +94,8 @@ pub fn find_active_set(
             previous.goes_on_yielding(table.radius, tolerance, &begin, contacts, &mut set);
         }
         remove_rounding(table, constants, &mut begin, contacts, &set);
-        // Where forces are not unique, those near to the ones before are taken: after an interruption that has changed no contact, and after
-        // many steps in a row that have begun anew.
+        // Non-unique forces stay near the previous ones after an interruption that has changed no contact, and after many consecutive
+        // restarts.
         let same =
             |previous: &Ended<'_>| previous.repeats || previous.interrupted && previous.contacts[..] == *contacts;
         let of_these = |previous: Ended<'_>| previous.forces.of_contacts(previous.contacts, contacts);
@@ -126,14 +125,14 @@ pub fn find_active_set(
         }
         let ended = stopped(tolerance.ending_slip, &now, &pressing)?;
         if ended.resolved.is_paradox() {
-            let part = |index: usize, contact: &Contact, balls: &mut State| {
+            let separate = |index: usize, contact: &Contact, balls: &mut State| {
                 if ended.resolved.paradox[index] {
-                    part(balls, contact, tolerance.first_bounce);
+                    separate(balls, contact, tolerance.first_bounce);
                 }
             };
             for (index, contact) in pressing.iter().enumerate() {
-                part(index, contact, &mut now);
-                part(index, contact, balls);
+                separate(index, contact, &mut now);
+                separate(index, contact, balls);
             }
             contacts.retain(|_, contact| {
                 let index = pressing.iter().position(|pressing| pressing == contact);
@@ -142,22 +141,22 @@ pub fn find_active_set(
             pressing.retain(|index, _| !ended.resolved.paradox[index]);
             continue;
         }
-        // Balls that lie still may go on pushing each other, held by the cloth; nothing comes of it.
+        // Balls at rest may continue to push each other, held by the cloth; this has no effect.
         let still = |(ball, state): (usize, &BallState)| {
             !pressing.hold(ball) || (state.velocity == DVec2::ZERO && state.spin == glam::DVec3::ZERO)
         };
         if !ended.departs && ended.begin.iter().enumerate().all(still) {
             return None;
         }
-        // What would begin to slip again at once has not ended.
+        // A slip that would begin again immediately has not ended.
         let Stopped { begin, resolved, .. } =
             if ended.departs { stopped(tolerance.slip, &now, &pressing)? } else { ended };
-        // A contact that does not push holds nothing: it is no part of the step, and its opening goes on.
+        // A contact that does not push holds nothing: it is not part of the step, and its opening continues.
         if resolved.contacts.len() == pressing.len() {
             return Some((begin, resolved));
         }
         for ball in (0..BALLS).filter(|&ball| pressing.hold(ball) && !resolved.contacts.hold(ball)) {
-            // A slip that has ended has done so for a ball that nothing holds, too; one that rolls rolls on.
+            // The slip has also ended for a ball that nothing holds; if it rolls, it continues to roll.
             let ends = slip(table.radius, now[ball].velocity, now[ball].spin).length() <= tolerance.ending_slip;
             if resolved.set.cloth[ball] == Friction::Sticks && slides(table.radius, &now[ball]) && ends {
                 let slid = std::mem::replace(&mut now[ball], begin[ball]);
@@ -170,15 +169,15 @@ pub fn find_active_set(
     }
 }
 
-/// Lets two balls part at some speed, m/s.
-fn part(balls: &mut State, contact: &Contact, speed: f64) {
+/// Makes two balls separate at a given speed, m/s.
+fn separate(balls: &mut State, contact: &Contact, speed: f64) {
     let Some(second) = contact.second else { return };
     let missing = 0.5 * (speed - contact.opening_speed(balls)) * contact.normal(balls);
     balls[contact.first].velocity += missing;
     balls[second].velocity -= missing;
 }
 
-/// Whether balls that never slip have to stop slipping: their contact begins, or an impact of another has just made them slip.
+/// Whether balls that never slip must lose their slip: their contact begins, or another impact has just made them slip.
 fn has_to_grip(
     table: &Table,
     constants: &Constants,
@@ -191,8 +190,8 @@ fn has_to_grip(
             || contact.slip(table.radius, balls).length() > constants.tolerance.ending_slip)
 }
 
-/// Balls that never slip stop slipping as soon as they press, however little: as in a collision of theirs (17), where the
-/// cloth has no time to take part.
+/// Stops the slip of balls that never slip as soon as they press, however weakly: as in their collisions (17), which are too short for the
+/// cloth to act.
 fn stop_slips(table: &Table, balls: &mut State, contacts: &[Contact]) {
     let sticks = |contact: Option<&Contact>| match contact {
         Some(contact) if contact.second.is_some() => Friction::Sticks,
@@ -202,9 +201,9 @@ fn stop_slips(table: &Table, balls: &mut State, contacts: &[Contact]) {
     stop_by_impulses(table, balls, contacts, &ActiveSet { contact, ..ActiveSet::SLIPPING }, &[0.0; MAX_CONTACTS]);
 }
 
-/// Pressing that cannot matter before the slips end that make it, m/s²: it moves nothing by as much as a speed that counts
-/// for none, or is no more than the rounding of the slips' directions, which are the less known the smaller a slip is beside
-/// the speeds that it is the difference of.
+/// Returns the pressing acceleration that is negligible until the slips that cause it end, m/s². It changes no speed by more than its zero
+/// tolerance, or it is within the rounding of the slip directions. A direction is less accurate the smaller the slip is compared with the
+/// speeds whose difference it is.
 pub fn transient_pressing(constants: &Constants, balls: &State, contacts: &Contacts) -> f64 {
     let idle = |ball: &BallState| {
         let slip = slip(constants.radius, ball.velocity, ball.spin).length();
@@ -219,7 +218,8 @@ pub fn transient_pressing(constants: &Constants, balls: &State, contacts: &Conta
     members.map(|(_, ball)| idle(ball)).fold(0.0, f64::max)
 }
 
-/// Whether the balls of contacts stand still on a table that is not level: what lies below goes on pressing them, but they are at rest.
+/// Whether the balls of contacts are at rest on a table that is not level: the slope presses the upper ball on the lower one, but nothing
+/// moves.
 fn stand_on_slope(constants: &Constants, balls: &State, contacts: &Contacts) -> bool {
     let none = constants.tolerance.still;
     let stands = |ball: &BallState| {
@@ -228,8 +228,8 @@ fn stand_on_slope(constants: &Constants, balls: &State, contacts: &Contacts) -> 
     !constants.level && (0..BALLS).all(|ball| !contacts.hold(ball) || stands(&balls[ball]))
 }
 
-/// The balls of contacts that do not press, without slips on the cloth that end at once: what a resting contact would count
-/// as rolling must not slide when it is free.
+/// Returns the balls of contacts that do not press, without slips on the cloth that end at once: a ball that counts as rolling in a resting
+/// contact must not slide when it is free.
 pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State, contacts: &Contacts) -> State {
     let set = ActiveSet::of(table, balls, contacts, constants.tolerance.ending_slip);
     let ends = |(ball, state): (usize, &BallState)| {
@@ -242,14 +242,13 @@ pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State,
     ended
 }
 
-/// Whether a contact closes by as much as, together with what rounding does, would be a bounce: a ball that another drives on does not
-/// stand still.
+/// Whether a contact closes at a speed that, together with rounding, would be a bounce: a ball that is driven by another is not at rest.
 fn closes(constants: &Constants, balls: &State, contacts: &Contacts) -> bool {
     contacts.iter().any(|contact| contact.opening_speed(balls) < -0.1 * constants.tolerance.opening)
 }
 
-/// Takes the rounding out of the state: contacts are closed and do not open, and what has stopped slipping, moving or
-/// spinning by `set` has stopped exactly.
+/// Removes rounding errors from the state: contacts are closed and do not open, and slips, velocities and spins that have ended by `set`
+/// become exactly zero.
 pub fn remove_rounding(table: &Table, constants: &Constants, balls: &mut State, contacts: &[Contact], set: &ActiveSet) {
     close_gaps(constants, balls, contacts);
     stop_by_impulses(table, balls, contacts, set, &[0.0; MAX_CONTACTS]);

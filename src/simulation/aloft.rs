@@ -1,7 +1,7 @@
-//! What a ball in the air will meet: the noses of the cushions, the rails behind them, other balls.
+//! Collision detection for balls in the air: with the noses of the cushions, the rails behind them, and other balls.
 //!
-//! Between two landings a flight is a parabola in space, so that every gap is a polynomial of degree four; a course is gone
-//! through landing by landing, as far as there is anything within its reach.
+//! Between two landings, a flight is a parabola in space, so that every gap is a polynomial of degree four. A trajectory is searched
+//! landing by landing, as long as anything is within its reach.
 
 use glam::DVec3;
 
@@ -16,40 +16,40 @@ use super::{
 };
 use crate::physics::{Cushion, Cushions, Motion};
 
-/// Landings that are gone through at most: after so many the hops of the liveliest cloth are lower than an atom.
+/// Largest number of landings that are searched: after it, hops are lower than an atom even on the liveliest accepted cloth.
 const MOST_LANDINGS: u32 = 4000;
 
-/// A nose as a ball in the air meets it: a line along the cushion.
+/// The nose of a cushion as a line, for collisions in the air.
 #[derive(Clone, Copy)]
 pub struct Nose {
-    /// Its height over the centre of a ball on the cloth, m.
+    /// Height above the centre of a ball on the cloth, m.
     height: f64,
-    /// How far it is beyond the centre of a ball on the cloth that touches it, m.
+    /// Horizontal distance from the centre of a ball on the cloth that touches the nose, m.
     beyond: f64,
 }
 
 impl Nose {
-    /// That of a cushion.
+    /// Returns the nose of a cushion.
     pub fn of(cushion: &Cushion, radius: f64) -> Self {
         let [sine, cosine] = cushion.nose();
         Self { height: radius * sine, beyond: radius * cosine }
     }
 
-    /// The way from a ball's centre to the nose of `rail`, m; one that points into the table has been passed over.
+    /// Returns the vector from a ball's centre to the nose of `rail`, m. If it points into the table, the ball has passed over the nose.
     pub fn way_from(&self, constants: &Constants, rail: Rail, centre: DVec3) -> DVec3 {
         let n = rail.normal();
         let inwards = gap(constants, rail, centre) + self.beyond;
         (-inwards * n).extend(self.height - centre.z)
     }
 
-    /// How far from touching the cushion on the cloth a ball can be, seen from above, that touches the nose from the air, no more
-    /// than `top` above the cloth, m: the nose stands out most at its own height.
+    /// Returns the largest horizontal cushion gap at which a ball in the air can touch the nose, if it is at most `top` above the cloth, m.
+    /// The nose protrudes most at its own height.
     fn margin(&self, radius: f64, top: f64) -> f64 {
         lesser(radius - self.beyond, top * self.height.max(0.0) / self.beyond)
     }
 
-    /// When a ball on `arc` meets the nose of `rail`, or comes down on the rail behind it, s since the arc's beginning and not
-    /// after its end.
+    /// Returns when a ball on `arc` hits the nose of `rail` or lands on the rail behind it, s after the arc's start; `None` if not before
+    /// its end.
     fn meets(&self, constants: &Constants, arc: &Arc, gravity: f64, rail: Rail) -> Option<f64> {
         let (radius, tolerance) = (constants.radius, &constants.tolerance);
         let lasts = arc.end - arc.begin;
@@ -59,7 +59,7 @@ impl Nose {
         if gap - (approach * lasts).max(0.0) > self.margin(radius, top(arc, gravity)) + tolerance.surely_apart {
             return None;
         }
-        // Beside the nose, below it, and the square of the distance but for R², without cancellation.
+        // Horizontal distance to the nose, its height above the ball, and the squared distance minus R², without cancellation.
         let (beside, below) = (gap + self.beyond, self.height - arc.position.z);
         let c = [
             gap * (gap + 2.0 * self.beyond) - arc.position.z * (self.height + below),
@@ -75,24 +75,24 @@ impl Nose {
         {
             return Some(time);
         }
-        // Over the nose: it comes down on what is behind.
+        // The ball passes over the nose and lands behind it.
         let above = climb * climb - 2.0 * gravity * (below + radius);
         let down = (climb + above.max(0.0).sqrt()) / gravity;
         (above >= 0.0 && (0.0..=lasts).contains(&down) && beside <= approach * down).then_some(down)
     }
 }
 
-/// How far a ball is from touching the cushion, seen from above, m.
+/// Returns the horizontal gap between a ball and the cushion, m.
 fn gap(constants: &Constants, rail: Rail, centre: DVec3) -> f64 {
     cushion_gap(constants, rail.normal(), centre.truncate())
 }
 
-/// The greatest height that the energy of an arc reaches, m: on none of those that follow it is a ball higher.
+/// Returns the greatest height that an arc's energy allows, m; no later arc is higher.
 fn top(arc: &Arc, gravity: f64) -> f64 {
     arc.position.z + 0.5 * arc.velocity.z * arc.velocity.z / gravity
 }
 
-/// Whether a ball surely does not come near the nose of `rail` on this arc and all that follow in the `rest` of the time.
+/// Whether a ball certainly stays away from the nose of `rail` on this arc and all later ones, in the `rest` of the time.
 fn stays_away(constants: &Constants, nose: &Nose, hops: &Hops, arc: &Arc, rest: f64, rail: Rail) -> bool {
     let n = rail.normal();
     let approach = -lesser(arc.velocity.truncate().dot(n), hops.last_velocity.dot(n));
@@ -100,15 +100,14 @@ fn stays_away(constants: &Constants, nose: &Nose, hops: &Hops, arc: &Arc, rest: 
     nearest > nose.margin(constants.radius, top(arc, hops.cloth.gravity)) + constants.tolerance.surely_apart
 }
 
-/// When and where the ball of a flying `segment` meets the nose of a cushion, or comes down behind it: s after the segment's
-/// start.
+/// Returns when and at which cushion the ball of a flying `segment` hits the nose or lands behind it, s after the segment's start.
 pub fn nose_ahead(constants: &Constants, cushions: &Cushions, segment: &Segment) -> Option<(f64, Rail)> {
     let hops = segment.hops()?;
     let duration = hops.duration;
     for landings in 0..MOST_LANDINGS {
         let arc = hops.arc(landings);
         let rest = duration - arc.begin;
-        // The last hops are shorter than time can tell.
+        // The last hops are shorter than the resolution of time.
         if rest <= 0.0 || arc.end <= arc.begin {
             return None;
         }
@@ -135,27 +134,27 @@ pub fn nose_ahead(constants: &Constants, cushions: &Cushions, segment: &Segment)
     None
 }
 
-/// A piece of a course: a polynomial.
+/// A piece of a trajectory: a polynomial in time.
 struct Piece {
-    /// Its coefficients.
+    /// Coefficients of the polynomial.
     course: [DVec3; 6],
-    /// When they end to hold, s since the search's beginning.
+    /// End of its validity, s since the search's start.
     ends: f64,
-    /// In the air, the greatest speed along the cloth from now on, m/s.
+    /// In the air, the greatest speed along the cloth from now on, m/s; `None` on the cloth.
     fastest: Option<f64>,
 }
 
 impl Piece {
-    /// How far the ball can get along the cloth within `time`, m.
+    /// Returns an upper bound of the distance along the cloth within `time`, m.
     fn farthest(&self, time: f64) -> f64 {
         self.fastest.map_or_else(|| travel(&self.course.map(DVec3::length), time), |fastest| fastest * time)
     }
 }
 
-/// A course as it is gone through, piece by piece.
+/// A trajectory that is searched piece by piece.
 struct Pieces<'a> {
     segment: &'a Segment,
-    /// Time since the segment's start at which the search begins, s.
+    /// Start of the search, s since the segment's start.
     begin: f64,
     flight: Option<(&'a Hops, u32)>,
 }
@@ -166,7 +165,7 @@ impl<'a> Pieces<'a> {
         Self { segment, begin, flight: segment.hops().map(|hops| (hops, hops.landings(begin).min(MOST_LANDINGS))) }
     }
 
-    /// The course about `after` seconds since the search's beginning.
+    /// Returns the piece as an expansion about `after` seconds since the search's start.
     fn piece(&self, after: f64) -> Piece {
         let Some((hops, landings)) = self.flight else {
             let on_cloth = shifted(self.segment, self.segment.start + self.begin + after);
@@ -177,7 +176,7 @@ impl<'a> Pieces<'a> {
         let fall = DVec3::new(0.0, 0.0, -0.5 * hops.cloth.gravity);
         let position = arc.position + since * (arc.velocity + since * fall);
         let velocity = arc.velocity + 2.0 * since * fall;
-        // The last hops are shorter than time can tell.
+        // The last hops are shorter than the resolution of time.
         let ends = if arc.end > arc.begin { arc.end - self.begin } else { f64::INFINITY };
         let course = [position, velocity, fall, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO];
         Piece { course, ends, fastest: Some(hops.fastest(&arc)) }
@@ -190,7 +189,7 @@ impl<'a> Pieces<'a> {
     }
 }
 
-/// Whether one ball in the air surely passes by another that lies still.
+/// Whether one ball in the air certainly passes another one that is at rest.
 fn passes_by(constants: &Constants, balls: [&Segment; 2], now: f64, horizon: f64) -> bool {
     let (flies, lies) = match balls {
         [one, other] if other.motion == Motion::Stationary => (one, other),
@@ -199,11 +198,11 @@ fn passes_by(constants: &Constants, balls: [&Segment; 2], now: f64, horizon: f64
     };
     let Some(hops) = flies.hops() else { return false };
     let state = hops.state_after(now - flies.start);
-    let way = Triangle::between(state.position.truncate(), state.velocity.truncate(), hops.last_velocity, horizon);
-    way.clears(lies.position, constants.diameter + constants.tolerance.surely_apart)
+    let triangle = Triangle::between(state.position.truncate(), state.velocity.truncate(), hops.last_velocity, horizon);
+    triangle.clears(lies.position, constants.diameter + constants.tolerance.surely_apart)
 }
 
-/// When two balls meet of which one at least is in the air, within `horizon` seconds of time `now`.
+/// Returns when two balls collide, at least one of which is in the air, within `horizon` seconds of time `now`.
 pub fn balls_ahead_in_space<S: Savings>(constants: &Constants, balls: [&Segment; 2], now: f64, horizon: f64) -> Ahead {
     if S::COURSES_APART && passes_by(constants, balls, now, horizon) {
         return Ahead::Nothing;
@@ -235,7 +234,7 @@ pub fn balls_ahead_in_space<S: Savings>(constants: &Constants, balls: [&Segment;
     Ahead::Nothing
 }
 
-/// When two balls meet whose distance is `d[0] + t d[1] + …`, within `horizon` seconds.
+/// Returns when two balls with the distance vector `d[0] + t d[1] + …` collide within `horizon` seconds.
 fn meet(constants: &Constants, d: &[DVec3; 6], horizon: f64) -> Ahead {
     let (diameter, tolerance) = (constants.diameter, &constants.tolerance);
     let scale = 2.0 * diameter;

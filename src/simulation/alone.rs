@@ -1,9 +1,9 @@
-//! The stretches of a shot in which one ball alone moves: from cushion to cushion, with nothing to choose from.
+//! Fast path for the parts of a shot in which a single ball moves, from cushion to cushion, without other candidate events.
 //!
-//! Most of a shot is this, and most shots are nothing else. The engine's general loop asks six times at every event what
-//! comes next, and keeps all of a ball in memory between two events; here the ball's own next event is the only one, and
-//! its course stays in registers. All numbers are worked out by the same operations in the same order, and whatever is
-//! out of the ordinary is left to the general loop before anything of it has happened.
+//! Most of a shot is like this, and most shots consist of nothing else. The general loop compares six event times at every event and stores
+//! the whole ball in memory between events. Here the ball's own next event is the only one, and its trajectory stays in registers. All
+//! numbers are computed by the same operations in the same order as in the general loop. Every unusual case is left to the general loop
+//! before any part of it is processed.
 
 use std::ops::ControlFlow;
 
@@ -13,14 +13,14 @@ use super::{
     contacts::{PAIRS_OF, is_in_corner, put_at_cushion},
     cushions::cushion_ahead,
     engine::{Ball, ContactMode, Engine},
-    guards::MOST_TURNS,
+    guards::MAX_ITERATIONS,
     predict::Ahead,
     savings::Savings,
 };
 use crate::{physics::Motion, table::BALLS};
 
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
-    /// Whether `index` is the only ball that moves, freely and with no other ball in its way.
+    /// Whether ball `index` is the only moving ball, free, and with no other ball in its path.
     #[inline(always)]
     pub(super) fn moves_alone(&self, index: usize) -> bool {
         let still = |ball: usize| self.balls[ball].segment.motion == Motion::Stationary;
@@ -30,15 +30,15 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             && self.resting.is_none()
     }
 
-    /// Plays on as long as ball `index` moves alone, from the event at `now` on; `now` becomes the time of the last event.
+    /// Processes events from `now` on while ball `index` moves alone; `now` becomes the time of the last event.
     pub(super) fn play_alone(&mut self, index: usize, now: &mut f64) -> ControlFlow<()> {
         let others = PAIRS_OF[index].map(|(_, other)| self.balls[other].segment.position);
         let constants = &{ self.constants };
         let near = (constants.diameter + constants.tolerance.touching).powi(2);
         let mut ball = self.balls[index].alone();
         loop {
-            self.turns += 1;
-            if self.turns > MOST_TURNS {
+            self.iterations += 1;
+            if self.iterations > MAX_ITERATIONS {
                 break;
             }
             let Ball { segment, lasts, rail_after, rail, .. } = &ball;
@@ -49,7 +49,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 let mut state = segment.state_after(constants, *rail_after);
                 put_at_cushion(constants, n, &mut state.position);
                 let impulse = self.law.cushions.at(*rail).resolve(constants.radius, n, &mut state);
-                // What might be part of a chatter, meets two cushions or a ball at once, or leaves the cloth.
+                // Possible part of a chatter, simultaneous contact with two cushions or a ball, or leaving the cloth.
                 if state.velocity.dot(n) <= constants.tolerance.slow_bounce
                     || is_in_corner(constants, state.position)
                     || others.iter().any(|other| state.position.distance_squared(*other) <= near)
@@ -74,14 +74,15 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 self.observer.segment(index, segment, next);
             }
             *now = next;
-            let flow = kind.map_or(ControlFlow::Continue(()), |kind| self.tell(next, kind));
+            let flow = kind.map_or(ControlFlow::Continue(()), |kind| self.report(next, kind));
             let (ahead, rail) = cushion_ahead::<S>(constants, &after, lasts_after);
             let rail_after = if let Ahead::Meeting(after) = ahead { after } else { f64::INFINITY };
             ball = Ball { segment: after, lasts: lasts_after, rail_after, rail, mode: ContactMode::Free };
             let Segment { position, velocity, half_acceleration, .. } = ball.segment;
-            let way = Triangle::new(position, velocity, half_acceleration, ball.ends() - next);
-            let clears =
-                |other| S::COURSES_APART && way.clears(other, constants.diameter + constants.tolerance.surely_apart);
+            let triangle = Triangle::new(position, velocity, half_acceleration, ball.ends() - next);
+            let clears = |other| {
+                S::COURSES_APART && triangle.clears(other, constants.diameter + constants.tolerance.surely_apart)
+            };
             if flow.is_break() || ahead == Ahead::Pressed || !(clears(others[0]) & clears(others[1])) {
                 if ahead == Ahead::Pressed {
                     self.set(index, ball.segment, ball.lasts);
@@ -100,7 +101,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         ControlFlow::Continue(())
     }
 
-    /// Puts a ball on a course whose next event is known.
+    /// Stores a ball whose next event is known.
     #[inline(always)]
     fn follow(&mut self, index: usize, ball: Ball) {
         self.times[index] = ball.ends();
@@ -109,7 +110,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 }
 
 impl Ball {
-    /// The same free ball, of which the compiler knows that nothing presses it.
+    /// Returns a copy that the compiler knows to be free and without a curved trajectory.
     #[inline(always)]
     fn alone(&self) -> Self {
         let &Segment { start, position, velocity, half_acceleration, spin, motion, .. } = &self.segment;
@@ -120,7 +121,7 @@ impl Ball {
         }
     }
 
-    /// Time of the next event, s.
+    /// Returns the time of the next event, s.
     #[inline(always)]
     fn ends(&self) -> f64 {
         self.segment.start + if self.rail_after < self.lasts { self.rail_after } else { self.lasts }

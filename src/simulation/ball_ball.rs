@@ -1,4 +1,4 @@
-//! Ball-ball detection: when two balls will collide, if nothing else happens first.
+//! Ball-ball detection: predicts the next collision of two balls, provided that no other event happens first.
 
 use glam::DVec2;
 
@@ -12,8 +12,8 @@ use super::{
 };
 use crate::physics::Motion;
 
-/// When two balls meet within `horizon` seconds of time `now`. If they `may_rest` against each other, [`Ahead::Pressed`]
-/// says so; if that has been tried and nothing holds them, they meet again as soon as they overlap.
+/// Returns the next collision of two balls within `horizon` seconds of time `now`. If they press on each other and `may_rest`, the result
+/// is [`Ahead::Pressed`]. If resting was tried and nothing holds them, they collide as soon as they overlap.
 #[inline(always)]
 pub fn balls_ahead<S: Savings>(
     constants: &Constants,
@@ -38,7 +38,7 @@ pub fn balls_ahead<S: Savings>(
     if S::COURSES_APART && Triangle::new(d, dv, dk, horizon).clears(DVec2::ZERO, apart) {
         return Ahead::Nothing;
     }
-    // On a slope a roll bends.
+    // On a slope, the path of a rolling ball is curved.
     let rolls_straight = constants.level
         && matches!(
             (first.motion, second.motion),
@@ -47,7 +47,7 @@ pub fn balls_ahead<S: Savings>(
     approach(constants, [d, dv, dk], horizon, may_rest, rolls_straight)
 }
 
-/// The same for balls whose courses no line was found to part: `d + t dv + t² dk` from one to the other.
+/// As [`balls_ahead`], for balls that no line was found to separate: their distance vector is `d + t dv + t² dk`.
 #[inline(never)]
 fn approach(
     constants: &Constants,
@@ -73,8 +73,8 @@ fn approach(
     first_crossing(value, &derivative, horizon).map_or(Ahead::Nothing, Ahead::Meeting)
 }
 
-/// A triangle that contains a stretch of a course: the control points of a parabola, or how far a ball gets with any velocity
-/// between two.
+/// A triangle that contains a part of a trajectory: the control points of a parabola, or the range of positions for all velocities between
+/// two.
 #[derive(Clone, Copy)]
 pub struct Triangle {
     start: DVec2,
@@ -83,28 +83,28 @@ pub struct Triangle {
 }
 
 impl Triangle {
-    /// The triangle around `p + v t + k t²` from zero to `horizon`.
+    /// Returns the triangle around `p + v t + k t²` from zero to `horizon`.
     #[inline(always)]
     pub fn new(p: DVec2, v: DVec2, k: DVec2, horizon: f64) -> Self {
         Self { start: p, bend: p + 0.5 * horizon * v, end: p + horizon * (v + horizon * k) }
     }
 
-    /// The triangle around a course from `p` whose velocity goes along a line from `v` to `last`, for a time.
+    /// Returns the triangle around a trajectory from `p` whose velocity moves along a line from `v` to `last`, for `time` seconds.
     pub fn between(p: DVec2, v: DVec2, last: DVec2, time: f64) -> Self {
         Self { start: p, bend: p + time * v, end: p + time * last }
     }
 
-    /// Whether a line separates the triangle from all that is nearer to `place` than `distance`. The lines that are
-    /// tried stand across the way from its start to the place, and along the course.
+    /// Whether a line separates the triangle from the disk of radius `distance` around `place`. Two lines are tried: perpendicular to the
+    /// direction from the triangle's start to `place`, and along the trajectory.
     #[inline(always)]
     pub fn clears(&self, place: DVec2, distance: f64) -> bool {
         let (start, bend, end) = (self.start - place, self.bend - place, self.end - place);
         let bound = distance * distance;
-        // All three points beyond the first line. Branches on the single comparisons would be guessed wrong too often.
+        // All three points are beyond the first line. Branches for the single comparisons would be mispredicted too often.
         let away = start.length_squared();
         let least = lesser(lesser(start.dot(bend), start.dot(end)), away);
         let leaves = least * least.abs() > bound * away;
-        // All three on one side of the second, which the first and the last are equally far from.
+        // All three points are on one side of the second line, to which the first and the last point have the same distance.
         let n = (end - start).perp();
         let (ends, middle) = (n.dot(start), n.dot(bend));
         let passes = (ends * middle > 0.0) & (lesser(ends * ends, middle * middle) > bound * n.length_squared());
@@ -112,7 +112,7 @@ impl Triangle {
     }
 }
 
-/// The gap of two balls that touch, divided by the time: its root at zero is the contact that is already known.
+/// Prediction for two touching balls, whose gap is divided by the time: its root at zero is the present contact.
 fn touching_balls_ahead(
     tolerance: &Tolerance,
     d: DVec2,
@@ -131,7 +131,7 @@ fn touching_balls_ahead(
     if may_rest && separation <= tolerance.opening && c2 / diameter < -tolerance.pressing {
         return Ahead::Pressed;
     }
-    // Coefficients of rounding's size would close and open the gap without end.
+    // Coefficients at rounding level would open and close the gap without end.
     let clean = |c: f64| if c.abs() < tolerance.pressing { 0.0 } else { c };
     let (c2, c3, c4) = (clean(c2), clean(2.0 * dv.dot(dk)), dk.length_squared());
     let gap = [0.0, c1, c2, c3, c4];
@@ -139,8 +139,8 @@ fn touching_balls_ahead(
     if separation > tolerance.opening {
         return falls;
     }
-    // What presses meets as soon as it closes at a speed that counts: to wait for the rounding of the gap would let the
-    // balls' slips change by what they do meanwhile.
+    // Pressing balls collide as soon as they close at a significant speed: until a gap at rounding level closes, their slips would change
+    // too much.
     let speed = [c1 + 4.0 * diameter * tolerance.opening, 2.0 * c2, 3.0 * c3, 4.0 * c4];
     let horizon = if let Ahead::Meeting(time) = falls { time } else { horizon };
     let steepness = [speed[1], 2.0 * speed[2], 3.0 * speed[3]];
@@ -150,7 +150,7 @@ fn touching_balls_ahead(
     }
 }
 
-/// A ball that rolls straight towards one at rest: where the line enters the circle of radius `diameter`, and when.
+/// Prediction for a ball that rolls straight towards one at rest: where the line enters the circle of radius `diameter`, and when.
 fn straight_ahead(d: DVec2, dv: DVec2, dk: DVec2, gap: f64, diameter: f64, horizon: f64) -> Ahead {
     let speed = dv.length();
     let direction = dv / speed;
@@ -160,7 +160,7 @@ fn straight_ahead(d: DVec2, dv: DVec2, dk: DVec2, gap: f64, diameter: f64, horiz
     if along <= 0.0 || half_chord_squared < 0.0 {
         return Ahead::Nothing;
     }
-    // The nearer of the two crossings, written as the product of both over the farther one.
+    // The nearer of the two crossings, computed as the product of both divided by the farther one, without cancellation.
     let distance = gap / (along + half_chord_squared.sqrt());
     let half_deceleration = -dk.dot(direction);
     let discriminant = speed * speed - 4.0 * half_deceleration * distance;
@@ -179,13 +179,13 @@ mod tests {
     #[test]
     fn a_course_that_bends_around_a_ball_clears_it_and_one_that_grazes_it_does_not() {
         let (v, k) = (DVec2::new(1.0, 0.0), DVec2::new(0.0, 0.5));
-        let way = Triangle::new(DVec2::ZERO, v, k, 1.0);
-        // The course ends at (1, 0.5) and passes (0.5, 0.125).
-        assert!(way.clears(DVec2::new(0.5, -0.1), 0.06));
-        assert!(way.clears(DVec2::new(-0.1, 0.0), 0.06));
-        assert!(way.clears(DVec2::new(1.1, 0.6), 0.06));
-        assert!(!way.clears(DVec2::new(0.5, 0.07), 0.06));
-        assert!(!way.clears(DVec2::new(1.0, 0.55), 0.06));
+        let triangle = Triangle::new(DVec2::ZERO, v, k, 1.0);
+        // The trajectory ends at (1, 0.5) and passes (0.5, 0.125).
+        assert!(triangle.clears(DVec2::new(0.5, -0.1), 0.06));
+        assert!(triangle.clears(DVec2::new(-0.1, 0.0), 0.06));
+        assert!(triangle.clears(DVec2::new(1.1, 0.6), 0.06));
+        assert!(!triangle.clears(DVec2::new(0.5, 0.07), 0.06));
+        assert!(!triangle.clears(DVec2::new(1.0, 0.55), 0.06));
     }
 
     #[test]
@@ -202,8 +202,8 @@ mod tests {
         assert!((position.x - (0.5 - 2.0 * constants.radius)).abs() < 1e-15);
     }
 
-    /// Two balls side by side of which one begins to press: to wait for a gap of rounding's size to close takes 1e-7 s, in
-    /// which the slip of balls that never slip grows back to more than counts as none.
+    /// Two balls side by side, one of which begins to press: until a gap at rounding level closes, 1e-7 s pass, in which the slip of balls
+    /// that never slip grows beyond its zero tolerance.
     #[test]
     fn touching_balls_that_press_without_resting_meet_as_soon_as_they_close_at_a_speed_that_counts() {
         let constants = Constants::of(&Table::preset("thesis").unwrap());
@@ -213,7 +213,7 @@ mod tests {
         };
         let Ahead::Meeting(time) = meets(DVec2::ZERO, DVec2::new(-0.9, 0.0)) else { panic!("no meeting") };
         assert!((time * 1.8 - 2.0 * tolerance.opening).abs() < 1e-3 * tolerance.opening, "{time}");
-        // Those that part do not meet.
+        // Separating balls do not collide.
         let parting = DVec2::new(0.5 * tolerance.opening, 0.0);
         assert_eq!(meets(parting, DVec2::new(0.9, 0.0)), Ahead::Nothing);
     }

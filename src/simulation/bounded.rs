@@ -1,4 +1,4 @@
-//! Recording within bounds: of time, and of how much happens. A table may be stiff beyond any use and still be a table.
+//! Recording with limits on time and on the number of events: a valid table may still be too stiff to be simulated in reasonable time.
 
 use std::{
     ops::ControlFlow,
@@ -8,18 +8,18 @@ use std::{
 use super::{Event, Observer, Recorder, Recording, Segment, ShotError, Start, simulate};
 use crate::table::{BALLS, Layout, Table};
 
-/// Records until it has taken too long, or too much has happened.
+/// An observer that records until a limit is reached.
 #[derive(Debug)]
 pub struct Bounded<'a> {
     recorder: &'a mut Recorder,
     until: Instant,
-    /// Events and steps that may follow.
+    /// Events and steps that may still follow.
     left: u32,
     is_over: bool,
 }
 
 impl<'a> Bounded<'a> {
-    /// Records for `longest` and as many events and steps of resting contacts as `most`, at most.
+    /// Records for at most `longest`, and at most `most` events and steps of resting contacts.
     pub fn new(recorder: &'a mut Recorder, longest: Duration, most: u32) -> Self {
         Self { recorder, until: Instant::now() + longest, left: most, is_over: false }
     }
@@ -61,7 +61,7 @@ impl Observer for Bounded<'_> {
 }
 
 impl Recording {
-    /// Checks a shot and plays it from event to event within the bounds of [`Bounded::new`]; tells also whether it was given up.
+    /// Checks a shot and plays it within the limits of [`Bounded::new`]; also returns whether it was given up.
     ///
     /// # Errors
     /// As [`Recording::played_by`].
@@ -79,7 +79,7 @@ impl Recording {
         })
     }
 
-    /// Whether its numbers have stayed within what numbers can hold.
+    /// Whether all numbers of the recording are finite.
     pub fn is_finite(&self) -> bool {
         let end = self.duration();
         end.is_finite()

@@ -1,12 +1,13 @@
-//! Chatters: contacts that close again and again, ever more softly, under a force that presses.
+//! Chatter (Zeno behaviour): contacts that close repeatedly, at ever lower speed, under a force that presses.
 //!
-//! A ball that leaves with speed `s` and is pulled back with acceleration `p` bounces for `T = 2s / (p (1 - e))` in all. The
-//! bounces are played exactly, but told as one event; and once it cannot be told apart, the chatter ends at once with one
-//! inelastic impact followed by a resting contact. Both give the same impulse, since both bring the speed to zero, and the
-//! same first moment of it, since both bring the gap to zero; so the forces that follow the slip see the same slip on
-//! average. The second moments differ by twice the area under the gap, `4 s³ / (3 p² (1 - e³))`, and what is left of the
-//! chatter is half of that over the square of the time in which the friction's direction turns: that is the error bound
-//! which is checked.
+//! A ball that leaves with the speed `s` and is pulled back with the acceleration `p` bounces for `T = 2s / (p (1 - e))` in total. The
+//! bounces are simulated exactly, but reported as one event. Once the remaining bounces are indistinguishable from their limit, the chatter
+//! ends with one inelastic impact followed by a resting contact.
+//!
+//! Both give the same impulse, because both bring the speed to zero, and the same first moment of the impulse, because both bring the gap
+//! to zero. Forces that depend on the slip therefore see the same slip on average. The second moments differ by twice the area under the
+//! gap, `4 s³ / (3 p² (1 - e³))`. The relative error is half of this, divided by the square of the time in which the direction of friction
+//! turns: this error bound is checked.
 
 use super::{
     Constants,
@@ -17,61 +18,61 @@ use crate::{
     table::{BALLS, PAIRS, Table},
 };
 
-/// A bounce of two balls makes a slip of this many times its speed at most, and so does one against a cushion.
+/// Bound on the slip, in units of the bounce speed, that a bounce of two balls or of a ball and a cushion creates.
 const MADE_BY_BOUNCES: f64 = 4.0;
 
-/// The bounces of one contact move others that are coupled to it, and the slips of the balls, by this many times their
-/// speed at most.
+/// Bound on the speeds, in units of a bounce's speed, that the bounce causes in coupled contacts and in the slips of the balls.
 const COUPLING: f64 = 10.0;
 
-/// Normal forces are at most so many times what the cloth's friction gives a ball: three balls press one contact, and frictions
-/// wedge them.
+/// Bound on normal forces in units of the cloth's friction on a ball: three balls can press on one contact, and frictions wedge them.
 const MOST_PULL: f64 = 8.0;
 
-/// The cloth's frictions on two balls change the slip between them by so many times what they change a ball's speed.
+/// Change of the slip between two balls by the cloth's frictions, in units of the change of a ball's speed.
 const GRIPPED_SLIP: f64 = 7.0;
 
-/// Slow bounces of one contact that are told one by one; those that follow belong to its chatter.
-const TOLD: u32 = 4;
+/// Number of slow bounces of one contact that are reported individually; later ones belong to its chatter.
+const REPORTED_BOUNCES: u32 = 4;
 
-/// Flights that shrink more slowly are no sign of a chatter that ends.
+/// Flights with a larger ratio of successive durations do not indicate a chatter that ends.
 const SLOWEST_SHRINKING: f64 = 0.99;
 
-/// A pause between two bounces is the end of a chatter if it is as long as so many of the last flights, and as so many of the longest
-/// one or of the pause before: where another contact throws a ball back again and again, its chatters are one.
+/// A pause between two bounces ends a chatter if it exceeds this multiple of the last flight, and [`LONGEST_FLIGHTS`].
 const LAST_FLIGHTS: f64 = 8.0;
+
+/// A pause that ends a chatter must also exceed this multiple of both the longest flight and the pause before. If another contact throws
+/// a ball back repeatedly, its bounces therefore remain one chatter.
 const LONGEST_FLIGHTS: f64 = 2.0;
 
-/// Pairs of balls, and balls with cushions.
-const PLACES: usize = PAIRS.len() + 4 * BALLS;
+/// Number of pairs of balls, and of balls with cushions.
+const SLOTS: usize = PAIRS.len() + 4 * BALLS;
 
-/// The slow bounces of one contact.
+/// Record of the slow bounces of one contact.
 #[derive(Clone, Copy, Debug)]
 struct Bounces {
     count: u32,
     last: f64,
     flight: f64,
-    /// The longest flight of this chatter.
+    /// Longest flight of this chatter, s.
     longest: f64,
-    /// How long before this chatter the last bounce was, s.
+    /// Pause between the last bounce before this chatter and its first, s.
     pause: f64,
-    /// The last flight over the one before; of a first bounce, which has none, not a number.
+    /// Ratio of the last flight to the one before; NaN for a first bounce, which has none.
     shrinking: f64,
 }
 
 impl Bounces {
-    /// Longest pause before the next bounce of the same chatter, s.
+    /// Returns the longest pause before the next bounce of the same chatter, s.
     fn longest_pause(&self) -> f64 {
         (LAST_FLIGHTS * self.flight).max(LONGEST_FLIGHTS * self.longest.max(self.pause))
     }
 }
 
-/// The slow bounces of a shot.
+/// Records of all slow bounces of a shot.
 #[derive(Clone, Debug)]
-pub struct Chatters([Bounces; PLACES]);
+pub struct Chatters([Bounces; SLOTS]);
 
 impl Chatters {
-    /// No bounces yet.
+    /// Creates records without bounces.
     pub const fn new() -> Self {
         Self(
             [Bounces {
@@ -81,11 +82,11 @@ impl Chatters {
                 longest: 0.0,
                 pause: 0.0,
                 shrinking: 0.0,
-            }; PLACES],
+            }; SLOTS],
         )
     }
 
-    fn place(contact: &Contact) -> usize {
+    fn slot(contact: &Contact) -> usize {
         if let Some(second) = contact.second {
             return contact.first + second - 1;
         }
@@ -94,9 +95,9 @@ impl Chatters {
         PAIRS.len() + 4 * contact.first + rail
     }
 
-    /// Takes note of a slow bounce; tells whether it is part of a chatter.
+    /// Records a slow bounce. Returns whether it is part of a chatter.
     pub fn bounce(&mut self, contact: &Contact, now: f64) -> bool {
-        let bounces = &mut self.0[Self::place(contact)];
+        let bounces = &mut self.0[Self::slot(contact)];
         let flight = now - bounces.last;
         if flight <= bounces.longest_pause() {
             let known = if flight.is_finite() { flight } else { 0.0 };
@@ -106,35 +107,35 @@ impl Chatters {
         }
         bounces.shrinking = flight / bounces.flight;
         (bounces.last, bounces.flight) = (now, flight);
-        bounces.count > TOLD
+        bounces.count > REPORTED_BOUNCES
     }
 
-    /// Takes note that a contact begins to rest: after a pause, that is like a bounce.
+    /// Records that a contact begins to rest; after a pause, this counts as a bounce.
     pub fn begin_rest(&mut self, contact: &Contact, now: f64) {
-        if now > self.0[Self::place(contact)].last {
+        if now > self.0[Self::slot(contact)].last {
             self.bounce(contact, now);
         }
     }
 
-    /// Takes note that a contact has rested until now: its chatter goes on from here.
+    /// Records that a contact has rested until now: its chatter continues from here.
     pub fn rest(&mut self, contact: &Contact, now: f64) {
-        self.0[Self::place(contact)].last = now;
+        self.0[Self::slot(contact)].last = now;
     }
 
-    /// The last flight of a contact over the one before; not a number behind its first bounce, of whose flights nothing is known.
+    /// Returns the ratio of a contact's last flight to the one before; NaN after its first bounce.
     pub fn shrinking(&self, contact: &Contact) -> f64 {
-        self.0[Self::place(contact)].shrinking
+        self.0[Self::slot(contact)].shrinking
     }
 
-    /// When each chatter of a ball is over, s, if it bounces no more: those with the other balls, by their index, and at its own
-    /// index those with cushions. Any bounce, told or not, may be followed by others within a `pause`, s.
+    /// Returns when each chatter of a ball ends, s, if it does not bounce again: those with other balls at their index, those with cushions
+    /// at the ball's own index. Any bounce, reported or not, may be followed by others within `pause`, s.
     pub fn ends(&self, ball: usize, pause: f64) -> [f64; BALLS] {
         let mut ends = [f64::NEG_INFINITY; BALLS];
         let cushions = (0..4).map(|rail| (ball, PAIRS.len() + 4 * ball + rail));
-        for (other, place) in cushions.chain(PAIRS_OF[ball].map(|(pair, other)| (other, pair))) {
-            let bounces = self.0[place];
+        for (other, slot) in cushions.chain(PAIRS_OF[ball].map(|(pair, other)| (other, pair))) {
+            let bounces = self.0[slot];
             ends[other] = ends[other].max(bounces.last + pause);
-            if bounces.count > TOLD {
+            if bounces.count > REPORTED_BOUNCES {
                 ends[other] = ends[other].max(bounces.last + bounces.longest_pause());
             }
         }
@@ -142,7 +143,7 @@ impl Chatters {
     }
 }
 
-/// A contact that bounces with some speed, and all others that its bounces are coupled to.
+/// Returns a contact that bounces with some speed, and all contacts that are coupled to its bounces.
 fn coupled(
     constants: &Constants,
     balls: &[BallState; BALLS],
@@ -155,23 +156,23 @@ fn coupled(
         (0.5 * slow * slow / constants.sliding).clamp(constants.tolerance.touching, constants.tolerance.coupled_gap);
     let is_coupled = |gap: f64, other: &Contact| gap <= high && other.opening_speed(balls).abs() <= slow;
     let mut contacts = contacts_where(constants, balls, on_cloth, is_coupled);
-    // It has met, whatever rounding says of its gap.
+    // The contact is closed, whatever its rounded gap is.
     contacts.retain(|_, other| other != contact);
     contacts.push(*contact);
     contacts
 }
 
-/// The end of a chatter.
+/// End of a chatter.
 pub struct ChatterEnd {
-    /// The contacts that rest from now on.
+    /// Contacts that rest from now on.
     pub contacts: Contacts,
-    /// How long the bounces that are left out would have gone on, s; none where they are too slow to be missed.
+    /// Remaining duration of the omitted bounces, s; zero if they are negligibly slow.
     pub lasts: f64,
 }
 
-/// The contacts that come to rest together with one that has just bounced, and opens in the state `balls`: forces press them
-/// once their bounces have ended, and what is left of those can no longer be told. None if it goes on. Its bounces have a `restitution`, and
-/// `shrinking` is the last flight over the one before.
+/// Returns the contacts that come to rest together with `contact`, which has just bounced and opens in the state `balls`. Forces must press
+/// them once their bounces have ended, and the remaining bounces must be negligible. `None` if the chatter continues. `restitution` is that
+/// of its bounces; `shrinking` is the ratio of the last flight to the one before.
 pub fn chatter_end(
     table: &Table,
     constants: &Constants,
@@ -183,20 +184,20 @@ pub fn chatter_end(
 ) -> Option<ChatterEnd> {
     let tolerance = &constants.tolerance;
     let speed = contact.opening_speed(balls);
-    // Bounces that lose nothing never fade.
+    // Bounces without loss never fade.
     let slowest = if restitution < 1.0 { tolerance.slowest_bounce } else { tolerance.slowest_lossless_bounce };
     if speed <= slowest {
         let mut alone = Contacts::NONE;
         alone.push(*contact);
         return Some(ChatterEnd { contacts: alone, lasts: 0.0 });
     }
-    // What the bounces open holds on average, and slips that they make are none.
+    // Contacts that the bounces open are closed on average, and slips that they create count as zero.
     let mut contacts = coupled(constants, balls, on_cloth, contact, speed);
-    // What is in flight does not press, and to stop it its contact would have to pull.
+    // A contact in flight does not press, and could only be stopped by pulling.
     let flies = |other: &Contact| other != contact && other.opening_speed(balls) > tolerance.slowest_bounce;
     contacts.retain(|_, other| other.shares_a_ball(contact) && !flies(other));
     let none = tolerance.ending_slip.max(MADE_BY_BOUNCES * speed);
-    // The friction that turns soonest: that of the ball whose slip ends first.
+    // The friction whose direction turns soonest: that of the ball whose slip ends first.
     let slips = balls
         .iter()
         .enumerate()
@@ -210,22 +211,22 @@ pub fn chatter_end(
             made = true;
         }
     }
-    // A slip that the bounces make turns with each of them: what they do is of their own size.
+    // A slip that the bounces create turns with each of them: its effect is as large as their own.
     let alone = contacts.len() == 1;
     if made && speed > if alone { tolerance.slowest_bounce } else { tolerance.slowest_coupled_bounce } {
         return None;
     }
-    // Behind a first bounce the shrinking is not a number, and counts as the slowest: `min` returns the other operand.
+    // After a first bounce, `shrinking` is NaN and counts as the slowest: `min` returns the other operand.
     let restitution = restitution.max(shrinking.min(SLOWEST_SHRINKING));
     let cube = |x: f64| x * x * x;
-    // Coupled contacts need not bounce ever more softly: all that is known is how softly they do.
+    // Coupled contacts do not necessarily bounce more and more softly: only their present speed is known.
     let negligible = if alone { tolerance.negligible } else { tolerance.negligible_coupled };
     let ends = |pull: f64| {
         let chatter = 2.0 * speed / (pull * (1.0 - restitution));
         let moment = 4.0 * cube(speed) / (3.0 * pull * pull * (1.0 - cube(restitution)));
         chatter <= slide && 0.5 * moment <= negligible * slide * slide
     };
-    // Most bounces are too fast for any pull that the cloth can give.
+    // Most bounces are too fast for any acceleration that the cloth can cause.
     let bodies = if contact.second.is_some() { 2.0 } else { 1.0 };
     if !ends(MOST_PULL * bodies * (constants.sliding + constants.tilt.length())) {
         return None;
@@ -234,8 +235,7 @@ pub fn chatter_end(
     let resolved = Scene { table, balls, contacts: &contacts, set: &set }.resolve(tolerance.slack, None, effort)?;
     let index = resolved.contacts.iter().position(|pressing| pressing == contact)?;
     let pull = bodies * resolved.forces.normal[index];
-    // Balls that never slip lose with each impact the slip that their flight has made, which the other contacts feel as a
-    // bounce.
+    // In each impact, balls that never slip lose the slip that arose in flight, which the other contacts feel as a bounce.
     let kick = 2.0 * speed / pull * GRIPPED_SLIP * constants.sliding;
     let grips = !alone && contacts.iter().any(|other| other.never_slips(table));
     if grips && kick > tolerance.slowest_coupled_bounce {
@@ -250,8 +250,8 @@ pub fn chatter_end(
     (!is_cut_short).then_some(ChatterEnd { contacts: resolved.contacts, lasts })
 }
 
-/// Whether a ball of the contacts meets anything else within a `time`, s, in which the bounces that are left out are not over: it would
-/// have the speed of one of them still.
+/// Whether a ball of the contacts collides with anything else within `time`, s, before the omitted bounces are over: it would still have
+/// the speed of one of them.
 fn meets_another(
     constants: &Constants,
     balls: &[BallState; BALLS],
@@ -273,22 +273,24 @@ fn meets_another(
 mod tests {
     use super::*;
 
-    /// How many bounces with these flights behind them are told, and when the last flight is over, s.
-    fn told(chatters: &mut Chatters, contact: &Contact, flights: impl Iterator<Item = f64>) -> (u32, f64) {
-        flights.fold((0, 0.0), |(told, now), flight| (told + u32::from(!chatters.bounce(contact, now)), now + flight))
+    /// Returns how many bounces with these flights after them are reported, and when the last flight is over, s.
+    fn reported(chatters: &mut Chatters, contact: &Contact, flights: impl Iterator<Item = f64>) -> (u32, f64) {
+        flights.fold((0, 0.0), |(reported, now), flight| {
+            (reported + u32::from(!chatters.bounce(contact, now)), now + flight)
+        })
     }
 
     #[test]
-    fn bounces_are_told_until_they_are_a_chatter() {
+    fn bounces_are_reported_until_they_are_a_chatter() {
         let mut chatters = Chatters::new();
         let flights = (1..=40).map(|bounce| 0.1 * 0.9_f64.powi(bounce));
-        let (told, now) = told(&mut chatters, &Contact::of_balls(0, 1), flights);
-        assert_eq!(told, TOLD);
+        let (reported, now) = reported(&mut chatters, &Contact::of_balls(0, 1), flights);
+        assert_eq!(reported, REPORTED_BOUNCES);
         assert!(chatters.ends(1, 0.0)[0] > now && chatters.ends(2, 0.0)[0] < now);
         assert!(chatters.ends(0, 0.0)[1] < now + 1.0);
     }
 
-    /// Bounces between a ball and a cushion: each time when the cushion throws the ball back they begin anew, and shorter.
+    /// Bounces between a ball and a cushion: each time the cushion throws the ball back, they start again, with shorter flights.
     #[test]
     fn a_ball_that_another_contact_throws_back_goes_on_with_its_chatter() {
         let mut chatters = Chatters::new();
@@ -297,20 +299,20 @@ mod tests {
             let pause = move |bounce: i32| if bounce == 11 { 0.9 * longest } else { 0.0 };
             (0..12).map(move |bounce| longest * 0.3_f64.powi(bounce) + pause(bounce))
         });
-        let (told, now) = told(&mut chatters, &Contact::of_balls(0, 1), flights);
-        assert_eq!(told, TOLD);
+        let (reported, now) = reported(&mut chatters, &Contact::of_balls(0, 1), flights);
+        assert_eq!(reported, REPORTED_BOUNCES);
         assert!(chatters.ends(0, 0.0)[1] > now && chatters.ends(0, 0.0)[1] < now + 0.2);
     }
 
-    /// Two contacts in turn throw a ball back, each with two bounces, after pauses that grow shorter.
+    /// Two contacts alternately throw a ball back, each with two bounces, after ever shorter pauses.
     #[test]
     fn bounces_that_come_back_after_ever_shorter_pauses_are_one_chatter() {
         let flights = (1..=50).flat_map(|round| [0.0, 0.0, 6e-3 * 0.9_f64.powi(round)]);
-        let (told, _) = told(&mut Chatters::new(), &Contact::of_balls(0, 2), flights);
-        assert!(told <= 4 * TOLD, "{told} of 150 bounces are told");
+        let (reported, _) = reported(&mut Chatters::new(), &Contact::of_balls(0, 2), flights);
+        assert!(reported <= 4 * REPORTED_BOUNCES, "{reported} of 150 bounces are reported");
     }
 
-    /// A ball spins against a cushion, and another one comes from behind: at this speed its bounces are over in some microseconds.
+    /// A ball spins against a cushion, and another one approaches from behind: at this speed the bounces end within some microseconds.
     #[test]
     fn a_chatter_goes_on_that_another_ball_would_cut_short() {
         let table = Table::preset("thesis").unwrap();
@@ -329,7 +331,7 @@ mod tests {
         assert!(ends(1e-6) && !ends(1e-8));
     }
 
-    /// A ball that is pressed into a corner and bounces on both cushions: one bounce has just ended, the other is in flight.
+    /// A ball that is pressed into a corner and bounces on both cushions: one bounce has just ended, the other contact is in flight.
     #[test]
     fn a_chatter_ends_without_the_contact_that_is_in_flight() {
         let table = Table::preset("thesis").unwrap();
@@ -338,7 +340,7 @@ mod tests {
         let ends = |up: f64| {
             let mut balls =
                 [glam::DVec2::ZERO, glam::DVec2::new(0.0, 0.3), glam::DVec2::new(0.0, -0.3)].map(BallState::at_rest);
-            // Spins that press it to both.
+            // Spins that press the ball against both cushions.
             balls[0] = BallState {
                 position: table.reach(),
                 velocity: glam::DVec2::new(-1e-9, -up),

@@ -1,4 +1,4 @@
-//! What the engine needs of a table, worked out once instead of at every event.
+//! Derived constants of a table, computed once per shot instead of at every event.
 
 use glam::DVec2;
 
@@ -8,7 +8,7 @@ use crate::{
     table::Table,
 };
 
-/// A table's numbers in the form in which the engine uses them; divisions are done here, once a shot.
+/// A table's constants in the form that the engine uses; all divisions are done here, once per shot.
 #[derive(Clone, Copy, Debug)]
 pub struct Constants {
     /// Length of the playing area, m.
@@ -21,15 +21,15 @@ pub struct Constants {
     pub diameter: f64,
     /// Largest |x| and |y| of a ball's centre, m.
     pub reach: DVec2,
-    /// Deceleration of the slip's friction, `mu_s g`, m/s².
+    /// Deceleration by sliding friction, `mu_s g`, m/s².
     pub sliding: f64,
-    /// Time that friction needs for each m/s of slip, `2 / 7 mu_s g` (thesis equation 25), s²/m.
+    /// Duration of sliding per m/s of slip, `2 / 7 mu_s g` (thesis equation 25), s²/m.
     pub slide_time: f64,
-    /// What slows a rolling ball.
+    /// Deceleration law of a rolling ball.
     pub rolling: Rolling,
-    /// Time in which a rolling ball loses 1 m/s where it slows down evenly (thesis equation 26), s²/m.
+    /// Time in which a rolling ball loses 1 m/s at constant deceleration (thesis equation 26), s²/m.
     pub roll_time: f64,
-    /// Whether the table is level and a rolling ball slows down evenly, as in the thesis.
+    /// Whether the table is level and the deceleration of a rolling ball is constant, as in the thesis.
     pub even: bool,
     /// Whether the table is level.
     pub level: bool,
@@ -37,14 +37,14 @@ pub struct Constants {
     pub tilt: DVec2,
     /// Rate at which `|w_z|` decays, `5 mu_sp g / 2R` (thesis equation 8), rad/s².
     pub spinning: f64,
-    /// Upward velocity above which a rail lifts a ball off the cloth, m/s: infinity where balls stay on it.
+    /// Upward velocity above which a rail lifts a ball off the cloth, m/s; infinity if balls stay on it.
     pub lifts: f64,
-    /// What counts as nothing.
+    /// Tolerances below which gaps, speeds and accelerations count as zero.
     pub tolerance: Tolerance,
 }
 
 impl Constants {
-    /// Works out the numbers of `table`.
+    /// Computes the constants of `table`.
     pub fn of(table: &Table) -> Self {
         let tolerance = Tolerance::of(table);
         let sliding = table.sliding_friction * table.gravity;

@@ -1,4 +1,4 @@
-//! Which balls touch cushions or each other.
+//! Detection of contacts: balls that touch cushions or each other.
 
 use glam::DVec2;
 
@@ -8,10 +8,10 @@ use crate::{
     table::{BALLS, PAIRS},
 };
 
-/// The pairs that each ball is part of, as indices of [`PAIRS`], with the other ball.
+/// For each ball, its pairs as indices of [`PAIRS`], each with the other ball.
 pub const PAIRS_OF: [[(usize, usize); 2]; BALLS] = [[(0, 1), (1, 2)], [(0, 0), (2, 2)], [(1, 0), (2, 1)]];
 
-/// All contacts of the balls `on_cloth` whose opening speed, m/s, is `wanted`.
+/// Returns all contacts of the balls `on_cloth` whose opening speed, m/s, is `wanted`.
 pub fn touching(
     constants: &Constants,
     balls: &State,
@@ -22,13 +22,13 @@ pub fn touching(
     contacts_where(constants, balls, on_cloth, |gap, contact| touches(gap) && wanted(contact.opening_speed(balls)))
 }
 
-/// Whether a ball touches two cushions: of those that it meets at once it has only foreseen one.
+/// Whether a ball touches two cushions; a prediction reports only one of several simultaneous cushion impacts.
 #[inline(always)]
 pub fn is_in_corner(constants: &Constants, position: DVec2) -> bool {
     (constants.reach - position.abs()).max_element() <= constants.tolerance.touching
 }
 
-/// Of all contacts that the balls `on_cloth` could have, those that are `wanted` with the gap that they have now, m.
+/// Returns the possible contacts of the balls `on_cloth` that are `wanted` with their present gap, m.
 pub fn contacts_where(
     constants: &Constants,
     balls: &State,
@@ -55,7 +55,7 @@ pub fn contacts_where(
     contacts
 }
 
-/// Distance of a contact's surfaces, m.
+/// Returns the distance of a contact's surfaces, m.
 fn gap(constants: &Constants, balls: &State, contact: &Contact) -> f64 {
     let place = balls[contact.first].position;
     match contact.second {
@@ -64,21 +64,22 @@ fn gap(constants: &Constants, balls: &State, contact: &Contact) -> f64 {
     }
 }
 
-/// Distance of a ball at `place` on the cloth from a cushion with this normal, m.
+/// Returns the distance of a ball at `place` on the cloth from the cushion with this normal, m.
 pub fn cushion_gap(constants: &Constants, normal: DVec2, place: DVec2) -> f64 {
     normal.abs().dot(constants.reach) + place.dot(normal)
 }
 
-/// Puts a ball exactly at a cushion with this normal: the rounding of a prediction must not leave a gap to fall through.
+/// Moves a ball exactly to the cushion with this normal: the rounding of a prediction must not leave a gap through which the ball could
+/// pass.
 #[inline(always)]
 pub fn put_at_cushion(constants: &Constants, normal: DVec2, position: &mut DVec2) {
     *position += (-normal.abs().dot(constants.reach) - position.dot(normal)) * normal;
 }
 
-/// Rounds in which gaps are closed: what one contact needs opens others a little.
+/// Number of passes that close gaps: closing one contact opens others slightly.
 const CLOSING_ROUNDS: usize = 6;
 
-/// Moves balls by the gaps of their contacts, which are as small as the bounces that are given up.
+/// Moves balls by the gaps of their contacts, which are as small as the omitted bounces.
 pub fn close_gaps(constants: &Constants, balls: &mut State, contacts: &[Contact]) {
     for _ in 0..CLOSING_ROUNDS {
         for contact in contacts {

@@ -1,4 +1,4 @@
-//! When a free ball will meet a cushion, if nothing else happens first.
+//! Ball-cushion detection: predicts the next cushion impact of a free ball, provided that no other event happens first.
 
 use super::{
     Constants, Rail, Segment,
@@ -8,20 +8,20 @@ use super::{
 };
 use crate::physics::Motion;
 
-/// The first cushion that a free `segment` meets within `horizon` seconds of its start.
+/// Returns the first cushion impact of a free `segment` within `horizon` seconds of its start.
 ///
-/// Which side a ball goes to cannot be guessed by the processor, so that all four are worked out without branches.
+/// The processor cannot predict the direction of a ball, so that all four cushions are computed without branches.
 #[inline(always)]
 pub fn cushion_ahead<S: Savings>(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
-    // On a slope a roll bends.
+    // On a slope, the path of a rolling ball is curved.
     if segment.motion == Motion::Rolling && constants.level {
         return cushion_ahead_of_rolling::<S>(constants, segment, horizon);
     }
     let (p, v, k) = (segment.position, segment.velocity, segment.half_acceleration);
     let reach = constants.reach;
     if S::CUSHIONS_IN_REACH {
-        // The course lies within the triangle of its start and these two points. One that touches a cushion at its
-        // start and has them inside leaves it for as long.
+        // The trajectory lies within the triangle of its start and these two points. If they are inside, a ball that touches a cushion at
+        // its start moves away from it.
         let bend = (p + 0.5 * horizon * v).abs();
         let end = (p + horizon * (v + horizon * k)).abs();
         let inside = |bend: f64, end: f64, reach: f64| -lesser(-bend, -end) < reach - constants.tolerance.surely_apart;
@@ -44,15 +44,15 @@ pub fn cushion_ahead<S: Savings>(constants: &Constants, segment: &Segment, horiz
     }
 }
 
-/// The cushion on the given side of the x axis, or of the y axis.
+/// Returns the cushion on the given side of the x axis or the y axis.
 #[inline(always)]
 fn rail_of(right: bool, top: bool, on_y: bool) -> Rail {
     let (x, y) = (usize::from(right), 2 + usize::from(top));
     Rail::ALL[x ^ ((x ^ y) * usize::from(on_y))]
 }
 
-/// The same for a ball that rolls straight on: the cushion whose line it would cross first without slowing down. Which one
-/// that is, its signs tell.
+/// As [`cushion_ahead`] for a ball that rolls straight: the cushion whose line it would cross first without deceleration, selected by the
+/// signs of the velocity.
 #[inline(always)]
 fn cushion_ahead_of_rolling<S: Savings>(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
     let (p, v, reach) = (segment.position, segment.velocity, constants.reach);
@@ -60,13 +60,13 @@ fn cushion_ahead_of_rolling<S: Savings>(constants: &Constants, segment: &Segment
     let ahead = |reach: f64, p: f64, v: f64| at_full_speed(tolerance, reach - p * 1.0_f64.copysign(v), v.abs());
     let (mut to_x, mut to_y) = (ahead(reach.x, p.x, v.x), ahead(reach.y, p.y, v.y));
     if !S::CUSHIONS_IN_REACH {
-        // The ones behind, which the ball leaves.
+        // The cushions behind the ball, from which it moves away.
         to_x = lesser(at_full_speed(tolerance, reach.x + p.x * 1.0_f64.copysign(v.x), -v.x.abs()), to_x);
         to_y = lesser(at_full_speed(tolerance, reach.y + p.y * 1.0_f64.copysign(v.y), -v.y.abs()), to_y);
     }
     let straight = lesser(to_y, to_x);
     let rail = rail_of(v.x > 0.0, v.y > 0.0, to_y < to_x);
-    // `straight = t - t² / 2 stop`, since the speed would be used up then: at the horizon, unless the band ends first.
+    // `straight = t - t² / 2 stop`, where the speed would be zero at `stop`: at the horizon, unless the band ends before.
     let banded = !constants.even;
     let stop = if banded { -0.5 * v.length_squared() / v.dot(segment.half_acceleration) } else { horizon };
     let share = 1.0 - 2.0 * straight / stop;
@@ -74,24 +74,24 @@ fn cushion_ahead_of_rolling<S: Savings>(constants: &Constants, segment: &Segment
     if share > 0.0 && (!banded || time < horizon) { (Ahead::Meeting(time), rail) } else { (Ahead::Nothing, rail) }
 }
 
-/// When a ball of constant speed closes a gap, s; infinity if it touches already without moving against the cushion.
+/// Returns when a ball of constant speed closes a gap, s; infinity if it touches the cushion and does not move towards it.
 #[inline(always)]
 fn at_full_speed(tolerance: &Tolerance, gap: f64, speed: f64) -> f64 {
     let open = if gap > 0.0 { gap } else { 0.0 };
     if speed > tolerance.opening || (speed > 0.0 && gap > tolerance.touching) { open / speed } else { f64::INFINITY }
 }
 
-/// What a course meets on one axis of the table.
+/// First cushion impact of a trajectory on one axis of the table.
 struct OnAxis {
-    /// When, s; infinity for never, [`PRESSED`] for a resting contact.
+    /// Time of the impact, s; infinity for never, [`PRESSED`] for a resting contact.
     time: f64,
-    /// Whether it is the cushion on the positive side.
+    /// Whether the cushion is on the positive side.
     upwards: bool,
 }
 
 const PRESSED: f64 = -1.0;
 
-/// The first of two opposite cushions, at `±reach`, that a ball meets whose coordinate is `p + v t + k t²`.
+/// Returns the first impact on two opposite cushions, at `±reach`, of a ball with the coordinate `p + v t + k t²`.
 #[inline(always)]
 fn axis_ahead(tolerance: &Tolerance, reach: f64, p: f64, v: f64, k: f64) -> OnAxis {
     let sign = 1.0_f64.copysign(v);
@@ -105,18 +105,17 @@ fn axis_ahead(tolerance: &Tolerance, reach: f64, p: f64, v: f64, k: f64) -> OnAx
     OnAxis { time: lesser(forward, backward), upwards: (sign > 0.0) == (forward <= backward) }
 }
 
-/// When `gap - speed t - half_acceleration t²` first falls to zero, for a speed that is not negative: infinity if never.
+/// Returns when `gap - speed t - half_acceleration t²` first falls to zero, for a non-negative speed; infinity if never.
 #[inline(always)]
 fn first_closes(gap: f64, speed: f64, half_acceleration: f64) -> f64 {
     let gap = -lesser(-gap, 0.0);
     let discriminant = speed * speed + 4.0 * half_acceleration * gap;
-    // The root of a negative number, which is none, is never used.
+    // The root of a negative number is NaN and is never used.
     let time = 2.0 * gap / (speed + discriminant.sqrt());
     if discriminant < 0.0 { f64::INFINITY } else { time }
 }
 
-/// When a ball that leaves a cushion with `speed`, at a distance of `gap` from it, comes back under `half_pull`: infinity
-/// if never.
+/// Returns when a ball that leaves a cushion with `speed`, at the distance `gap` from it, comes back under `half_pull`; infinity if never.
 #[inline(always)]
 fn closes_on_return(gap: f64, speed: f64, half_pull: f64) -> f64 {
     let gap = -lesser(-gap, 0.0);
@@ -125,8 +124,7 @@ fn closes_on_return(gap: f64, speed: f64, half_pull: f64) -> f64 {
     if half_pull > 0.0 { time } else { f64::INFINITY }
 }
 
-/// The same for any speed, where rounding decides whether a ball touches: infinity if never, [`PRESSED`] for a resting
-/// contact.
+/// As [`first_closes`] for any speed, if rounding decides whether a ball touches; infinity if never, [`PRESSED`] for a resting contact.
 #[cold]
 fn gap_closes(tolerance: &Tolerance, gap: f64, speed: f64, half_acceleration: f64) -> f64 {
     if gap <= tolerance.touching {
@@ -149,7 +147,7 @@ fn gap_closes(tolerance: &Tolerance, gap: f64, speed: f64, half_acceleration: f6
     } else if speed > 0.0 {
         2.0 * gap / (speed + discriminant.sqrt())
     } else {
-        // Without cancellation, since speed is not positive.
+        // Without cancellation, since the speed is not positive.
         (discriminant.sqrt() - speed) / (2.0 * half_acceleration)
     }
 }
@@ -161,7 +159,7 @@ mod tests {
     use super::{super::savings::All, *};
     use crate::{physics::BallState, table::Table};
 
-    /// The first cushion of a ball with some velocity and spin, and where the ball is then.
+    /// Returns the first cushion impact of a ball with this velocity and spin, and the ball's position then.
     fn first_cushion(position: DVec2, velocity: DVec2, spin: DVec3) -> (Ahead, Rail, DVec2) {
         let constants = Constants::of(&Table::default());
         let (segment, lasts) = Segment::free(&constants, 0.0, &BallState { position, velocity, spin });

@@ -1,4 +1,4 @@
-//! The event-driven engine (thesis 3.2 and Algorithm 1): from one event to the next, with nothing in between.
+//! The event-driven engine (thesis 3.2 and Algorithm 1): it advances from one event to the next, without time steps.
 
 use std::{marker::PhantomData, ops::ControlFlow};
 
@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::{
     Constants, Event, EventKind, Observer, Rail, Segment,
     chatter::Chatters,
-    guards::{MOST_IN_THE_AIR, MOST_RESTING, MOST_TURNS, MOST_TURNS_WITHOUT_REST, MOST_WITHOUT_REST},
+    guards::{AIR_BUDGET, BUDGET_WITHOUT_REST, MAX_ITERATIONS, MAX_ITERATIONS_WITHOUT_REST, RESTING_BUDGET},
     resting::Resting,
     savings::{All, Savings},
 };
@@ -16,37 +16,37 @@ use crate::{
     table::{BALLS, Layout, PAIRS, Table},
 };
 
-/// Impacts that follow each other within this time have the same time, s: two roundings of a time of two seconds.
+/// Impacts within this time count as simultaneous, s: about two roundings of a time of two seconds.
 pub(super) const SAME_TIME: f64 = 1e-15;
 
-/// How a simulation ended: when all balls stood still, or when the observer had seen enough.
+/// Final state of a simulation: all balls are at rest, or the observer ended the shot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct End {
     /// Time of the last event, s.
     pub time: f64,
-    /// The balls at that time.
+    /// States of the balls at that time.
     pub balls: [BallState; BALLS],
-    /// Which of them have left the table; they are where they did.
+    /// Whether each ball has left the table; such a ball stays where it left.
     pub off_table: [bool; BALLS],
 }
 
 impl End {
-    /// Where the balls are; those that have left the table are on their spots.
+    /// Returns the final layout; balls that have left the table are on their spots.
     pub fn layout(&self, table: &Table) -> Layout {
         Layout::new(self.balls.map(|ball| ball.position)).with_spotted(table.length, table.radius, self.off_table)
     }
 }
 
-/// Plays a shot: the cue ball starts with `impulse`, and `observer` is told what happens until all balls stand still or
-/// it breaks off. The layout is taken as it is: see [`Layout::validate`].
+/// Plays a shot: the cue ball starts with `impulse`, and `observer` receives the events until all balls are at rest or it breaks. The
+/// layout is not checked: see [`Layout::validate`].
 ///
-/// Every run of the same shot gives the same bits.
+/// Deterministic: every run of the same shot gives identical bits.
 pub fn simulate(table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut dyn Observer) -> End {
     simulate_with::<All, _>(table, layout, impulse, observer)
 }
 
-/// The same compiled for one type of observer, which is faster: for callers that play millions of shots. `S` switches savings
-/// off, to measure them.
+/// As [`simulate`], monomorphized for one type of observer, which is faster: for callers that play millions of shots. `S` disables
+/// optimizations, to measure their effect.
 pub fn simulate_with<S: Savings, O: Observer + ?Sized>(
     table: &Table,
     layout: &Layout,
@@ -58,13 +58,12 @@ pub fn simulate_with<S: Savings, O: Observer + ?Sized>(
     engine.finish(time)
 }
 
-/// Plays a shot like [`simulate`] just for what the observer is told, and does not work out where the balls are at the
-/// end.
+/// As [`simulate`], only for the observer's events: the final state is not computed.
 pub fn watch(table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut dyn Observer) {
     watch_with::<All, _>(table, layout, impulse, observer);
 }
 
-/// The same compiled for one type of observer, as [`simulate_with`].
+/// As [`watch`], monomorphized for one type of observer.
 pub fn watch_with<S: Savings, O: Observer + ?Sized>(
     table: &Table,
     layout: &Layout,
@@ -74,40 +73,40 @@ pub fn watch_with<S: Savings, O: Observer + ?Sized>(
     Engine::<S, O>::new(table, layout, observer).run(impulse);
 }
 
-/// What a ball's contacts do.
+/// Contact mode of a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum ContactMode {
-    /// It is free, or hits something now and then.
+    /// Free flight along the cloth, with occasional impacts.
     Free,
-    /// It chatters: bounces that have been told as the beginning of a contact, and are played one by one without being told. Or it
-    /// rests no more, and may bounce again.
+    /// Chatter: the bounces are simulated one by one, but reported only as the beginning of a contact. Also after a resting contact, while
+    /// the ball may bounce again.
     Bouncing,
-    /// It rests against something, the limit of its bounces.
+    /// Resting contact, the limit of the bounces.
     Resting,
 }
 
-/// A ball's present course and what it alone will do next.
+/// The present trajectory of a ball and its own next event.
 pub(super) struct Ball {
     pub(super) segment: Segment,
-    /// How long the motion can last, s after the segment's start.
+    /// Duration of the motion, s after the segment's start.
     pub(super) lasts: f64,
-    /// When the ball meets `rail`, s after the segment's start; infinity if never.
+    /// When the ball hits `rail`, s after the segment's start; infinity if never.
     pub(super) rail_after: f64,
     pub(super) rail: Rail,
     pub(super) mode: ContactMode,
 }
 
-/// When a pair of balls meets: `after` seconds after `since`. Both are kept, since their sum is rounded.
+/// Predicted collision of a pair: `after` seconds after `since`. Both are stored, because their sum is rounded.
 #[derive(Clone, Copy)]
 pub(super) struct Meeting {
     pub(super) since: f64,
     pub(super) after: f64,
-    /// Whether the balls might have come to rest against each other when this was predicted.
+    /// Whether a resting contact of the pair was possible when this was predicted.
     pub(super) may_rest: bool,
 }
 
 impl Meeting {
-    /// No meeting, as far as was known at `since`.
+    /// No collision is known at `since`.
     pub(super) const fn unseen(since: f64, may_rest: bool) -> Self {
         Self { since, after: f64::INFINITY, may_rest }
     }
@@ -117,34 +116,34 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     pub(super) table: &'a Table,
     pub(super) constants: Constants,
     pub(super) law: ImpactLaw,
-    /// Whether nothing bounces on this table.
+    /// Whether all impacts on this table are perfectly inelastic.
     pub(super) inelastic: bool,
-    /// The cloth, where balls can leave it.
+    /// The cloth, if balls can leave it.
     pub(super) cloth: Option<Cloth>,
     pub(super) observer: &'a mut O,
     pub(super) balls: [Ball; BALLS],
     pub(super) pairs: [Meeting; PAIRS.len()],
-    /// When each ball, and then each pair, has its next event, s; infinity for none.
+    /// Time of the next event of each ball, then of each pair, s; infinity for none.
     pub(super) times: [f64; BALLS + PAIRS.len()],
     pub(super) resting: Option<Box<Resting>>,
-    /// The step that has just ended, until it is known what presses behind it.
+    /// The contact step that has just ended, until the next active set is known.
     pub(super) ended: Option<Box<Resting>>,
     /// Longest step that the next resting contact tries, s.
     pub(super) next_step: f64,
-    /// Whether a prediction has found balls pressed together that are not yet in `resting`.
+    /// Whether a prediction has found balls that press on each other but are not yet in `resting`.
     pub(super) pressed: bool,
-    /// Events and steps so far.
-    pub(super) turns: u32,
-    /// Time of the last impact, s, and how many there have been at that moment.
+    /// Iterations of the event loops so far: events and steps.
+    pub(super) iterations: u32,
+    /// Time of the last impact, s, and the number of impacts at that moment.
     pub(super) last_impact: f64,
     pub(super) rounds: u32,
-    /// What bounces of chatters and resting contacts have taken so far; once nothing rests any more, what bounces have taken since.
+    /// Work of chatters and resting contacts so far; after the switch to micro-collisions, work of bounces since then.
     pub(super) effort: Effort,
-    /// What impacts in the air have, which micro-collisions would not spare.
+    /// Work of impacts in the air, which micro-collisions would not reduce.
     pub(super) effort_in_air: Effort,
-    /// The laws of slow impacts once nothing rests any more.
+    /// Law of slow impacts after resting contacts have been disabled.
     pub(super) micro_collisions: Option<Box<ImpactLaw>>,
-    /// The slow bounces, once there is one.
+    /// Records of slow bounces; `None` before the first one.
     pub(super) chatters: Option<Box<Chatters>>,
     savings: PhantomData<S>,
 }
@@ -166,7 +165,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             ended: None,
             next_step: f64::INFINITY,
             pressed: false,
-            turns: 0,
+            iterations: 0,
             last_impact: f64::NEG_INFINITY,
             rounds: 0,
             effort: Effort::default(),
@@ -177,7 +176,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         }
     }
 
-    /// Plays the shot; returns the time of the last event.
+    /// Plays the shot. Returns the time of the last event.
     pub(super) fn run(&mut self, impulse: &Impulse) -> f64 {
         let cue_ball =
             BallState { position: self.balls[0].segment.position, velocity: impulse.velocity, spin: impulse.spin };
@@ -193,19 +192,19 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         self.play_on(flow)
     }
 
-    /// Plays from the stroke to the end; returns the time of the last event.
+    /// Runs the event loop from the stroke to the end. Returns the time of the last event.
     #[inline(always)]
     pub(super) fn play_on(&mut self, mut flow: ControlFlow<()>) -> f64 {
         let mut now = 0.0;
         if S::ALONE && S::KEPT_PREDICTIONS && flow.is_continue() && self.moves_alone(0) {
             flow = self.play_alone(0, &mut now);
         }
-        let mut most_turns = MOST_TURNS;
-        while flow.is_continue() && self.turns < most_turns {
-            self.turns += 1;
+        let mut max_iterations = MAX_ITERATIONS;
+        while flow.is_continue() && self.iterations < max_iterations {
+            self.iterations += 1;
             if self.resting_budget_spent() {
                 flow = self.begin_micro_collisions(now);
-                most_turns = MOST_TURNS_WITHOUT_REST;
+                max_iterations = MAX_ITERATIONS_WITHOUT_REST;
                 if flow.is_break() {
                     break;
                 }
@@ -216,12 +215,12 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
                     (next, source) = (time, index);
                 }
             }
-            // What follows so soon may close a contact again.
+            // An event that follows sooner may close a contact again.
             if next - now > self.constants.tolerance.shortest_parting
                 && self.balls.iter().any(|ball| ball.mode == ContactMode::Bouncing)
             {
                 let nothing = source == usize::MAX || self.only_rolls_out(source);
-                flow = self.tell_free(now, nothing);
+                flow = self.report_free(now, nothing);
             }
             if flow.is_break()
                 || source == usize::MAX
@@ -243,7 +242,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         now
     }
 
-    /// Whether nothing is left to happen but that this ball, which comes next, rolls to its stop.
+    /// Whether the only remaining event is this ball's next one, and it rolls to rest without an impact.
     #[inline(always)]
     fn only_rolls_out(&self, source: usize) -> bool {
         source < BALLS
@@ -253,7 +252,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             && (0..self.times.len()).all(|other| other == source || self.times[other] == f64::INFINITY)
     }
 
-    /// The end of sliding or rolling.
+    /// Handles the end of sliding or rolling.
     #[inline(always)]
     fn change_motion(&mut self, index: usize, now: f64) -> ControlFlow<()> {
         let ball = &self.balls[index];
@@ -261,19 +260,19 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         let (mut segment, lasts) = ball.segment.successor(&self.constants, ball.lasts);
         segment.start = now;
         self.end_segment(index, now);
-        // Of a ball that bounces it is told once its contact is known to have ended.
+        // For a bouncing ball, this is reported when its contact is known to have ended.
         let bounces = self.balls[index].mode == ContactMode::Bouncing;
         if ended == Motion::Sliding && !bounces {
-            self.tell(now, EventKind::SlidingRolling(index))?;
+            self.report(now, EventKind::SlidingRolling(index))?;
         }
         if segment.motion == Motion::Stationary && !bounces {
-            self.tell(now, EventKind::RollingStationary(index))?;
+            self.report(now, EventKind::RollingStationary(index))?;
         }
         self.set(index, segment, lasts);
         self.look_ahead_of(now, index)
     }
 
-    /// Sends a ball off on the free course that follows from its state.
+    /// Starts the free trajectory of a ball from its state.
     #[inline(always)]
     pub(super) fn launch(&mut self, index: usize, now: f64, state: &BallState) {
         let (segment, lasts) = if self.is_exhausted() {
@@ -285,7 +284,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         self.set(index, segment, lasts);
     }
 
-    /// Sends balls from where they have come to off on the free courses that follow from these states.
+    /// Ends the present trajectories of the selected balls and starts free ones from these states.
     pub(super) fn relaunch(&mut self, now: f64, which: [bool; BALLS], states: &[BallState; BALLS]) {
         for index in (0..BALLS).filter(|&index| which[index]) {
             self.end_segment(index, now);
@@ -293,21 +292,21 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         }
     }
 
-    /// Whether resting contacts have taken more work than any should.
+    /// Whether the work of resting contacts exceeds its budget.
     pub(super) fn resting_budget_spent(&self) -> bool {
-        self.micro_collisions.is_none() && self.effort.spent() > MOST_RESTING
+        self.micro_collisions.is_none() && self.effort.spent() > RESTING_BUDGET
     }
 
-    /// Whether the shot has taken more work than any should.
+    /// Whether the work of the shot exceeds its budget.
     pub(super) fn is_exhausted(&self) -> bool {
         let in_air = self.effort_in_air.spent();
-        self.micro_collisions.is_some() && self.effort.spent() + in_air > MOST_WITHOUT_REST || in_air > MOST_IN_THE_AIR
+        self.micro_collisions.is_some() && self.effort.spent() + in_air > BUDGET_WITHOUT_REST || in_air > AIR_BUDGET
     }
 
-    /// As if the shot had taken more work than any should.
+    /// Exhausts the budget of the shot.
     #[cfg(test)]
     pub(super) fn exhaust(&self) {
-        self.effort_in_air.add(MOST_IN_THE_AIR + 1);
+        self.effort_in_air.add(AIR_BUDGET + 1);
     }
 
     pub(super) fn state(&self, index: usize, now: f64) -> BallState {
@@ -316,31 +315,31 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     }
 
     #[inline(always)]
-    pub(super) fn tell(&mut self, time: f64, kind: EventKind) -> ControlFlow<()> {
+    pub(super) fn report(&mut self, time: f64, kind: EventKind) -> ControlFlow<()> {
         let flow = self.observer.event(Event { time, kind });
         if S::EARLY_END { flow } else { ControlFlow::Continue(()) }
     }
 
-    /// Tells that a ball rolls by now, stands, or is in the air: of its motion nothing has been told for a while.
-    pub(super) fn tell_motion(&mut self, index: usize, now: f64) -> ControlFlow<()> {
+    /// Reports that a ball rolls, is at rest or is in the air: its motion has not been reported for a while.
+    pub(super) fn report_motion(&mut self, index: usize, now: f64) -> ControlFlow<()> {
         match self.balls[index].segment.motion {
-            Motion::Rolling => self.tell(now, EventKind::SlidingRolling(index)),
-            Motion::Stationary => self.tell(now, EventKind::RollingStationary(index)),
-            Motion::Flying => self.tell(now, EventKind::Jumps(index)),
+            Motion::Rolling => self.report(now, EventKind::SlidingRolling(index)),
+            Motion::Stationary => self.report(now, EventKind::RollingStationary(index)),
+            Motion::Flying => self.report(now, EventKind::Jumps(index)),
             _ => ControlFlow::Continue(()),
         }
     }
 
-    /// A ball that is free begins to bounce slowly.
+    /// Reports that a free ball begins to bounce slowly.
     pub(super) fn begin_contact(&mut self, index: usize, now: f64) -> ControlFlow<()> {
         if self.balls[index].mode != ContactMode::Free {
             return ControlFlow::Continue(());
         }
         self.balls[index].mode = ContactMode::Bouncing;
-        self.tell(now, EventKind::ContactBegins(index))
+        self.report(now, EventKind::ContactBegins(index))
     }
 
-    /// Hands a finished segment to an observer that records.
+    /// Passes a finished segment to an observer that records.
     #[inline]
     pub(super) fn end_segment(&mut self, index: usize, end: f64) {
         if self.observer.wants_segments() {

@@ -1,4 +1,4 @@
-//! What can happen during a shot, and the observer that is told of it.
+//! Events of a shot, and the observer that receives them.
 
 use std::ops::ControlFlow;
 
@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer, ser::SerializeStruct};
 
 use crate::table::{BALLS, Rail};
 
-/// What happens at one moment of a shot.
+/// Kind of an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EventKind {
     /// Two balls collide; the lower index comes first.
@@ -17,21 +17,21 @@ pub enum EventKind {
     SlidingRolling(usize),
     /// A ball comes to rest.
     RollingStationary(usize),
-    /// A ball begins to rest against a cushion or another ball, or to chatter. Until the contact ends its slow bounces are not told,
-    /// nor that it rolls or stands still between two of them, or is thrown up by one and down again by another at the same moment.
+    /// A ball begins to rest against a cushion or another ball, or to chatter. Until the contact ends, its slow bounces are not reported.
+    /// Neither is that it rolls or is at rest between two of them, or that one throws it up and another throws it down at the same moment.
     ContactBegins(usize),
-    /// A ball is free again: it rests no more, and nothing can make it bounce before its chatter is over.
+    /// A ball is free again: it no longer rests, and nothing can make it bounce before its chatter has ended.
     ContactEnds(usize),
     /// A ball leaves the cloth.
     Jumps(usize),
-    /// A ball that was in the air stays on the cloth from now on: its hops have ended.
+    /// A ball from the air stays on the cloth: its hops have ended.
     Lands(usize),
-    /// A ball has come down on the rail or beyond it, and is out of play.
+    /// A ball lands on the rail or beyond it and is out of play.
     LeavesTable(usize),
 }
 
 impl EventKind {
-    /// The name used in JSON and on the screen.
+    /// Returns the name used in JSON and on the screen.
     pub const fn name(self) -> &'static str {
         match self {
             Self::BallBall(..) => "ball-ball",
@@ -46,7 +46,7 @@ impl EventKind {
         }
     }
 
-    /// The balls that take part, the second only in a collision of two.
+    /// Returns the balls that take part; the second only for a collision of two.
     pub const fn balls(self) -> (usize, Option<usize>) {
         match self {
             Self::BallBall(first, second) => (first, Some(second)),
@@ -61,12 +61,12 @@ impl EventKind {
         }
     }
 
-    /// Whether a ball meets another or a cushion.
+    /// Whether a ball hits another ball or a cushion.
     pub const fn is_contact(self) -> bool {
         matches!(self, Self::BallBall(..) | Self::BallRail(..))
     }
 
-    /// The cushion that takes part.
+    /// Returns the cushion that takes part.
     pub const fn rail(self) -> Option<Rail> {
         match self {
             Self::BallRail(_, rail) => Some(rail),
@@ -80,7 +80,7 @@ impl EventKind {
 pub struct Event {
     /// Seconds since the stroke.
     pub time: f64,
-    /// What happens.
+    /// Kind of the event.
     pub kind: EventKind,
 }
 
@@ -101,12 +101,12 @@ impl Serialize for Event {
     }
 }
 
-/// Steps of resting contacts that an observer is ready to follow: a stiff contact takes thousands.
+/// Number of steps of resting contacts that an observer accepts: a stiff contact takes thousands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StepBudget(pub u32);
 
 impl StepBudget {
-    /// Takes one step's worth of it, for [`Observer::contact_step`]; `Break` where none is left.
+    /// Consumes one step, for [`Observer::contact_step`]; `Break` if none is left.
     pub const fn step(&mut self) -> ControlFlow<()> {
         match self.0.checked_sub(1) {
             Some(left) => {
@@ -118,35 +118,35 @@ impl StepBudget {
     }
 }
 
-/// What a scene wants to know of a shot; the engine computes nothing else.
+/// Receiver of a shot's events; its methods tell the engine what it needs, so that the engine computes nothing else.
 pub trait Observer {
-    /// Whether [`Observer::segment`] wants to be called: the same throughout a shot.
+    /// Whether [`Observer::segment`] must be called; constant during a shot.
     fn wants_segments(&self) -> bool {
         false
     }
 
-    /// Whether it matters that and where balls come to rest. If not, the simulation may end when nothing else is left. It is
-    /// the same throughout a shot.
+    /// Whether it matters that, and where, balls come to rest. If not, the simulation may end when nothing else can happen. Constant during
+    /// a shot.
     fn wants_ends(&self) -> bool {
         true
     }
 
-    /// The object balls, 1 and 2, whose first meeting with the cue ball is all that still matters; `None` where more does.
+    /// The object balls, 1 and 2, whose first collision with the cue ball is all that still matters; `None` if anything else matters.
     fn awaited(&self) -> Option<[bool; BALLS - 1]> {
         None
     }
 
-    /// An event has happened. `Break` ends the simulation: the outcome is decided.
+    /// Receives an event. `Break` ends the simulation, because the outcome is decided.
     fn event(&mut self, event: Event) -> ControlFlow<()>;
 
-    /// A bounce of a chatter, which is told as an event only at its beginning: for whoever keeps accounts of every impact.
+    /// Receives a bounce of a chatter, for observers that count every impact; only the first bounces of a chatter are events.
     fn bounce(&mut self, _bounce: Event) {}
 
-    /// A resting contact is about to be followed for another step, or a chatter has bounced. `Break` gives the shot up.
+    /// Called before each step of a resting contact and at each bounce of a chatter. `Break` gives up the shot.
     fn contact_step(&mut self) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 
-    /// A ball has moved along `segment` until time `end`, s. Called only where [`Observer::wants_segments`] says so.
+    /// Receives a `segment` that a ball has followed until time `end`, s. Only called if [`Observer::wants_segments`] is true.
     fn segment(&mut self, _ball: usize, _segment: &super::Segment, _end: f64) {}
 }

@@ -1,6 +1,5 @@
-//! One step of an ordinary differential equation, as exact as is asked for: extrapolation of the modified midpoint rule
-//! (Gragg 1965, Bulirsch and Stoer 1966), and of the semi-implicit one (Bader and Deuflhard 1983) where the equation is
-//! stiff.
+//! One integration step of an ordinary differential equation with error control: extrapolation of the modified midpoint rule (Gragg 1965,
+//! Bulirsch and Stoer 1966), and of the semi-implicit midpoint rule (Bader and Deuflhard 1983) if the equation is stiff.
 
 use glam::DVec2;
 
@@ -9,13 +8,13 @@ use crate::{
     table::BALLS,
 };
 
-/// Positions, velocities and spins of all balls; as a slope, their rates of change.
+/// Positions, velocities and spins of all balls, or, as a slope, their time derivatives.
 pub type State = [BallState; BALLS];
 
-/// Rounds of extrapolation at most: 2, 4, … 16 midpoints, which makes order 16.
+/// Largest number of extrapolation stages: 2, 4, … 16 midpoints, which gives order 16.
 const ROUNDS: usize = 8;
 
-/// The state and the time since the step's start, s. Whatever parameter a step runs in, the time is one of its unknowns.
+/// State and time since the step's start, s. The time is one of the unknowns, so that a step can use another independent variable.
 #[derive(Clone, Copy, Debug)]
 pub struct Phase {
     /// Positions, velocities and spins.
@@ -24,38 +23,38 @@ pub struct Phase {
     pub time: f64,
 }
 
-/// A step's result.
+/// Result of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Step {
-    /// What is reached at its end.
+    /// State at the end of the step.
     pub end: Phase,
     /// Estimated error: the largest of metres, m/s and R times rad/s.
     pub error: f64,
-    /// Length of the step that would get on fastest, if the solution stays as smooth as it is.
+    /// Step length with the fastest progress, if the solution remains equally smooth.
     pub best_length: f64,
 }
 
-/// Midpoints of each round. Those of the semi-implicit rule are odd multiples of two, for which what is stiff fades.
+/// Midpoints of each stage. The semi-implicit rule uses odd multiples of two, for which stiff components decay.
 const COUNTS: [usize; ROUNDS] = [2, 4, 6, 8, 10, 12, 14, 16];
 const STIFF_COUNTS: [usize; ROUNDS] = [2, 6, 10, 14, 18, 22, 26, 30];
 
-/// Motions that decay much faster than the rest, all of one kind: a deviation of the state is measured by a row and changes
-/// the slope by a column. The part of the slope's derivative that is stiff is the sum of columns times rows; what else there is
-/// to the derivative costs no accuracy, only the length of steps.
+/// Fast decaying modes of the equation: a deviation of the state is measured by a row and changes the slope by a column. The stiff part of
+/// the Jacobian is the sum of all products of columns and rows. The rest of the Jacobian does not affect the accuracy, only the step
+/// length.
 #[derive(Clone, Debug, Default)]
 pub struct Stiff(pub Vec<Mode>);
 
-/// One of them.
+/// A single mode.
 #[derive(Clone, Copy, Debug)]
 pub struct Mode {
-    /// What measures the deviation: its scalar product with velocities and spins.
+    /// Measures the deviation, as a scalar product with velocities and spins.
     pub row: Phase,
-    /// Change of the slope for a unit of it.
+    /// Change of the slope per unit of deviation.
     pub column: Phase,
 }
 
 impl Stiff {
-    /// `(1 - h J)⁻¹` of a change, for the derivative `J` that these modes make.
+    /// Returns a function that multiplies a change by `(1 - h J)⁻¹`, with the Jacobian `J` of these modes.
     fn damper(&self, h: f64) -> impl Fn(&Phase) -> Phase {
         let count = self.0.len();
         let mut matrix: Vec<f64> =
@@ -72,10 +71,10 @@ impl Stiff {
 }
 
 impl Phase {
-    /// Nothing at all: what a sum begins with.
+    /// The zero element, as the start of sums.
     pub const ZERO: Self = Self { balls: [BallState::at_rest(DVec2::ZERO); BALLS], time: 0.0 };
 
-    /// Adds so many times a slope.
+    /// Adds a multiple of a slope.
     #[inline(always)]
     fn add(&mut self, slope: &Self, factor: f64) {
         for (sum, slope) in self.balls.iter_mut().zip(&slope.balls) {
@@ -86,7 +85,7 @@ impl Phase {
         self.time += factor * slope.time;
     }
 
-    /// One step of the Aitken-Neville scheme: becomes `newer` and so many times the difference of that and this.
+    /// Applies one step of the Aitken-Neville scheme: adds to `newer` a multiple of the difference between `newer` and this.
     #[inline(always)]
     fn neville(&mut self, newer: &Self, factor: f64) {
         for (older, newer) in self.balls.iter_mut().zip(&newer.balls) {
@@ -97,30 +96,30 @@ impl Phase {
         self.time = newer.time + factor * (newer.time - self.time);
     }
 
-    /// Scalar product of velocities and spins.
+    /// Returns the scalar product of velocities and spins.
     pub fn dot(&self, other: &Self) -> f64 {
         self.balls.iter().zip(&other.balls).map(|(a, b)| a.velocity.dot(b.velocity) + a.spin.dot(b.spin)).sum()
     }
 }
 
-/// The error of a step of the proposed length, as a share of the tolerance, and how much longer than the last it can be.
+/// Error of a step of the proposed length as a share of the tolerance, and limits of the ratio of successive step lengths.
 const CAUTION: f64 = 0.25;
 const MOST_GROWTH: f64 = 4.0;
 const LEAST_GROWTH: f64 = 0.1;
 
-/// How much of a step is tried next, at least, after one that was given up early: few rounds tell little of the right length, and to try
-/// costs as little.
+/// Least ratio of the next step length after a step that was given up early: few stages give a poor estimate of the right length, and a
+/// trial is cheap.
 const LEAST_GROWTH_AFTER_FEW_ROUNDS: f64 = 0.25;
 
-/// Whether an error stays above the tolerance in so many more rounds, even if each of them reduces it by the square of the factor by
-/// which the last one did. Where the slope jumps within the step nothing converges. The first error has none to be compared with.
+/// Whether the error remains above the tolerance after `rounds` more stages, even if each reduces it by the square of the last reduction
+/// factor. If the slope jumps within the step, nothing converges. The first error has no predecessor to compare with.
 fn is_hopeless(error: f64, error_before: f64, rounds: usize, tolerance: f64) -> bool {
     error_before.is_finite() && error * libm::pow(error / error_before, (2 * rounds) as f64) > tolerance
 }
 
-/// Steps from `begin`, whose slope is `first`, over `length`, in as many rounds as bring the error below `tolerance`, or until it is
-/// plain that none will. The balls have a `radius` in m; the slope of those that do not take part is zero. `stiff` is what decays fast, if
-/// anything does.
+/// Integrates one step of `length` from `begin`, whose slope is `first`, with as many stages as bring the error below `tolerance`, or until
+/// success is unlikely. `radius` is the balls' radius, m; the slope of balls that do not take part is zero. `stiff` contains the fast
+/// decaying modes, if there are any.
 pub fn extrapolate(
     begin: &Phase,
     first: &Phase,
@@ -129,7 +128,7 @@ pub fn extrapolate(
     length: f64,
     (radius, tolerance): (f64, f64),
 ) -> Step {
-    // The last row of the Aitken-Neville table, what is extrapolated farthest first.
+    // The last row of the Aitken-Neville table, with the highest order first.
     let mut row = [Phase::ZERO; ROUNDS];
     let mut best = Step { end: *begin, error: f64::INFINITY, best_length: LEAST_GROWTH * length };
     let (mut least_work, mut done) = (f64::INFINITY, 0.0);
@@ -148,13 +147,13 @@ pub fn extrapolate(
             older[column].neville(&newer[0], 1.0 / (ratio * ratio - 1.0));
         }
         if round > 0 {
-            // An error of this round falls with the power 2 round + 1 of the length.
+            // The error of this stage is proportional to the power 2 round + 1 of the length.
             best.error = distance(&row[0], &row[1], radius);
             let room = CAUTION * tolerance / best.error.max(f64::MIN_POSITIVE);
             let growth = libm::pow(room, 1.0 / (2 * round + 1) as f64).clamp(LEAST_GROWTH, MOST_GROWTH);
             let work = done / growth;
             if work < least_work {
-                // Where another round would have paid, too, it is tried next time.
+                // If another stage would also have been worthwhile, it is tried next time.
                 let more = if work < 0.9 * least_work && round + 1 < ROUNDS {
                     (done + counts[round + 1] as f64) / done
                 } else {
@@ -175,7 +174,7 @@ pub fn extrapolate(
     best
 }
 
-/// Gragg's method: `count` leaps of length `h` over the midpoint, smoothed at the end.
+/// Gragg's method: `count` midpoint steps of length `h`, with smoothing at the end.
 #[inline(always)]
 fn modified_midpoint(
     begin: &Phase,
@@ -193,7 +192,7 @@ fn modified_midpoint(
     before
 }
 
-/// Bader's and Deuflhard's method: the same with the stiff part of the slope implicit.
+/// Bader and Deuflhard's method: the midpoint rule with the stiff part of the slope implicit.
 fn semi_implicit_midpoint(
     begin: &Phase,
     first: &Phase,
@@ -252,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_smooth_is_given_up_early() {
+    fn a_step_over_a_kink_is_given_up_early() {
         let mut slopes = 0;
         let kinked = |phase: &Phase| {
             slopes += 1;
@@ -263,13 +262,13 @@ mod tests {
             Phase { balls: [BallState { velocity: DVec2::X, ..BallState::at_rest(DVec2::X) }; BALLS], time: 1.0 };
         let step = extrapolate(&Phase::ZERO, &first, kinked, None, 0.5, (1.0, 1e-12));
         assert!(step.error > 1e-12 && step.best_length < 0.5, "{step:?}");
-        // All rounds take 72.
+        // All stages need 72.
         assert!(slopes < 30, "{slopes}");
     }
 
-    /// A speed that follows a cosine within a hundred-thousandth of its period: explicit steps would be as short.
+    /// A speed that follows a cosine with a time constant of 1e-5 s: explicit steps would be as short.
     #[test]
-    fn what_decays_fast_is_followed_in_long_steps() {
+    fn a_fast_mode_is_integrated_in_long_steps() {
         const RATE: f64 = 1e5;
         let wanted = |time: f64| DVec2::new(time.cos(), 0.0);
         let slope = |phase: &Phase| {
@@ -288,7 +287,8 @@ mod tests {
         let played = |stiff| extrapolate(&begin, &slope(&begin), slope, stiff, 0.2, (1.0, 1e-12));
         let step = played(Some(&stiff));
         assert!(step.error <= 1e-12 && step.end.balls[1].velocity.distance(wanted(0.2)) < 1e-12, "{step:?}");
-        // What the fast part leaves in its integral is beyond the estimate: a ten-thousandth of its time times the square of a step.
+        // The error that the fast mode leaves in its integral is not part of the estimate: a ten-thousandth of its time constant times the
+        // squared step.
         assert!((step.end.balls[1].position.x - 0.2_f64.sin()).abs() < 1e-10);
         let explicit = played(None).error;
         assert!(explicit.is_nan() || explicit > 1.0, "{explicit}");

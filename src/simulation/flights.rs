@@ -1,4 +1,4 @@
-//! Balls in the air as the engine plays them: how they leave the cloth, what they meet, and how they come to stay on it.
+//! Flight in the engine: how balls leave the cloth, collide in the air, and return to the cloth.
 
 use std::ops::ControlFlow;
 
@@ -18,13 +18,13 @@ use crate::{
     table::{BALLS, PAIRS},
 };
 
-/// A moment is known to so many roundings of itself: that of its sum with the start of a course, and those of the landing's own time.
-/// Smaller: the course that is told has landed already when the ball lands before an impact, and it lands twice. Larger: a ball lands
-/// before an impact that comes first.
+/// Uncertainty of an event time in units of its rounding: from its sum with the start of a trajectory, and from the landing time itself. If
+/// it is too small, a ball that lands just before an impact, and whose reported trajectory has already landed, lands twice. If it is too
+/// large, a ball lands before an impact that comes first.
 const MOMENT: f64 = 4.0;
 
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
-    /// Whether a ball can touch what lies on the cloth or stands at its edge.
+    /// Whether a ball can touch balls on the cloth or the cushions at its edge.
     #[inline(always)]
     pub(super) fn is_on_cloth(&self, index: usize) -> bool {
         !matches!(self.balls[index].segment.motion, Motion::Flying | Motion::OffTable)
@@ -34,7 +34,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         std::array::from_fn(|index| self.is_on_cloth(index))
     }
 
-    /// Sends a ball off on its course through the air, or along the cloth if it does not rise from it.
+    /// Starts the trajectory of a ball through the air, or along the cloth if the ball does not rise from it.
     #[cold]
     pub(super) fn launch_in_space(&mut self, index: usize, now: f64, state: &SpatialState) -> ControlFlow<()> {
         let low = state.position.z <= 0.0;
@@ -44,7 +44,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             Some(cloth) if !low || state.velocity.z > self.constants.tolerance.slowest_in_air => cloth,
             _ => {
                 self.launch(index, now, &state.seen_from_above());
-                return if was_low { ControlFlow::Continue(()) } else { self.tell_landing(index, now) };
+                return if was_low { ControlFlow::Continue(()) } else { self.report_landing(index, now) };
             }
         };
         let hops = Hops::new(&self.constants, &cloth, state);
@@ -58,37 +58,37 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         };
         self.set(index, segment, hops.duration);
         if self.balls[index].mode != ContactMode::Free {
-            // Another bounce may throw it down again at this moment.
+            // Another bounce at this moment may throw the ball down again.
             self.balls[index].mode = ContactMode::Bouncing;
             return ControlFlow::Continue(());
         }
-        if was_low { self.tell(now, EventKind::Jumps(index)) } else { ControlFlow::Continue(()) }
+        if was_low { self.report(now, EventKind::Jumps(index)) } else { ControlFlow::Continue(()) }
     }
 
-    /// Tells that a ball stays on the cloth, and what it does there unless it slides; not where it has not been told that it left it.
-    fn tell_landing(&mut self, index: usize, now: f64) -> ControlFlow<()> {
+    /// Reports that a ball stays on the cloth, and its motion there unless it slides. Reports nothing if its departure was not reported.
+    fn report_landing(&mut self, index: usize, now: f64) -> ControlFlow<()> {
         if self.balls[index].mode != ContactMode::Free {
             return ControlFlow::Continue(());
         }
-        self.tell(now, EventKind::Lands(index))?;
-        self.tell_motion(index, now)
+        self.report(now, EventKind::Lands(index))?;
+        self.report_motion(index, now)
     }
 
-    /// Whether a ball in the air would come down on another one, were it let down where it is.
+    /// Whether a ball in the air would overlap another one if it were put on the cloth at its position.
     fn is_above_another(&self, index: usize, now: f64, state: &SpatialState) -> bool {
         let place = state.position.truncate();
         let overlaps = |other: usize| self.state(other, now).position.distance(place) < self.constants.diameter;
         state.position.z > 0.0 && PAIRS_OF[index].iter().any(|&(_, other)| overlaps(other))
     }
 
-    /// The end of a ball's hops at `time`, which becomes that of the last event if the ball then moves alone.
+    /// Handles the end of a ball's hops at `time`, which becomes the time of the last event if the ball then moves alone.
     #[cold]
     pub(super) fn stay_on_cloth(&mut self, index: usize, time: &mut f64) -> ControlFlow<()> {
         let now = *time;
         let Some(end) = self.balls[index].segment.hops().map(Hops::end) else { return ControlFlow::Continue(()) };
         self.end_segment(index, now);
         self.launch(index, now, &end);
-        self.tell_landing(index, now)?;
+        self.report_landing(index, now)?;
         self.look_ahead_of(now, index)?;
         if S::ALONE && S::KEPT_PREDICTIONS && self.moves_alone(index) {
             return self.play_alone(index, time);
@@ -96,7 +96,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         ControlFlow::Continue(())
     }
 
-    /// A ball that a cushion has lifted.
+    /// Handles a ball that a cushion has lifted.
     #[cold]
     pub(super) fn climb(
         &mut self,
@@ -108,19 +108,19 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     ) -> ControlFlow<()> {
         self.end_segment(index, now);
         let rail = self.balls[index].rail;
-        self.tell(now, EventKind::BallRail(index, rail))?;
+        self.report(now, EventKind::BallRail(index, rail))?;
         self.lift(index, now, state, climb)?;
         self.look_ahead(now, self.with_freed(freed, only(index)))
     }
 
-    /// Sends a ball off the cloth with the upward velocity `climb`, m/s.
+    /// Starts a flight with the upward velocity `climb`, m/s.
     pub(super) fn lift(&mut self, index: usize, now: f64, state: BallState, climb: f64) -> ControlFlow<()> {
         let mut lifted = SpatialState::from(state);
         lifted.velocity.z = climb;
         self.launch_in_space(index, now, &lifted)
     }
 
-    /// A ball in the air meets the nose of a cushion, or comes down behind it.
+    /// Handles a ball in the air that hits the nose of a cushion or lands behind it.
     #[cold]
     pub(super) fn rebound_in_space(&mut self, index: usize, now: f64) -> ControlFlow<()> {
         self.effort_in_air.add(IMPACT_IN_THE_AIR);
@@ -135,20 +135,20 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             let segment =
                 Segment { start: now, motion: Motion::OffTable, ..Segment::at_rest(state.seen_from_above().position) };
             self.set(index, segment, f64::INFINITY);
-            self.tell(now, EventKind::LeavesTable(index))?;
+            self.report(now, EventKind::LeavesTable(index))?;
             return self.look_ahead_of(now, index);
         }
         let slowest = c.tolerance.slowest_in_air;
         let approach = cushion.resolve_in_space(c.radius, slowest, to_nose.normalize(), &mut state);
         self.answer(&mut state);
         let contact = Contact::with_cushion(index, rail.normal());
-        let told = self.is_told(now, &contact, approach);
-        self.tell_impact(now, EventKind::BallRail(index, rail), told)?;
+        let reported = self.is_reported(now, &contact, approach);
+        self.report_impact(now, EventKind::BallRail(index, rail), reported)?;
         self.launch_in_space(index, now, &state)?;
         self.look_ahead_of(now, index)
     }
 
-    /// Two balls meet of which one at least is in the air.
+    /// Handles a collision of two balls, at least one of which is in the air.
     #[cold]
     pub(super) fn collide_in_space(&mut self, pair: usize, now: f64) -> ControlFlow<()> {
         self.effort_in_air.add(IMPACT_IN_THE_AIR);
@@ -168,31 +168,31 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.land_first(now, &mut one);
         self.land_first(now, &mut other);
         let slowest = c.tolerance.slowest_in_air;
-        // Where a ball is in the air there is a cloth that it has left.
+        // If a ball is in the air, there is a cloth that it has left.
         let Some(cloth) = self.cloth else { return ControlFlow::Continue(()) };
         let approach = self.law.balls.resolve_over_cloth(c.radius, slowest, &cloth, &mut one, &mut other);
         for index in [first, second] {
             self.end_segment(index, now);
         }
-        let told = self.is_told(now, &Contact::of_balls(first, second), approach);
-        self.tell_impact(now, EventKind::BallBall(first, second), told)?;
+        let reported = self.is_reported(now, &Contact::of_balls(first, second), approach);
+        self.report_impact(now, EventKind::BallBall(first, second), reported)?;
         for (index, state) in [(first, &one), (second, &other)] {
             self.launch_in_space(index, now, state)?;
-            if !told && self.is_on_cloth(index) {
+            if !reported && self.is_on_cloth(index) {
                 self.begin_contact(index, now)?;
             }
         }
         self.look_ahead(now, self.with_freed(freed.is_some(), changed))
     }
 
-    /// Whether an impact in the air is told, and not one of many with which a ball slides off another or off a nose.
-    fn is_told(&mut self, now: f64, contact: &Contact, approach: f64) -> bool {
+    /// Whether an impact in the air is reported. It is not if it is one of many by which a ball slides off another one or off a nose.
+    fn is_reported(&mut self, now: f64, contact: &Contact, approach: f64) -> bool {
         approach > self.constants.tolerance.slow_bounce
             || !self.chatters.get_or_insert_with(|| Box::new(Chatters::new())).bounce(contact, now)
     }
 
-    /// Lets a ball that comes down on the cloth in the very moment of an impact land before it: which side of the landing its state
-    /// is taken from is rounding's choice. One that would be thrown up too slowly to fly lies there.
+    /// Makes a ball that reaches the cloth at the moment of an impact land before it: otherwise rounding would decide whether its state is
+    /// from before or after the landing. If the ball would rise too slowly to fly, it stays on the cloth.
     fn land_first(&self, now: f64, state: &mut SpatialState) {
         let falls = -state.velocity.z;
         let rounding = if falls > 0.0 { f64::EPSILON * (self.constants.radius + MOMENT * now * falls) } else { 0.0 };
@@ -205,7 +205,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
     }
 
-    /// The cloth's answer to a ball on it that has been struck downwards.
+    /// Applies the response of the cloth to a ball on it that was struck downwards.
     fn answer(&self, state: &mut SpatialState) {
         if let Some(cloth) = self.cloth.filter(|_| state.position.z <= 0.0) {
             cloth.answer(self.constants.radius, state);
@@ -219,15 +219,15 @@ mod tests {
 
     use super::*;
     use crate::{
-        simulation::{All, Constants, End, Event, guards::MOST_TURNS},
+        simulation::{All, Constants, End, Event, guards::MAX_ITERATIONS},
         table::{Flight, Layout, Table},
     };
 
-    /// Events and bounces.
+    /// Kinds of all events and bounces.
     #[derive(Default)]
-    struct Told(Vec<EventKind>);
+    struct Events(Vec<EventKind>);
 
-    impl Observer for Told {
+    impl Observer for Events {
         fn event(&mut self, event: Event) -> ControlFlow<()> {
             self.0.push(event.kind);
             ControlFlow::Continue(())
@@ -238,37 +238,38 @@ mod tests {
         }
     }
 
-    /// What is told of a ball 5 cm above the cloth at `place` when a shot has taken all the work that it may.
+    /// Returns the events of a ball 5 cm above the cloth at `place` if the shot has exhausted its budget.
     fn given_up_at(place: DVec2) -> Vec<EventKind> {
         let table = Table { flight: Some(Flight::default()), ..Table::default() };
         let layout = Layout::new([DVec2::ZERO, DVec2::new(0.5, 0.1), DVec2::new(-0.5, 0.1)]);
-        let mut told = Told::default();
-        let mut engine = Engine::<All, Told>::new(&table, &layout, &mut told);
+        let mut reported = Events::default();
+        let mut engine = Engine::<All, Events>::new(&table, &layout, &mut reported);
         let velocity = DVec3::new(0.3, 0.0, -0.2);
         let state = SpatialState { position: place.extend(0.05), velocity, spin: DVec3::ZERO };
         assert!(engine.launch_in_space(0, 0.0, &state).is_continue());
         engine.exhaust();
         assert!(engine.launch_in_space(0, 0.0, &state).is_continue());
-        told.0
+        reported.0
     }
 
-    /// What follows when a ball that leans on another's top by so much, rad, is let go with a velocity, m/s.
+    /// Releases a ball that leans on another's top, at `angle` from the vertical, rad, with a velocity, m/s. Returns the number of events
+    /// and the end.
     fn let_go(table: &Table, angle: f64, velocity: impl Fn(DVec3) -> DVec3) -> (usize, End) {
         let other = DVec2::new(0.3, 0.2);
         let layout = Layout::new([DVec2::ZERO, other, DVec2::new(-0.5, 0.1)]);
-        let mut told = Told::default();
-        let mut engine = Engine::<All, Told>::new(table, &layout, &mut told);
+        let mut reported = Events::default();
+        let mut engine = Engine::<All, Events>::new(table, &layout, &mut reported);
         let n = DVec3::new(angle.sin(), 0.0, angle.cos());
         let position = other.extend(0.0) + 2.0 * table.radius * n;
         let flow = engine.launch_in_space(0, 0.0, &SpatialState { position, velocity: velocity(n), spin: DVec3::ZERO });
         assert!(flow.is_continue() && engine.look_ahead_of(0.0, 0).is_continue());
         let time = engine.play_on(flow);
         let end = engine.finish(time);
-        (told.0.len(), end)
+        (reported.0.len(), end)
     }
 
-    /// Were the speed that a soft blow gives the lower ball lost in the cloth, and the speed with which the upper one rises taken out of
-    /// its motion across, it would stay where it is, in ever shorter bounces without end.
+    /// If the cloth absorbed the speed that a soft blow gives the lower ball, and the upper ball's rising speed were taken from its
+    /// tangential motion, it would stay there, in ever shorter bounces without end.
     #[test]
     fn a_ball_slides_off_anothers_top_however_softly_it_comes_to_lie_there() {
         for (preset, restitution) in
@@ -291,12 +292,12 @@ mod tests {
         }
     }
 
-    /// Without any motion there is nothing from which it could rise: its bounces fade until time cannot tell them apart.
+    /// Without any motion there is no energy for rising: the bounces fade until the resolution of time is reached.
     #[test]
     fn a_ball_that_is_put_on_anothers_top_ends_the_shot_where_it_is() {
         let (count, end) = let_go(&Table::default(), 1e-9, |_| DVec3::ZERO);
         let [upper, lower, _] = end.balls;
-        assert!(count < MOST_TURNS as usize && end.time < 1.0, "{count} {end:?}");
+        assert!(count < MAX_ITERATIONS as usize && end.time < 1.0, "{count} {end:?}");
         assert!(upper.position.distance(lower.position) < 1e-10, "{end:?}");
         assert!(upper.velocity.length() < 1e-12 && lower.velocity.length() < 1e-12, "{end:?}");
     }

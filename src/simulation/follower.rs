@@ -1,4 +1,4 @@
-//! Where the cue ball is at some times, and the rails that it meets.
+//! Observer that samples the position of the cue ball at given times and records the rails that it hits.
 
 use std::ops::ControlFlow;
 
@@ -10,30 +10,30 @@ use crate::{
     table::{Layout, Rail, Table},
 };
 
-/// A layout whose object balls are out of the way.
+/// Returns a layout with the object balls far outside the table.
 pub fn alone(place: DVec2) -> Layout {
     Layout::new([place, DVec2::new(1e3, 1e3), DVec2::new(-1e3, 1e3)])
 }
 
-/// Follows the cue ball.
+/// Observer that follows the cue ball.
 #[derive(Debug)]
 pub struct Follower<'a> {
     times: &'a [f64],
     end: DVec2,
-    /// The place at each of the times that have passed, m.
+    /// Positions at the times that have passed, m.
     pub places: Vec<DVec2>,
-    /// Time, rail and the ball's centre there.
+    /// Time, rail and centre of the ball for each rail impact.
     pub hits: Vec<(f64, Rail, DVec2)>,
     most_hits: usize,
 }
 
 impl<'a> Follower<'a> {
-    /// Follows until all `times`, ascending, have passed and `most_hits` rails have been met.
+    /// Follows the ball until all `times`, in ascending order, have passed and `most_hits` rails have been hit.
     pub fn new(times: &'a [f64], most_hits: usize) -> Self {
         Self { times, end: DVec2::ZERO, places: Vec::with_capacity(times.len()), hits: Vec::new(), most_hits }
     }
 
-    /// Plays a shot; a ball that lies still before the last time stays where it is.
+    /// Plays a shot. If the ball comes to rest before the last time, its position remains constant.
     #[must_use]
     pub fn of(mut self, table: &Table, layout: &Layout, impulse: &Impulse) -> Self {
         self.end = layout.balls[0];
@@ -49,7 +49,7 @@ impl Observer for Follower<'_> {
     }
 
     fn wants_ends(&self) -> bool {
-        // Which rails are met is known before the ball rests.
+        // The rail impacts are complete before the ball comes to rest.
         !self.times.is_empty()
     }
 

@@ -1,45 +1,45 @@
-//! Guards: how much work a shot may take.
+//! Termination guards: limits on the computational work of a shot.
 //!
-//! Work is counted in multiplications of numbers, not in time, so that a shot is the same on every machine; 10⁹ of them take about half a
-//! second. Of 10⁵ random shots on "thesis" fewer than ten take so much that nothing rests any more, as a test here counts.
+//! Work is counted in multiplications, not in time, so that a shot is the same on every machine; 10⁹ multiplications take about half a
+//! second. Of 10⁵ random shots on "thesis", fewer than ten exceed the budget of resting contacts, as a test here verifies.
 
-/// Multiplications for the forces on contacts where it is known what holds, times the square of their number.
+/// Multiplications for the contact forces of a known active set, per square of the number of contacts.
 pub const HELD: u64 = 700;
 
-/// Multiplications in what else a step of a resting contact does, the roots of its predictions among them.
+/// Multiplications for everything else in a step of a resting contact, including the root finding of its predictions.
 pub const STEP: u64 = 14_000;
 
-/// Multiplications after which a step of a resting contact is given up, and with it all resting contacts of the shot: some hundred times
-/// as many as most steps take.
-pub const MOST_STEP: u64 = 6_000_000;
+/// Budget of a step of a resting contact. When it is spent, all resting contacts of the shot are given up. Most steps take about a
+/// hundredth of it.
+pub const STEP_BUDGET: u64 = 6_000_000;
 
-/// Multiplications after which nothing rests any more: see [`super::micro_collisions`].
-pub const MOST_RESTING: u64 = 36_000_000;
+/// Budget of resting contacts and chatters; when it is spent, resting contacts are disabled: see [`super::micro_collisions`].
+pub const RESTING_BUDGET: u64 = 36_000_000;
 
-/// Budget, in multiplications, once nothing rests (impacts in the air included); when it is spent the shot is ended, which is not physics:
-/// what takes part in another contact stands still from then on, and the audit of the stability table misses the energy.
-pub const MOST_WITHOUT_REST: u64 = 64_000_000;
+/// Budget after resting contacts are disabled (including impacts in the air). When it is spent, the shot is ended, which is not physics: a
+/// ball in another contact stands still from then on, and the energy audit of the stability table shows the missing energy.
+pub const BUDGET_WITHOUT_REST: u64 = 64_000_000;
 
-/// The same for impacts in the air alone, which micro-collisions would not spare.
-pub const MOST_IN_THE_AIR: u64 = 85_000_000;
+/// Budget of impacts in the air alone, which micro-collisions would not reduce.
+pub const AIR_BUDGET: u64 = 85_000_000;
 
-/// Multiplications in the bounce of a chatter. Where bounces lose nothing, a ball that is pressed bounces until its spin has died down;
-/// they and the turns of the general loop that they take must fit into the work of resting contacts.
+/// Multiplications for the bounce of a chatter. If bounces lose nothing, a pressed ball bounces until its spin has decayed; these bounces
+/// and their iterations of the general loop must fit into the budget of resting contacts.
 pub const BOUNCE: u64 = 1600;
 
-/// Multiplications in an impact in the air.
+/// Multiplications for an impact in the air.
 pub const IMPACT_IN_THE_AIR: u64 = 3300;
 
-/// Turns of the loops after which a shot ends where it is: ends of motions, impacts, and bounces and steps of resting contacts that
-/// are not told as events. This is a guard, not physics, for what repeats in the air without end; a shot takes some ten turns, and one
-/// with a chatter some hundred. A bounce takes up to five: its own, and the ends of sliding and of rolling of two balls. Fewer would end
-/// shots before nothing rests any more.
-pub const MOST_TURNS: u32 = 120_000;
-const _: () = assert!(MOST_TURNS as u64 > 5 * MOST_RESTING / BOUNCE);
+/// Iterations of the event loops after which a shot ends where it is: ends of motion phases, impacts, and unreported bounces and steps of
+/// resting contacts. This is a guard, not physics, for motion in the air that repeats without end. A shot takes about ten iterations, one
+/// with a chatter about a hundred. A bounce takes up to five: its own, and the ends of sliding and of rolling of two balls. A smaller limit
+/// would end shots before resting contacts are disabled.
+pub const MAX_ITERATIONS: u32 = 120_000;
+const _: () = assert!(MAX_ITERATIONS as u64 > 5 * RESTING_BUDGET / BOUNCE);
 
-/// The same once nothing rests any more.
-pub const MOST_TURNS_WITHOUT_REST: u32 = 250_000;
-const _: () = assert!(MOST_TURNS_WITHOUT_REST as u64 > 5 * MOST_WITHOUT_REST / BOUNCE);
+/// The same limit after resting contacts are disabled.
+pub const MAX_ITERATIONS_WITHOUT_REST: u32 = 250_000;
+const _: () = assert!(MAX_ITERATIONS_WITHOUT_REST as u64 > 5 * BUDGET_WITHOUT_REST / BOUNCE);
 
 #[cfg(test)]
 mod tests {
@@ -54,7 +54,7 @@ mod tests {
         table::{Layout, Table},
     };
 
-    /// Hears of everything and minds nothing.
+    /// An observer that accepts and ignores everything.
     struct Nobody;
 
     impl Observer for Nobody {

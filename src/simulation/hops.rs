@@ -1,65 +1,65 @@
-//! A flight and the hops that follow it, in closed form: what a ball does from leaving the cloth until it stays on it.
+//! A flight and the hops that follow it, in closed form: the motion of a ball from leaving the cloth until it stays on it.
 //!
-//! Coming down with speed `V`, the ball leaves again with `e V`, comes down with that, and so on: the hops last `2 V eⁱ / g`
-//! and all of them together `2 V e / g (1 - e)`. Each time the cloth rubs with `c eⁱ`, `c = mu (1 + e) V`, against the slip,
-//! whose direction stays, until no slip is left; so places, velocities and spins are geometric sums.
+//! A ball that lands with the speed `V` leaves again with `e V`, lands with that, and so on. The hops last `2 V eⁱ / g`, and all of them
+//! together `2 V e / g (1 - e)`. At each landing, the cloth's friction impulse is `c eⁱ`, `c = mu (1 + e) V`, against the slip, whose
+//! direction is constant until the slip is zero. Positions, velocities and spins are therefore geometric sums.
 
 use glam::{DVec2, DVec3};
 
 use super::Constants;
 use crate::physics::{BallState, Cloth, SpatialState, rolling_spin, slip, turned_by_cloth};
 
-/// Up to so many landings powers are multiplied; an exponential costs as much as that.
+/// Number of landings up to which powers are multiplied; an exponential costs the same.
 const FEW: u32 = 8;
 
-/// From one landing to the next: a parabola.
+/// Flight from one landing to the next: a parabola.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
-    /// When it begins, s since the course's start.
+    /// Start, s since the trajectory's start.
     pub begin: f64,
-    /// When it ends, s since the course's start.
+    /// End, s since the trajectory's start.
     pub end: f64,
-    /// Centre at its beginning, m; `z` is the height over the place on the cloth.
+    /// Centre at the start, m; `z` is the height above that of a ball on the cloth.
     pub position: DVec3,
-    /// Velocity at its beginning, m/s.
+    /// Velocity at the start, m/s.
     pub velocity: DVec3,
 }
 
-/// The course of a ball that flies, comes down, and hops until it stays on the cloth.
+/// Trajectory of a ball that flies, lands, and hops until it stays on the cloth.
 #[derive(Clone, Copy, Debug)]
 pub struct Hops {
     start: SpatialState,
-    /// What it comes down on.
+    /// The cloth on which the ball lands.
     pub cloth: Cloth,
     radius: f64,
-    /// When it first comes down, s since the start, and how fast, m/s.
+    /// Time of the first landing, s since the start, and its vertical speed, m/s.
     first: f64,
     landing: f64,
-    /// Direction of the slip at the start, and its size, m/s.
+    /// Direction of the slip at the start, and its magnitude, m/s.
     direction: DVec2,
     slip: f64,
-    /// Friction of the first landing, m/s.
-    rub: f64,
-    /// The landing at which no slip is left, counted from none; `None` if the ball still slides after the last hop.
+    /// Friction impulse per mass of the first landing, m/s.
+    friction_impulse: f64,
+    /// Index, from zero, of the landing at which the slip becomes zero; `None` if the ball still slides after the last hop.
     sticks: Option<u32>,
-    /// How long all of it lasts, s.
+    /// Duration of flight and hops, s.
     pub duration: f64,
-    /// The velocity along the cloth after the last hop, m/s. All before it lie between the first and this one.
+    /// Velocity along the cloth after the last hop, m/s. All earlier ones lie between the initial velocity and this one.
     pub last_velocity: DVec2,
 }
 
 impl Hops {
-    /// The course of a ball in the air, or of one that leaves the cloth.
+    /// Computes the trajectory of a ball in the air, or of one that leaves the cloth.
     pub fn new(constants: &Constants, cloth: &Cloth, start: &SpatialState) -> Self {
         let Cloth { restitution: e, friction, gravity: g } = *cloth;
         let radius = constants.radius;
         let (height, climb) = (start.position.z.max(0.0), start.velocity.z);
         let landing = climb.mul_add(climb, 2.0 * g * height).sqrt();
-        // Without cancellation, whichever way the ball moves.
+        // Without cancellation for both signs of the vertical velocity.
         let first = if climb > 0.0 { (climb + landing) / g } else { 2.0 * height / (landing - climb) };
         let u = slip(radius, start.velocity.truncate(), start.spin);
         let size = u.length();
-        let rub = friction * (1.0 + e) * landing;
+        let friction_impulse = friction * (1.0 + e) * landing;
         let mut hops = Self {
             start: *start,
             cloth: *cloth,
@@ -68,7 +68,7 @@ impl Hops {
             landing,
             direction: if size > 0.0 { u / size } else { DVec2::ZERO },
             slip: size,
-            rub,
+            friction_impulse,
             sticks: None,
             duration: 0.0,
             last_velocity: DVec2::ZERO,
@@ -77,12 +77,12 @@ impl Hops {
         hops.duration = hops.first + hops.per_speed() * landing * e / (1.0 - e);
         hops.last_velocity = match hops.sticks {
             Some(_) => hops.rolling(),
-            None => hops.rubbed(rub / (1.0 - e)).0,
+            None => hops.rubbed(friction_impulse / (1.0 - e)).0,
         };
         hops
     }
 
-    /// `(1 - eⁿ) / (1 - e)`: the sum of the first `n` powers of the restitution.
+    /// Returns `(1 - eⁿ) / (1 - e)`: the sum of the first `n` powers of the restitution.
     fn powers(&self, count: u32) -> f64 {
         let e = self.cloth.restitution;
         if count <= FEW {
@@ -92,17 +92,17 @@ impl Hops {
         }
     }
 
-    /// The restitution's logarithm.
+    /// Returns `ln e`.
     fn decay(&self) -> f64 {
         libm::log1p(self.cloth.restitution - 1.0)
     }
 
-    /// `n ln e`.
+    /// Returns `n ln e`.
     fn power(&self, count: u32) -> f64 {
         f64::from(count) * self.decay()
     }
 
-    /// `eⁿ`.
+    /// Returns `eⁿ`.
     fn decayed(&self, count: u32) -> f64 {
         if count <= FEW {
             (0..count).fold(1.0, |power, _| power * self.cloth.restitution)
@@ -111,11 +111,11 @@ impl Hops {
         }
     }
 
-    /// The first landing whose friction would take all slip.
+    /// Returns the first landing at which friction would remove the remaining slip.
     fn sticking(&self) -> Option<u32> {
-        let least = self.slip / (3.5 * self.rub);
+        let least = self.slip / (3.5 * self.friction_impulse);
         let e = self.cloth.restitution;
-        // Not a number where nothing slips and nothing rubs.
+        // NaN if there is neither slip nor friction.
         if least.is_nan() || least <= 1.0 {
             return Some(0);
         }
@@ -123,27 +123,27 @@ impl Hops {
         if left <= 0.0 {
             return None;
         }
-        // The logarithm may be off by one.
+        // The rounded logarithm may be off by one.
         let near = (libm::log(left) / self.decay()).ceil().min(1e6) as u32;
         (near.saturating_sub(2)..=near + 1).find(|&landing| self.powers(landing + 1) >= least)
     }
 
-    /// What two hops' flights last, s, for each m/s of the landing between them.
+    /// Returns the duration of a hop per m/s of its initial vertical speed, s²/m.
     fn per_speed(&self) -> f64 {
         2.0 / self.cloth.gravity
     }
 
-    /// The velocity along the cloth when no slip is left, m/s.
+    /// Returns the velocity along the cloth when the slip is zero, m/s.
     fn rolling(&self) -> DVec2 {
         self.start.velocity.truncate() - (2.0 / 7.0 * self.slip) * self.direction
     }
 
-    /// Velocity along the cloth and spin after so many landings.
+    /// Returns velocity along the cloth and spin after `landings` landings.
     fn motion(&self, landings: u32) -> (DVec2, DVec3) {
         if self.sticks.is_some_and(|last| landings > last) {
             return self.rolls();
         }
-        self.rubbed(self.rub * self.powers(landings))
+        self.rubbed(self.friction_impulse * self.powers(landings))
     }
 
     fn rolls(&self) -> (DVec2, DVec3) {
@@ -151,32 +151,32 @@ impl Hops {
         (velocity, rolling_spin(self.radius, velocity).extend(self.start.spin.z))
     }
 
-    /// The same when the cloth has rubbed by so much, m/s.
+    /// Returns velocity along the cloth and spin after a total friction impulse per mass of `rubbed`, m/s.
     fn rubbed(&self, rubbed: f64) -> (DVec2, DVec3) {
         let impulse = -rubbed * self.direction;
         (self.start.velocity.truncate() + impulse, self.start.spin + turned_by_cloth(self.radius, impulse).extend(0.0))
     }
 
-    /// Centre at the landing with this number, m.
+    /// Returns the centre at the landing with this index, m.
     fn place(&self, landing: u32) -> DVec2 {
         let e = self.cloth.restitution;
         let velocity = self.start.velocity.truncate();
         let slides = self.sticks.map_or(landing, |last| last.min(landing));
         let sum = self.powers(slides);
-        let rubbed = self.rub * sum * self.powers(slides + 1) / (1.0 + e);
-        let mut way = e * (sum * velocity - rubbed * self.direction);
+        let rubbed = self.friction_impulse * sum * self.powers(slides + 1) / (1.0 + e);
+        let mut displacement = e * (sum * velocity - rubbed * self.direction);
         if landing > slides {
-            way += self.decayed(slides + 1) * self.powers(landing - slides) * self.rolling();
+            displacement += self.decayed(slides + 1) * self.powers(landing - slides) * self.rolling();
         }
-        self.touchdown() + self.per_speed() * self.landing * way
+        self.touchdown() + self.per_speed() * self.landing * displacement
     }
 
-    /// Where the ball first comes down, m.
+    /// Returns the position of the first landing, m.
     fn touchdown(&self) -> DVec2 {
         self.start.position.truncate() + self.first * self.start.velocity.truncate()
     }
 
-    /// State of the ball on the cloth after the last hop.
+    /// Returns the state of the ball on the cloth after the last hop.
     pub fn end(&self) -> BallState {
         let e = self.cloth.restitution;
         let (position, (velocity, spin)) = if let Some(last) = self.sticks {
@@ -184,13 +184,17 @@ impl Hops {
             (self.place(last) + self.per_speed() * self.landing * rest * self.rolling(), self.rolls())
         } else {
             let sum = 1.0 / (1.0 - e);
-            let way = e * sum * (self.start.velocity.truncate() - self.rub * sum / (1.0 + e) * self.direction);
-            (self.touchdown() + self.per_speed() * self.landing * way, self.rubbed(self.rub * sum))
+            let displacement =
+                e * sum * (self.start.velocity.truncate() - self.friction_impulse * sum / (1.0 + e) * self.direction);
+            (
+                self.touchdown() + self.per_speed() * self.landing * displacement,
+                self.rubbed(self.friction_impulse * sum),
+            )
         };
         BallState { position, velocity, spin }
     }
 
-    /// The flight after so many landings.
+    /// Returns the flight after `landings` landings.
     pub fn arc(&self, landings: u32) -> Arc {
         if landings == 0 {
             let SpatialState { position, velocity, .. } = self.start;
@@ -206,7 +210,7 @@ impl Hops {
         }
     }
 
-    /// How many landings there have been `t` seconds after the start.
+    /// Returns the number of landings `t` seconds after the start.
     pub fn landings(&self, t: f64) -> u32 {
         let e = self.cloth.restitution;
         if t < self.first || e == 0.0 {
@@ -217,7 +221,7 @@ impl Hops {
         if left <= 0.0 { u32::MAX } else { 1 + (libm::log(left) / self.decay()).floor().clamp(0.0, 1e9) as u32 }
     }
 
-    /// Position, velocity and spin `t` seconds after the start.
+    /// Returns position, velocity and spin `t` seconds after the start.
     pub fn state_after(&self, t: f64) -> SpatialState {
         let landings = self.landings(t);
         if landings == u32::MAX || t >= self.duration {
@@ -232,9 +236,9 @@ impl Hops {
         SpatialState { position, velocity: arc.velocity - fallen * DVec3::Z, spin }
     }
 
-    /// The greatest speed along the cloth from that arc on, m/s.
+    /// Returns the greatest speed along the cloth from that arc on, m/s.
     pub fn fastest(&self, arc: &Arc) -> f64 {
-        // Velocities lie on a line: the longest stands at one of its ends.
+        // The velocities lie on a line segment, so that the largest is at one of its ends.
         arc.velocity.truncate().length_squared().max(self.last_velocity.length_squared()).sqrt()
     }
 }
@@ -250,7 +254,7 @@ mod tests {
         Constants::of(&Table::preset("textbook").unwrap())
     }
 
-    /// The same, one landing after another, until hops are too low to matter.
+    /// Reference: simulates the landings one by one until hops are too low to matter.
     fn one_by_one(constants: &Constants, cloth: &Cloth, start: &SpatialState) -> (f64, SpatialState) {
         let (mut ball, mut time) = (*start, 0.0);
         for _ in 0..20_000 {
@@ -311,8 +315,8 @@ mod tests {
             for landings in 0..12 {
                 let (arc, next) = (hops.arc(landings), hops.arc(landings + 1));
                 prop_assert!((arc.end - next.begin).abs() < 1e-13);
-                let way = arc.position.truncate() + (arc.end - arc.begin) * arc.velocity.truncate();
-                prop_assert!(way.distance(next.position.truncate()) < 1e-12);
+                let displacement = arc.position.truncate() + (arc.end - arc.begin) * arc.velocity.truncate();
+                prop_assert!(displacement.distance(next.position.truncate()) < 1e-12);
                 let middle = 0.5 * (arc.begin + arc.end);
                 prop_assert_eq!(hops.landings(middle), landings);
                 let state = hops.state_after(middle);

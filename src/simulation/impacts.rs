@@ -1,4 +1,4 @@
-//! Impacts as events: single ones, several at one moment, and the slow ones of a chatter.
+//! Impact events: single impacts, several at one moment, and the slow ones of a chatter.
 
 use std::ops::ControlFlow;
 
@@ -18,15 +18,15 @@ use crate::{
     table::{BALLS, PAIRS},
 };
 
-/// Impacts at one moment after which those that go on are solved without restitution: three touching balls against a
-/// cushion exchange some dozens, an inelastic collapse infinitely many.
+/// Number of impacts at one moment after which further ones are solved without restitution. Three touching balls against a cushion need
+/// some dozens; an inelastic collapse would need infinitely many.
 const MOST_ROUNDS: u32 = 64;
 
-/// Impacts at one moment after which balls are jammed between cushions: a ball that rolls past others in a row that fills the table
-/// needs more room than rounding leaves, until it has passed, and no impulse gives it.
+/// Number of impacts at one moment after which balls count as jammed between cushions. A ball that rolls past others in a row that fills
+/// the table needs more room than rounding leaves, until it has passed, and no impulse creates that room.
 const JAMMED_ROUNDS: u32 = 2 * MOST_ROUNDS;
 
-/// Room behind a cushion for a jammed ball, in gaps that count as none: so much that the next impact comes later.
+/// Room behind a cushion for a jammed ball, in units of the touching tolerance: large enough for the next impact to come later.
 const ROOM_FOR_JAMMED: f64 = 4.0;
 
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
@@ -58,14 +58,14 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if impulse.climb > c.lifts {
             return self.climb(index, now, state, impulse.climb, freed.is_some());
         }
-        let mut told = true;
+        let mut reported = true;
         if state.velocity.dot(n) <= c.tolerance.slow_bounce {
             let contact = Contact::with_cushion(index, n);
-            // A dead nose above the centre that does not throw the ball back has stopped it by its own law. A bounce that is too slow to be
-            // followed has not happened.
+            // An inelastic nose above the centre that does not throw the ball back has stopped it by its own law. In other cases, a bounce
+            // that is too slow to be followed is undone.
             let [sine, _] = self.law_at(approach).cushions.at(rail).nose();
             let is_stopped = sine > 0.0 && approach > c.tolerance.slow_bounce && state.velocity.dot(n) <= 0.0;
-            told = self.slow_bounce(now, &contact)?;
+            reported = self.slow_bounce(now, &contact)?;
             if let Some(rests) = self.chatter_end(now, freed.as_ref(), &contact, &[(index, state)]) {
                 return self.end_chatter(
                     now,
@@ -73,13 +73,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                     &[(index, if is_stopped { state } else { before })],
                     &rests,
                     EventKind::BallRail(index, rail),
-                    told,
+                    reported,
                 );
             }
         }
         self.end_segment(index, now);
         self.launch(index, now, &state);
-        self.tell_impact(now, EventKind::BallRail(index, rail), told)?;
+        self.report_impact(now, EventKind::BallRail(index, rail), reported)?;
         if freed.is_some() {
             self.look_ahead(now, self.with_freed(true, only(index)))
         } else {
@@ -110,34 +110,34 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let before = (a, b);
         let c = self.constants;
         if self.micro_collisions.is_some() {
-            self.part(&mut a, &mut b);
+            self.separate(&mut a, &mut b);
             let approach = (b.velocity - a.velocity).dot((a.position - b.position).normalize());
             self.law_at(approach).balls.resolve(c.radius, &mut a, &mut b);
         } else {
             self.law.balls.resolve(c.radius, &mut a, &mut b);
         }
         let opening = (a.velocity - b.velocity).dot(a.position - b.position);
-        let mut told = true;
+        let mut reported = true;
         if opening <= c.diameter * c.tolerance.slow_bounce {
             let contact = Contact::of_balls(first, second);
-            told = self.slow_bounce(now, &contact)?;
+            reported = self.slow_bounce(now, &contact)?;
             if let Some(rests) = self.chatter_end(now, freed.as_ref(), &contact, &[(first, a), (second, b)]) {
                 let before = [(first, before.0), (second, before.1)];
-                return self.end_chatter(now, freed, &before, &rests, EventKind::BallBall(first, second), told);
+                return self.end_chatter(now, freed, &before, &rests, EventKind::BallBall(first, second), reported);
             }
         }
         self.end_segment(first, now);
         self.end_segment(second, now);
         self.launch(first, now, &a);
         self.launch(second, now, &b);
-        self.tell_impact(now, EventKind::BallBall(first, second), told)?;
+        self.report_impact(now, EventKind::BallBall(first, second), reported)?;
         self.look_ahead(now, self.with_freed(freed.is_some(), changed))
     }
 
-    /// Whether a ball that meets a cushion touches another ball: with that one it may meet a rounding later, which nothing has foreseen.
+    /// Whether a ball that hits a cushion touches another ball: they may collide a rounding error later, which no prediction contains.
     #[inline(always)]
     fn touches_another(&self, index: usize, now: f64) -> bool {
-        // What rests knows its own contacts.
+        // A resting contact has its own list of contacts.
         if self.resting.is_some() || self.balls[index].mode != ContactMode::Free {
             return false;
         }
@@ -149,7 +149,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         PAIRS_OF[index].iter().any(|&(_, other)| here.distance_squared(place(other)) <= near * near)
     }
 
-    /// Whether other impacts may happen at this very moment, or too many have.
+    /// Whether other impacts may happen at this moment, or too many have happened.
     #[inline(always)]
     pub(super) fn is_crowded(&mut self, now: f64) -> bool {
         self.rounds = if now - self.last_impact <= SAME_TIME { self.rounds + 1 } else { 0 };
@@ -161,7 +161,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         at_once > 1 || self.inelastic || self.rounds > MOST_ROUNDS
     }
 
-    /// All contacts that close now collide together, if there are several.
+    /// Resolves all contacts that close now together, if there are several. Returns whether they have collided.
     #[cold]
     pub(super) fn collide_at_once(&mut self, now: f64) -> ControlFlow<(), bool> {
         self.effort.add(BOUNCE);
@@ -172,7 +172,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             _ => self.state(index, now),
         });
         let c = self.constants;
-        // Without any restitution the rounds would go on for ever; their limit is one impact of all that touches.
+        // Without restitution the rounds would never end; their limit is one impact of all touching contacts.
         let collapsed = (self.inelastic && self.micro_collisions.is_none()) || self.rounds > MOST_ROUNDS;
         let contacts = touching(&c, &states, self.on_cloth(), |opening| {
             opening < -c.tolerance.opening || (collapsed && opening <= 0.0)
@@ -184,7 +184,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         for (ball, changed) in changed.iter_mut().enumerate() {
             *changed = contacts.hold(ball);
         }
-        // A ball falls through the room of a micro-collision before it bounces again; one that is jammed gets room behind the cushion.
+        // In a micro-collision, a ball crosses a small gap before it bounces again; a jammed ball gets room behind the cushion.
         let room = match self.micro_collisions {
             Some(_) => c.tolerance.micro_room,
             None if self.rounds > JAMMED_ROUNDS => -ROOM_FOR_JAMMED * c.tolerance.touching,
@@ -203,19 +203,19 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let impulses = collide_together(c.radius, &law, &mut states, &contacts);
         let met = || contacts.iter().zip(&impulses).filter(|(_, impulse)| impulse.normal > 0.0);
         if met().next().is_none() {
-            // Balls that stand where they touch: what has met now is something else.
+            // The balls only touch without closing: the predicted impact is a different one.
             return ControlFlow::Continue(false);
         }
         let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
         let climbs = |impulse: &ImpactImpulse| impulse.climb > c.lifts;
-        let mut told = Vec::with_capacity(MAX_CONTACTS);
+        let mut reported = Vec::with_capacity(MAX_CONTACTS);
         for (contact, impulse) in met() {
             let slow = contact.opening_speed(&states) <= c.tolerance.slow_bounce && !climbs(impulse);
-            told.push(!slow || self.slow_bounce(now, contact)?);
+            reported.push(!slow || self.slow_bounce(now, contact)?);
         }
         self.relaunch(now, changed, &states);
-        for ((contact, _), told) in met().zip(told) {
-            self.tell_impact(now, kind(contact), told)?;
+        for ((contact, _), reported) in met().zip(reported) {
+            self.report_impact(now, kind(contact), reported)?;
         }
         for (contact, impulse) in met().filter(|(_, impulse)| climbs(impulse)) {
             self.lift(contact.first, now, states[contact.first], impulse.climb)?;
@@ -224,17 +224,17 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         ControlFlow::Continue(true)
     }
 
-    /// Tells an impact as an event, or as a bounce if it belongs to a chatter.
+    /// Reports an impact as an event, or as a bounce if it belongs to a chatter.
     #[inline(always)]
-    pub(super) fn tell_impact(&mut self, now: f64, kind: EventKind, told: bool) -> ControlFlow<()> {
-        if told {
-            return self.tell(now, kind);
+    pub(super) fn report_impact(&mut self, now: f64, kind: EventKind, reported: bool) -> ControlFlow<()> {
+        if reported {
+            return self.report(now, kind);
         }
         self.observer.bounce(Event { time: now, kind });
         ControlFlow::Continue(())
     }
 
-    /// Takes note of a slow bounce: tells the beginning of a chatter once, and whether the bounce itself is to be told.
+    /// Records a slow bounce: reports the beginning of a chatter once, and returns whether the bounce itself is reported.
     #[cold]
     pub(super) fn slow_bounce(&mut self, now: f64, contact: &Contact) -> ControlFlow<(), bool> {
         self.effort.add(BOUNCE);
@@ -249,7 +249,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         ControlFlow::Continue(false)
     }
 
-    /// The contacts that come to rest with one that has just bounced; `bounced` are its balls after the bounce.
+    /// Returns the contacts that come to rest together with one that has just bounced; `bounced` are its balls after the bounce.
     #[cold]
     pub(super) fn chatter_end(
         &self,
@@ -268,7 +268,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         (now + end.lasts < self.next_meeting_aloft()).then_some(end.contacts)
     }
 
-    /// When two balls next meet of which one at least is in the air, s: it may throw others back into the contacts that they have left.
+    /// Returns the next collision time of two balls, at least one of which is in the air, s: it may throw others back into the contacts
+    /// that they have left.
     fn next_meeting_aloft(&self) -> f64 {
         let meets = |(pair, &(first, second)): (usize, &(usize, usize))| {
             let on_cloth = self.is_on_cloth(first) && self.is_on_cloth(second);
@@ -277,7 +278,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         PAIRS.iter().enumerate().map(meets).fold(f64::INFINITY, f64::min)
     }
 
-    /// All balls now, some of them as given.
+    /// Returns the states of all balls now, some of them as `given`.
     pub(super) fn states_with(
         &self,
         now: f64,
@@ -294,8 +295,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         balls
     }
 
-    /// Ends a chatter with one impact without restitution of all contacts that rest from now on; `before` are the balls of the
-    /// contact that has met.
+    /// Ends a chatter with one inelastic impact of all contacts that rest from now on; `before` are the balls of the contact that has
+    /// closed.
     #[cold]
     pub(super) fn end_chatter(
         &mut self,
@@ -304,7 +305,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         before: &[(usize, BallState)],
         rests: &Contacts,
         impact: EventKind,
-        told: bool,
+        reported: bool,
     ) -> ControlFlow<()> {
         let mut states = self.states_with(now, freed.as_ref(), before);
         let c = self.constants;
@@ -313,7 +314,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let law = self.law.with_restitution(0.0);
         let mut given = [0.0; MAX_CONTACTS];
         for round in 0..MOST_ROUNDS {
-            // What has met closes, however slowly: balls that never slip lose their slip.
+            // The contact that has closed takes part however slowly it closes: balls that never slip lose their slip.
             if round > 0 && !contacts.iter().any(|contact| contact.opening_speed(&states) < -0.1 * c.tolerance.opening)
             {
                 break;
@@ -321,7 +322,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             let impulses = collide_together(c.radius, &law, &mut states, contacts);
             given.iter_mut().zip(impulses).for_each(|(given, impulse)| *given += impulse.normal);
         }
-        // What one of them has given another is a bounce, too, but for one that is too fast to be left out.
+        // A push from one contact to another is a bounce, too, unless it is too fast to be omitted.
         let (mut ended, mut given_there) = (Contacts::NONE, [0.0; MAX_CONTACTS]);
         for (contact, given) in contacts.iter().zip(given) {
             if contact.opening_speed(&states) < c.tolerance.slowest_coupled_bounce {
@@ -332,18 +333,18 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         stop_by_impulses(self.table, &mut states, &ended, &ActiveSet::SLIPPING, &given_there);
         let changed = std::array::from_fn(|ball| rests.hold(ball));
         self.relaunch(now, changed, &states);
-        self.tell_impact(now, impact, told)?;
+        self.report_impact(now, impact, reported)?;
         for (contact, _) in
             contacts.iter().zip(given).filter(|(contact, given)| *given > 0.0 && kind(contact) != impact)
         {
-            let told = self.slow_bounce(now, contact)?;
-            self.tell_impact(now, kind(contact), told)?;
+            let reported = self.slow_bounce(now, contact)?;
+            self.report_impact(now, kind(contact), reported)?;
         }
         self.look_ahead(now, self.with_freed(freed.is_some(), changed))
     }
 }
 
-/// The event that an impact is.
+/// Returns the event of an impact.
 fn kind(contact: &Contact) -> EventKind {
     match contact.second {
         Some(second) => EventKind::BallBall(contact.first, second),

@@ -1,4 +1,4 @@
-//! What a player tells of flights: how high and how far each went, and how balls left the table.
+//! Flights for reports to the player: height and length of each, and how balls left the table.
 
 use glam::DVec2;
 
@@ -8,31 +8,31 @@ use crate::{
     table::{BALLS, Layout, Table},
 };
 
-/// Height from which on a hop is told, m. Every stroke over a rail and every rail lifts a ball by less, and nobody sees it.
+/// Height from which a hop is reported, m. Every stroke over a rail and every rail impact causes lower hops, which are invisible.
 pub const TOLD_HEIGHT: f64 = 0.002;
 
-/// A ball's time in the air, from leaving the cloth until it stays on it again or leaves the table, hops included.
+/// A ball's flight, from leaving the cloth until it stays on it or leaves the table, including hops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jump {
     /// The ball.
     pub ball: usize,
-    /// When it leaves the cloth, s.
+    /// Time at which it leaves the cloth, s.
     pub start: f64,
-    /// When it stays on it, leaves the table, or the shot ends, s.
+    /// Time at which it stays on the cloth or leaves the table, or at which the shot ends, s.
     pub end: f64,
-    /// Its greatest height over where it lay, m.
+    /// Greatest height above its position on the cloth, m.
     pub height: f64,
-    /// How far from where it left the cloth it first comes down, or meets something, m.
+    /// Distance from leaving the cloth to the first landing or collision, m.
     pub distance: f64,
 }
 
 impl Jump {
-    /// Whether it is high enough to be told.
+    /// Whether the flight is high enough to be reported.
     pub fn is_told(&self) -> bool {
         self.height >= TOLD_HEIGHT
     }
 
-    /// Whether the ball is in the air then.
+    /// Whether the ball is in the air at `time`.
     pub fn is_at(&self, time: f64) -> bool {
         (self.start..=self.end).contains(&time)
     }
@@ -41,15 +41,15 @@ impl Jump {
 /// How a ball left the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OffTable {
-    /// The rail over which it went.
+    /// The rail over which it left.
     pub over: Rail,
-    /// Where it comes on the table again, m.
+    /// Its position after it has been spotted, m.
     pub spot: DVec2,
 }
 
 impl OffTable {
-    /// How each ball left the table that `off_table` names: `places` are where the balls are in the end, m, and `layout` has
-    /// those balls back on their spots.
+    /// Returns how each ball in `off_table` left the table: `places` are the final positions of the balls, m, and `layout` has those balls
+    /// on their spots.
     fn all(reach: DVec2, places: [DVec2; BALLS], off_table: [bool; BALLS], layout: &Layout) -> [Option<Self>; BALLS] {
         std::array::from_fn(|ball| {
             let place = places[ball];
@@ -66,19 +66,19 @@ impl OffTable {
 }
 
 impl End {
-    /// How balls left the table.
+    /// Returns how balls left the table.
     pub fn left_table(&self, table: &Table) -> [Option<OffTable>; BALLS] {
         OffTable::all(table.reach(), self.balls.map(|ball| ball.position), self.off_table, &self.layout(table))
     }
 }
 
 impl Recording {
-    /// How balls left the table.
+    /// Returns how balls left the table.
     pub fn left_table(&self, table: &Table) -> [Option<OffTable>; BALLS] {
         OffTable::all(table.reach(), self.positions(self.duration()), self.off_table(), &self.final_layout())
     }
 
-    /// All flights in order of time, the lowest hops too.
+    /// Returns all flights in order of time, including the lowest hops.
     pub fn jumps(&self) -> Vec<Jump> {
         let starts = self.events().iter().enumerate().filter_map(|(n, event)| match event.kind {
             EventKind::Jumps(ball) => Some((n, event.time, ball)),
@@ -87,7 +87,7 @@ impl Recording {
         starts.map(|(n, start, ball)| self.jump(ball, start, &self.events()[n..])).collect()
     }
 
-    /// The flight that begins at `start`, with the events from then on.
+    /// Returns the flight that starts at `start`, given the events from then on.
     fn jump(&self, ball: usize, start: f64, events: &[Event]) -> Jump {
         let is_end = |event: &&Event| [EventKind::Lands(ball), EventKind::LeavesTable(ball)].contains(&event.kind);
         let end = events.iter().find(is_end).map_or(self.duration(), |event| event.time);
@@ -99,7 +99,7 @@ impl Recording {
             let Some(hops) = pieces[n].hops() else { continue };
             let lasts = pieces.get(n + 1).map_or(end, |next| next.start) - pieces[n].start;
             let first = hops.arc(0);
-            // A later arc is no higher than what it falls from.
+            // A later arc is not higher than the height from which it falls.
             let top = (first.velocity.z / hops.cloth.gravity).clamp(0.0, lasts);
             height = height.max(hops.state_after(top).position.z);
             distance.get_or_insert_with(|| first.velocity.truncate().length() * first.end.min(lasts));
@@ -107,12 +107,12 @@ impl Recording {
         Jump { ball, start, end, height, distance: distance.unwrap_or_default() }
     }
 
-    /// The flight that an event begins; `None` of another.
+    /// Returns the flight that starts with an event; `None` for other events.
     pub fn jump_begun_by(&self, event: &Event) -> Option<Jump> {
         matches!(event.kind, EventKind::Jumps(_)).then(|| self.jump_of(event))?
     }
 
-    /// The flight that an event begins or ends; `None` of another.
+    /// Returns the flight that starts or ends with an event; `None` for other events.
     fn jump_of(&self, event: &Event) -> Option<Jump> {
         let (EventKind::Jumps(ball) | EventKind::Lands(ball)) = event.kind else { return None };
         let begun = |other: &Event| other.kind == EventKind::Jumps(ball) && other.time <= event.time;
@@ -120,8 +120,7 @@ impl Recording {
         Some(self.jump(ball, self.events()[from].time, &self.events()[from..]))
     }
 
-    /// Whether an event is told to who does not ask for all of them: contacts, flights of some height, and balls that leave
-    /// the table.
+    /// Whether an event is reported by default: contacts, flights above the least height, and balls that leave the table.
     pub fn is_told(&self, event: &Event) -> bool {
         match event.kind {
             EventKind::LeavesTable(_) => true,
@@ -160,14 +159,15 @@ mod tests {
     }
 
     #[test]
-    fn a_hop_that_nobody_sees_is_not_told_and_a_jump_is_with_its_landing() {
+    fn an_invisible_hop_is_not_reported_and_a_jump_is_with_its_landing() {
         let low = play("-1,0 0.9,-0.5 0.9,0.5", "0,0,3,0,2");
         assert!(low.events().iter().any(|event| event.kind == EventKind::Jumps(0)));
         assert!(low.events().iter().filter(|event| low.is_told(event)).all(|event| event.kind.is_contact()));
         let high = play("-0.5,0 0.3,0.4 0.9,0.5", "0,0,45,0,3");
-        let told: Vec<_> = high.events().iter().filter(|event| high.is_told(event)).map(|event| event.kind).collect();
-        assert_eq!(told[0], EventKind::Jumps(0));
-        assert!(told.contains(&EventKind::Lands(0)), "{told:?}");
+        let reported: Vec<_> =
+            high.events().iter().filter(|event| high.is_told(event)).map(|event| event.kind).collect();
+        assert_eq!(reported[0], EventKind::Jumps(0));
+        assert!(reported.contains(&EventKind::Lands(0)), "{reported:?}");
     }
 
     #[test]

@@ -1,10 +1,10 @@
-//! Micro-collisions: how a shot goes on whose resting contacts would take too much work.
+//! Micro-collisions: continuation of a shot whose resting contacts exceed their budget.
 //!
-//! Now and then no forces are found that obey all laws, or contacts begin and end again and again: balls wedged in a corner, a cloth
-//! with a friction of 1000. From then on nothing rests. What is pressed bounces, and slow bounces lose nothing (Mirtich and Canny,
-//! "Impulse-based simulation of rigid bodies", 1995): so there are some thousand of them a second rather than ever more, and on
-//! average they push as the resting contact does. Between them balls move freely, and every bounce obeys the laws of friction, so
-//! that energy is only lost where something slips. What it costs is exactness: a ball that should touch another is up to a micrometre away.
+//! Occasionally no forces are found that obey all laws, or contacts begin and end again and again: balls wedged in a corner, or a cloth
+//! with a friction of 1000. From then on nothing rests. Pressed balls bounce, and slow bounces lose nothing (Mirtich and Canny,
+//! "Impulse-based simulation of rigid bodies", 1995). There are then some thousand bounces a second instead of ever more, and on average
+//! they push like the resting contact. Between bounces the balls move freely, and every bounce obeys the laws of friction, so that energy
+//! is only lost where something slips. The cost is accuracy: a ball that should touch another may be a micrometre away from it.
 
 use std::ops::ControlFlow;
 
@@ -19,7 +19,7 @@ use crate::{
 };
 
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
-    /// Frees what rests at `now`; nothing comes to rest against anything any more.
+    /// Frees the resting balls at `now` and disables resting contacts for the rest of the shot.
     #[cold]
     pub(super) fn begin_micro_collisions(&mut self, now: f64) -> ControlFlow<()> {
         self.micro_collisions = Some(Box::new(self.law.with_restitution(1.0)));
@@ -35,7 +35,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.look_ahead(now, [true; BALLS])
     }
 
-    /// The laws of an impact by the speed of its approach, m/s.
+    /// Returns the laws of an impact with this approach speed, m/s.
     #[inline(always)]
     pub(super) fn law_at(&self, approach: f64) -> &ImpactLaw {
         match &self.micro_collisions {
@@ -44,8 +44,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
     }
 
-    /// How long a micro-collision and the next of the same contact may be apart, s: what presses may be a tenth of the friction of a ball
-    /// that slides. Less than nothing while there are none.
+    /// Returns the longest pause between two micro-collisions of a contact, s, if the pressing acceleration is at least a tenth of sliding
+    /// friction's. Negative infinity if resting contacts are not disabled.
     pub(super) fn longest_pause(&self) -> f64 {
         let Constants { tolerance, sliding, .. } = &self.constants;
         if self.micro_collisions.is_some() {
@@ -55,11 +55,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
     }
 
-    /// Parts two balls that collide by the room of a micro-collision, through which they fall before the next.
-    pub(super) fn part(&self, first: &mut BallState, second: &mut BallState) {
-        let apart = first.position - second.position;
-        let gap = apart.length() - self.constants.diameter;
-        let moves = 0.5 * (self.constants.tolerance.micro_room - gap) * apart.normalize();
+    /// Separates two colliding balls by the gap of a micro-collision, which they cross before the next one.
+    pub(super) fn separate(&self, first: &mut BallState, second: &mut BallState) {
+        let relative = first.position - second.position;
+        let gap = relative.length() - self.constants.diameter;
+        let moves = 0.5 * (self.constants.tolerance.micro_room - gap) * relative.normalize();
         first.position += moves;
         second.position -= moves;
     }

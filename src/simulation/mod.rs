@@ -1,8 +1,8 @@
-//! When things happen: event prediction, the engine, and playback of what it recorded.
+//! Event-driven simulation of a shot: event prediction, the engine, and playback of the recorded trajectories.
 //!
-//! To be read in this order: `segment` (how a ball moves between two events), `roots` and `predict` (when a gap closes), `scheduler`
-//! (which event is the next), `engine` (from event to event), `impacts` (what happens at one), `chatter` and `resting` (contacts that
-//! close again and again, or stay closed), `playback`.
+//! Suggested reading order: `segment` (motion of a ball between two events), `roots` and `predict` (when a gap closes), `scheduler`
+//! (selection of the next event), `engine` (the event loop), `impacts` (collision events), `chatter` and `resting` (contacts that close
+//! repeatedly or stay closed), `playback`.
 
 mod active_set;
 mod aloft;

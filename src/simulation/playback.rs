@@ -1,4 +1,4 @@
-//! Everything of one shot: its events, and the balls at any time, read from the recorded segments without stepping.
+//! Recording of one shot: its events, and the balls' states at any time, evaluated in closed form from the recorded segments.
 
 use std::ops::ControlFlow;
 
@@ -19,22 +19,22 @@ pub enum ShotError {
     /// The stroke is impossible.
     #[error(transparent)]
     Cue(#[from] CueError),
-    /// The motion that the cue ball is to have is impossible.
+    /// The initial motion of the cue ball is impossible.
     #[error(transparent)]
     Impulse(#[from] ImpulseError),
 }
 
-/// What sets the cue ball in motion.
+/// Initial condition of the cue ball.
 #[derive(Clone, Copy, Debug)]
 pub enum Start<'a> {
-    /// A stroke. Whatever motion it gives is accepted.
+    /// A stroke. The motion that it causes is not limited.
     Stroke(&'a CueInputs),
-    /// The motion just after the stroke, as a film shows it, whatever stroke has given it.
+    /// The motion just after the stroke, for example from a film, independent of the stroke.
     Motion(&'a Impulse),
 }
 
 impl Start<'_> {
-    /// The motion, if it is possible.
+    /// Returns the motion, if it is possible.
     fn impulse(self, table: &Table) -> Result<Impulse, ShotError> {
         match self {
             Self::Stroke(cue) => cue.validate().map(|()| strike(table, cue)).map_err(ShotError::from),
@@ -43,7 +43,7 @@ impl Start<'_> {
     }
 }
 
-/// One shot from the stroke until the last ball stands still.
+/// One shot from the stroke until the last ball is at rest.
 #[derive(Clone, Debug)]
 pub struct Recording {
     constants: Constants,
@@ -56,15 +56,15 @@ impl Recording {
     /// Checks and plays a shot.
     ///
     /// # Errors
-    /// What is wrong with the layout or the stroke.
+    /// The first problem of the layout or the stroke.
     pub fn new(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Self, ShotError> {
         Self::simulated(table, layout, Start::Stroke(cue))
     }
 
-    /// Checks and plays a shot in which the cue ball has this motion just after the stroke.
+    /// Checks and plays a shot with this motion of the cue ball just after the stroke.
     ///
     /// # Errors
-    /// What is wrong with the layout or the motion.
+    /// The first problem of the layout or the motion.
     pub fn with_impulse(table: &Table, layout: &Layout, impulse: &Impulse) -> Result<Self, ShotError> {
         Self::simulated(table, layout, Start::Motion(impulse))
     }
@@ -74,12 +74,11 @@ impl Recording {
         Ok(Self::played_by(table, layout, start, play)?.0)
     }
 
-    /// Checks a shot and lets `play` play it, by whatever method: it gets what the stroke gives the cue ball, tells the
-    /// recorder what happens, and returns how the shot ended with anything else that it has to say. All balls then rest where they
-    /// have come to.
+    /// Checks a shot and plays it by the function `play`, which can use any method. It receives the motion of the cue ball and a recorder
+    /// for the events, and returns the end of the shot with any additional result. Afterwards all balls rest at their final positions.
     ///
     /// # Errors
-    /// What is wrong with the layout, the stroke or the motion.
+    /// The first problem of the layout, the stroke or the motion.
     pub fn played_by<T>(
         table: &Table,
         layout: &Layout,
@@ -97,33 +96,33 @@ impl Recording {
         Ok((Self { constants: Constants::of(table), impulse, kept, duration: end.time }, more))
     }
 
-    /// What the stroke gave the cue ball.
+    /// Returns the motion of the cue ball just after the stroke.
     pub fn impulse(&self) -> &Impulse {
         &self.impulse
     }
 
-    /// All events in order of time.
+    /// Returns all events in order of time.
     pub fn events(&self) -> &[Event] {
         &self.kept.events
     }
 
-    /// Time until the last ball stands still, s.
+    /// Returns the time until the last ball is at rest, s.
     pub fn duration(&self) -> f64 {
         self.duration
     }
 
-    /// A ball's position, velocity and spin at time `t`, s; at rest before the stroke and after the end.
+    /// Returns a ball's position, velocity and spin at time `t`, s; times are clamped to the shot's duration.
     pub fn state(&self, ball: usize, t: f64) -> BallState {
         let (segment, after) = self.segment(ball, t);
         segment.state_after(&self.constants, after)
     }
 
-    /// Which equation of motion a ball follows at time `t`, s.
+    /// Returns the motion phase of a ball at time `t`, s.
     pub fn motion(&self, ball: usize, t: f64) -> Motion {
         self.segment(ball, t).0.motion
     }
 
-    /// The balls' centres at time `t`, m.
+    /// Returns the balls' centres at time `t`, m.
     pub fn positions(&self, t: f64) -> [DVec2; BALLS] {
         std::array::from_fn(|ball| {
             let (segment, after) = self.segment(ball, t);
@@ -131,35 +130,35 @@ impl Recording {
         })
     }
 
-    /// Where the balls come to rest; those that have left the table are on their spots.
+    /// Returns the final layout; balls that have left the table are on their spots.
     pub fn final_layout(&self) -> Layout {
         let Constants { length, radius, .. } = self.constants;
         Layout::new(self.positions(self.duration)).with_spotted(length, radius, self.off_table())
     }
 
-    /// Which balls leave the table.
+    /// Returns for each ball whether it leaves the table.
     pub fn off_table(&self) -> [bool; BALLS] {
         std::array::from_fn(|ball| self.motion(ball, self.duration) == Motion::OffTable)
     }
 
-    /// How high a ball is over its place on the cloth at time `t`, s: in metres.
+    /// Returns the height of a ball above its position on the cloth at time `t` (s), m.
     pub fn height(&self, ball: usize, t: f64) -> f64 {
         let (segment, after) = self.segment(ball, t);
         segment.hops().map_or(0.0, |hops| hops.state_after(after).position.z)
     }
 
-    /// A ball's position, velocity and spin in space at time `t`, s.
+    /// Returns a ball's position, velocity and spin in three dimensions at time `t`, s.
     pub fn spatial_state(&self, ball: usize, t: f64) -> SpatialState {
         let (segment, after) = self.segment(ball, t);
         segment.spatial_after(&self.constants, after)
     }
 
-    /// The recorded segments of a ball, in order of time; each holds until the next one starts.
+    /// Returns the recorded segments of a ball in order of time; each is valid until the next one starts.
     pub fn segments(&self, ball: usize) -> &[Segment] {
         &self.kept.segments[ball]
     }
 
-    /// The segment that holds at time `t`, and how long it has then lasted, s.
+    /// Returns the segment that is valid at time `t`, and the time since its start, s.
     fn segment(&self, ball: usize, t: f64) -> (&Segment, f64) {
         let t = t.clamp(0.0, self.duration);
         let segments = &self.kept.segments[ball];
@@ -169,7 +168,7 @@ impl Recording {
     }
 }
 
-/// The observer that keeps everything for a [`Recording`].
+/// The observer that stores events and segments for a [`Recording`].
 #[derive(Clone, Debug)]
 pub struct Recorder {
     events: Vec<Event>,
@@ -177,7 +176,7 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// Room for what an ordinary shot has: a dozen events, most of them the cue ball's.
+    /// Creates a recorder with capacity for an ordinary shot: a dozen events, most of them of the cue ball.
     fn with_room() -> Self {
         Self { events: Vec::with_capacity(16), segments: [16, 4, 4].map(Vec::with_capacity) }
     }
@@ -220,7 +219,7 @@ mod tests {
         assert_eq!((moved.duration(), moved.final_layout()), (struck.duration(), struck.final_layout()));
     }
 
-    /// On a ball of 1 mm a stroke gives a spin that no motion may have. No method may refuse it.
+    /// On a ball of 1 mm, a stroke causes a spin beyond the limit of an initial motion. No method may refuse it.
     #[test]
     fn a_stroke_is_played_whatever_it_gives_by_whatever_method() {
         let table = Table { radius: 0.001, ..Table::preset("thesis").unwrap() };

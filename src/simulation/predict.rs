@@ -1,7 +1,7 @@
-//! What predictions have in common: when something counts as touching, and collisions of balls in a resting contact.
+//! Common parts of all predictions: contact tolerances, and collisions of balls in a resting contact.
 //!
-//! It is the duty of this file, `cushions` and `ball_ball` that nothing is missed and nothing is found twice: a ball that
-//! already touches what it has just hit meets it again only when it really comes back.
+//! It is the duty of this file, `cushions` and `ball_ball` that no impact is missed and none is found twice: a ball that touches what it
+//! has just hit hits it again only if it really comes back.
 
 use glam::DVec2;
 
@@ -11,25 +11,25 @@ use super::{
     tolerance::Tolerance,
 };
 
-/// What lies ahead of a ball, or of two.
+/// Predicted event of a ball, or of two balls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ahead {
-    /// They will not meet within the time asked for.
+    /// No impact within the given time.
     Nothing,
-    /// They meet after this many seconds.
+    /// An impact after this many seconds.
     Meeting(f64),
-    /// They touch, do not move against each other, and are pressed together: a resting contact.
+    /// They touch without relative normal velocity and are pressed together: a resting contact.
     Pressed,
 }
 
-/// The lesser of two numbers; `f64::min` would spend time on what is not a number.
+/// Returns the lesser of two numbers; `f64::min` would spend time on NaN.
 #[inline(always)]
 pub fn lesser(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
-/// The first cushion that a ball on a curved course, a polynomial of degree five, meets within `horizon` seconds of the
-/// segment's start. The cushions that hold it, as `holds` tells, are part of that course.
+/// Returns the first cushion impact of a ball on a curved trajectory, a polynomial of degree five, within `horizon` seconds of the
+/// segment's start. Cushions for which `holds` returns true are part of the resting contact and are skipped.
 pub fn curved_cushion_ahead(
     constants: &Constants,
     segment: &Segment,
@@ -55,8 +55,8 @@ pub fn curved_cushion_ahead(
     nearest
 }
 
-/// Two balls of which one at least is in a resting contact. Whether they rest against each other is known to the
-/// contact itself, which then does not ask.
+/// Returns the next collision of two balls, at least one of which is in a resting contact. Pairs that rest against each other are handled
+/// by the contact itself and are not passed to this function.
 pub fn curved_balls_ahead(constants: &Constants, first: &Segment, second: &Segment, now: f64, horizon: f64) -> Ahead {
     let (c1, c2) = (shifted(first, now), shifted(second, now));
     let mut d = [DVec2::ZERO; 6];
@@ -64,7 +64,7 @@ pub fn curved_balls_ahead(constants: &Constants, first: &Segment, second: &Segme
         d[power] = c1[power] - c2[power];
     }
     let diameter = 2.0 * constants.radius;
-    // Most pairs are too far apart to meet in so short a time.
+    // Most pairs are too far apart to collide in such a short time.
     let tolerance = &constants.tolerance;
     if d[0].length() - diameter > tolerance.touching + travel(&d.map(DVec2::length), horizon) {
         return Ahead::Nothing;
@@ -80,14 +80,14 @@ pub fn curved_balls_ahead(constants: &Constants, first: &Segment, second: &Segme
     polynomial_closes(tolerance, &gap, touching, 2.0 * diameter, horizon)
 }
 
-/// How far a course with coefficients of these sizes can lead within `time`.
+/// Returns an upper bound of the distance along a trajectory with coefficients of these magnitudes within `time`.
 pub fn travel(sizes: &[f64; 6], time: f64) -> f64 {
     sizes[1..].iter().rev().fold(0.0, |sum, size| (sum + size) * time)
 }
 
-/// When the gap with these coefficients, in units of `scale` times metres, closes. That of balls which touch is divided by
-/// the time, whose root at zero is the contact that is already known; where they stay together for now, they meet again
-/// when the gap has closed by more than counts as touching.
+/// Returns when the gap with these coefficients, in units of `scale` times metres, closes. The gap of touching balls is divided by the
+/// time, because its root at zero is the present contact. If they stay together for now, they collide when the gap has closed by more than
+/// the touching tolerance.
 pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], touching: bool, scale: f64, horizon: f64) -> Ahead {
     let mut work = [0.0; MAX_DEGREE + 1];
     let mut count = gap.len();
@@ -112,7 +112,7 @@ pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], touching: bool, sca
     first_crossing(|t| horner(work, t), &slope[..count - 1], horizon).map_or(Ahead::Nothing, Ahead::Meeting)
 }
 
-/// A segment's coefficients about the time `now`.
+/// Returns a segment's coefficients about the time `now`.
 pub fn shifted(segment: &Segment, now: f64) -> [DVec2; 6] {
     let mut c = segment.coefficients();
     let shift = now - segment.start;

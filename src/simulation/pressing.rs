@@ -1,4 +1,4 @@
-//! Resting contacts as the engine holds them: how they begin, go on step by step, and end.
+//! Resting contacts in the engine: their beginning, steps and end.
 
 use std::ops::ControlFlow;
 
@@ -17,7 +17,7 @@ use crate::{
 };
 
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
-    /// The next step of the balls in resting contact.
+    /// Handles the next step of the balls in resting contact.
     #[cold]
     pub(super) fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
@@ -35,15 +35,15 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             self.look_ahead_of_pressed(now, members);
             return ControlFlow::Continue(());
         }
-        // A ball that another one strikes again and again is this slow only between two blows.
+        // A ball that another one strikes repeatedly is this slow only between two impacts.
         if resting.is_still() && !self.is_touched(now, resting.members) {
             resting.come_to_rest();
         }
         let members = resting.members;
         self.relaunch(now, members, &resting.end);
-        // Whether they go on resting is asked of all contacts together.
+        // Whether they continue to rest is decided for all contacts together.
         self.pressed = true;
-        // The guard: what takes part in another contact stands still, and begins anew.
+        // Termination guard: a ball in another contact stands still, and its contact restarts.
         self.ended = (!self.is_exhausted()).then_some(resting);
         self.look_ahead(now, members)
     }
@@ -61,8 +61,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         })
     }
 
-    /// Ends the resting contacts at `now` if one of the `changed` balls takes part: their members go on freely until it
-    /// is known what presses now. Returns the states of all members.
+    /// Ends the resting contacts at `now` if one of the `changed` balls takes part: their members move freely until the next active set is
+    /// known. Returns the states of all members.
     #[cold]
     pub(super) fn release(&mut self, now: f64, changed: [bool; BALLS]) -> Option<[BallState; BALLS]> {
         let resting = self.resting.as_ref()?;
@@ -97,18 +97,18 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
     }
 
-    /// The balls of the resting contact that is still on record.
+    /// Returns the members of the stored resting contact.
     pub(super) fn freed_members(&self) -> [bool; BALLS] {
         self.resting.as_ref().map_or([false; BALLS], |resting| resting.members)
     }
 
-    /// The `changed` balls, and with them those of the resting contact that is still on record if it has been `freed`.
+    /// Returns the `changed` balls, together with the members of the stored resting contact if it has been `freed`.
     pub(super) fn with_freed(&self, freed: bool, changed: [bool; BALLS]) -> [bool; BALLS] {
         let members = self.freed_members();
         std::array::from_fn(|index| changed[index] || (freed && members[index]))
     }
 
-    /// Puts the balls that press and are pressed on their common course, and frees those that no longer are.
+    /// Starts the common trajectory of all balls in resting contact, and frees those that no longer press.
     #[cold]
     pub(super) fn press(&mut self, now: f64, changed: &mut [bool; BALLS]) -> ControlFlow<()> {
         if let Some(resting) = &self.resting
@@ -118,7 +118,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             return ControlFlow::Continue(());
         }
         self.cut(now);
-        // Other members of a contact that goes on are part of the new one.
+        // Other members of a continuing contact are part of the new one.
         let mut states: [BallState; BALLS] = match &self.resting {
             Some(resting) if resting.start < now => std::array::from_fn(|index| {
                 if resting.members[index] && self.balls[index].segment.start < now {
@@ -167,7 +167,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 (None, moved)
             }
         };
-        // A slip that ends here ends for good.
+        // A slip that ends here has ended for good.
         self.relaunch(now, moved, &states);
         *changed = std::array::from_fn(|index| changed[index] || moved[index]);
         let members = self.freed_members();
@@ -178,11 +178,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 self.rest(index, now);
                 changed[index] = true;
                 if was == ContactMode::Free {
-                    self.tell(now, EventKind::ContactBegins(index))?;
+                    self.report(now, EventKind::ContactBegins(index))?;
                 }
             } else if was == ContactMode::Resting {
                 self.balls[index].mode = ContactMode::Bouncing;
-                // A ball whose contact ended by what another did is still on its common course.
+                // A ball whose contact ended because of another ball is still on the common trajectory.
                 if self.balls[index].segment.motion == Motion::Resting {
                     self.relaunch(now, only(index), &states);
                     changed[index] = true;
@@ -192,24 +192,24 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         ControlFlow::Continue(())
     }
 
-    /// Tells the ends of the contacts of balls that rest no more and bounce no more, or are in the air: all of them if `nothing` happens
-    /// any more but that a ball rolls out.
+    /// Reports the end of the contacts of balls that neither rest nor bounce any longer, or are in the air. If `nothing` but rolling to
+    /// rest remains, reports all of them.
     #[cold]
-    pub(super) fn tell_free(&mut self, now: f64, nothing: bool) -> ControlFlow<()> {
+    pub(super) fn report_free(&mut self, now: f64, nothing: bool) -> ControlFlow<()> {
         for index in 0..BALLS {
             let bounces = || self.is_on_cloth(index) && self.may_bounce(index);
             if self.balls[index].mode != ContactMode::Bouncing || (!nothing && bounces()) {
                 continue;
             }
             self.balls[index].mode = ContactMode::Free;
-            self.tell(now, EventKind::ContactEnds(index))?;
-            self.tell_motion(index, now)?;
+            self.report(now, EventKind::ContactEnds(index))?;
+            self.report_motion(index, now)?;
         }
         ControlFlow::Continue(())
     }
 
-    /// Whether a ball may bounce again before one of its chatters is over: where its own next event, or any of the ball with which
-    /// it chatters, comes in time for that; in micro-collisions any event may set it bouncing again.
+    /// Whether a ball may bounce again before one of its chatters ends: its own next event, or any event of the ball with which it
+    /// chatters, is early enough. In micro-collisions, any event may make it bounce again.
     fn may_bounce(&self, index: usize) -> bool {
         let Some(chatters) = &self.chatters else { return false };
         let (ends, own) = (chatters.ends(index, self.longest_pause()), self.times[index]);

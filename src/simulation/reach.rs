@@ -1,34 +1,34 @@
-//! The early end of a shot: whether the energy that is left can still bring the cue ball to a ball that it has to meet.
+//! Early end of a shot: checks whether the remaining energy can still bring the cue ball to a ball that it must hit.
 //!
-//! Balls that press each other have lost most of their speed, and to follow them costs more than all that came before. A ball that
-//! rolls loses `mu_r g` of its energy (over its mass) a metre. One that slides may lose less for a while, but only after an impact or
-//! while it is pressed, which cost energy too. That is no proof. Among three million shots on as many tables, in corners and slow,
-//! the balls together came 1.85 times as far as by rolling at most, on the `thesis` table 1.44 times; [`MARGIN`] is more than twice that.
+//! Balls in resting contact have lost most of their speed, and their simulation costs more than everything before. A rolling ball loses the
+//! energy `mu_r g` (per mass) per metre. A sliding ball may lose less for a while, but only after an impact or while it is pressed, which
+//! cost energy, too. This is not a proof. Among three million shots on random tables, slow and in corners, the balls together moved at most
+//! 1.85 times as far as by rolling, and 1.44 times on the `thesis` table; [`MARGIN`] is more than twice that.
 
 use super::{Constants, Observer, engine::Engine, savings::Savings};
 use crate::{physics::BallState, table::BALLS};
 
-/// How many times as far as by rolling balls are supposed to come.
+/// Assumed bound of the balls' total path length, in units of the path by rolling.
 const MARGIN: f64 = 4.0;
 
-/// Balls may come so many radii farther: where next to nothing of their energy is left, what counts as nothing is as much.
+/// Additional path length in ball radii: when nearly no energy is left, the zero tolerances have a comparable effect.
 const SLACK: f64 = 1e-4;
 
-/// Sliding costs at least so many times as much as rolling, where the margin is known to be wide enough.
+/// Least ratio of sliding to rolling deceleration for which the margin is known to be sufficient.
 const SLIDING_OVER_ROLLING: f64 = 2.0;
 
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
-    /// Whether the cue ball meets none of the balls any more for which the observer waits, from the `state` of each ball on.
+    /// Whether the cue ball can no longer hit any of the balls for which the observer waits, given the `state` of each ball.
     pub(super) fn is_out_of_reach(&self, state: impl Fn(usize) -> BallState) -> bool {
         let Constants { level, sliding, rolling, diameter, radius, .. } = &self.constants;
-        // A ball in the air loses nothing on its way, and one on a slope may gain.
+        // A ball in the air loses no energy along its path, and one on a slope may gain.
         let applies = self.cloth.is_none() && *level && *sliding >= SLIDING_OVER_ROLLING * rolling.least;
         if !S::OUT_OF_REACH || !applies {
             return false;
         }
         let Some(awaited) = self.observer.awaited() else { return false };
         let states = std::array::from_fn(state);
-        let reach = diameter + SLACK * radius + MARGIN * longest_ways(&self.constants, &states);
+        let reach = diameter + SLACK * radius + MARGIN * path_by_rolling(&self.constants, &states);
         let [cue_ball, objects @ ..] = states;
         objects
             .iter()
@@ -38,8 +38,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 }
 
-/// How far balls come together if all their energy is spent on rolling, m.
-fn longest_ways(constants: &Constants, states: &[BallState; BALLS]) -> f64 {
+/// Returns the total path length of the balls if all energy is spent on rolling, m.
+fn path_by_rolling(constants: &Constants, states: &[BallState; BALLS]) -> f64 {
     let Constants { radius, rolling, .. } = constants;
     let energy = |ball: &BallState| 0.5 * ball.velocity.length_squared() + 0.2 * (radius * ball.spin).length_squared();
     states.iter().map(energy).sum::<f64>() / (1.4 * rolling.least)
@@ -58,7 +58,7 @@ mod tests {
         table::{Layout, Table},
     };
 
-    /// A level table on which balls stay on the cloth, with any friction and restitution.
+    /// Returns a level table on which balls stay on the cloth, with random friction and restitution.
     fn any_table(rng: &mut Xoshiro256PlusPlus) -> Table {
         let mut between = |low: f64, high: f64| rng.random_range(low..high);
         Table {
@@ -72,23 +72,23 @@ mod tests {
         }
     }
 
-    /// How far balls still come from any event of a shot on, in multiples of how far they would by rolling; the largest.
+    /// Returns the largest ratio of the remaining path length to that by rolling, over all events of a shot.
     fn farthest(table: &Table, layout: &Layout, impulse: &Impulse) -> f64 {
         const PIECES: u32 = 16;
         let shot = Recording::with_impulse(table, layout, impulse).unwrap();
         let constants = Constants::of(table);
-        let (mut ways, mut end, mut largest) = (0.0, shot.duration(), 0.0_f64);
+        let (mut path, mut end, mut largest) = (0.0, shot.duration(), 0.0_f64);
         for start in shot.events().iter().rev().map(|event| event.time).chain([0.0]) {
             let mut before = shot.positions(start);
             for piece in 1..=PIECES {
                 let time = start + (end - start) * f64::from(piece) / f64::from(PIECES);
-                // Just before the end: there an impact may put a ball in its place.
+                // Just before the end, because an impact at the end may move a ball.
                 let after = shot.positions(time.min(end.next_down()));
-                ways += (0..BALLS).map(|ball| after[ball].distance(before[ball])).sum::<f64>();
+                path += (0..BALLS).map(|ball| after[ball].distance(before[ball])).sum::<f64>();
                 before = after;
             }
             let states = std::array::from_fn(|ball| shot.state(ball, start));
-            largest = largest.max((ways - SLACK * table.radius) / longest_ways(&constants, &states));
+            largest = largest.max((path - SLACK * table.radius) / path_by_rolling(&constants, &states));
             end = start;
         }
         largest
@@ -98,7 +98,7 @@ mod tests {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
         (0..shots).fold(0.0, |largest, _| {
             let table = draw(&mut rng);
-            // In a corner, where balls come to press each other, or anywhere.
+            // In a corner, where balls tend to press each other, or anywhere.
             let layout = loop {
                 let mut layout = Layout::random(&table, &mut rng);
                 let narrow = rng.random_range(0.05..1.0);

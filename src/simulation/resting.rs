@@ -1,9 +1,9 @@
-//! Resting contacts in time: adaptive integration of balls pressed against cushions or each other.
+//! Time integration of resting contacts: balls that are pressed against cushions or each other, with adaptive steps.
 //!
-//! The equations have no closed form, since the slip turns under the friction of cloth and cushion together. They are
-//! integrated with an estimated error of at most [`Tolerance::step`] a step, from one change of the active set to
-//! the next. Where a slip ends its direction is singular in time; with time rescaled by the slip, `dt = |u|/|u₀| dτ`, the slip
-//! ends like an exponential and everything stays smooth.
+//! The equations have no closed form, because the slip turns under the frictions of cloth and cushion together. They are integrated from
+//! one change of the active set to the next, with an estimated error of at most [`Tolerance::step`] per step. When a slip ends, its
+//! direction is singular in time. With time rescaled by the slip, `dt = |u|/|u₀| dτ`, the slip decays exponentially and the solution stays
+//! smooth.
 
 mod bounds;
 mod course;
@@ -17,7 +17,7 @@ use super::{
     active_set::{Ended, find_active_set, remove_rounding, transient_pressing, without_ending_slips},
     contacts::{close_gaps, touching},
     extrapolation::{Phase, State, Step, extrapolate},
-    guards::{HELD, MOST_RESTING, MOST_STEP, STEP},
+    guards::{HELD, RESTING_BUDGET, STEP, STEP_BUDGET},
     tolerance::Tolerance,
 };
 use crate::{
@@ -25,43 +25,43 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// A slip may fall to this power of `e` in a step: to a tenth.
+/// A slip may decay by this power of `e` in a step, to about a quarter.
 const FALL: f64 = 1.3;
 
-/// How far the course of a pressed ball may stray from the polynomial of degree five as which it is handed on, m: a tenth of what counts
-/// as an overlap.
-const MOST_STRAY: f64 = 1e-10;
+/// Largest accepted deviation of a pressed ball's trajectory from the quintic polynomial that represents it, m: a tenth of the accepted
+/// overlap in a layout.
+const MAX_DEVIATION: f64 = 1e-10;
 
-/// Longest change of speed by the cloth's friction in a step, m/s: where nothing tells how long one may be, this much is tried.
+/// Largest change of speed by the cloth's friction in a step, m/s; used if nothing else limits the step.
 const LONGEST_CURVE: f64 = 0.08;
 
-/// Steps longer than so many times in which a slip's direction comes to follow the forces are implicit in it; explicit ones are
-/// not stable then.
+/// A step is implicit in a slip direction if it is longer than this many time constants with which the direction follows the forces.
+/// Explicit steps are unstable there.
 const STIFF: f64 = 4.0;
 
-/// By what angle, in radians, a slip may turn in an implicit step at the rate at which it does in the beginning.
+/// Largest initial turn rate of a slip times the length of an implicit step, rad.
 const MOST_TURN: f64 = 0.03;
 
-/// A law that breaks within this share of a step does so at once: the forces of jammed balls stay at the edge of what may be.
+/// A law that breaks within this share of a step breaks immediately: the forces of jammed balls stay at the edge of the admissible set.
 const AT_ONCE: f64 = 1e-3;
 
-/// After so many such steps in a row forces are sought anew in every state.
+/// Number of consecutive such steps after which the forces are determined by the solver in every state.
 const MOST_SHORT_STEPS: u32 = 16;
 
-/// After so many steps in a row that began anew, forces that are not unique are sought near to those before. Sought from nothing, they
-/// may lie at the edge of a law and break it at once, in every step.
+/// Number of consecutive restarts after which non-unique forces are sought near the previous ones. A search from zero may find forces at
+/// the edge of a law that break it immediately, in every step.
 const MOST_RESTARTS: u32 = 8;
 
-/// This share of a step is tried next where no forces are found in one of its states.
+/// Ratio of the next trial step to one in which a state has no forces.
 const WITHOUT_FORCES: f64 = 0.1;
 
-/// Most guesses at the moment at which a law breaks; false position needs about ten.
+/// Largest number of iterations for the time at which a law breaks; false position needs about ten.
 const MAX_GUESSES: usize = 60;
 
 /// Linear accelerations of all balls, m/s², and angular ones, rad/s².
 type Accelerations<'a> = (&'a [DVec2; BALLS], &'a [DVec3; BALLS]);
 
-/// Where something slips: a ball on the cloth, its centre, or a contact, by index.
+/// Location of a slip: a ball on the cloth, its centre, or a contact, by index.
 #[derive(Clone, Copy, Debug)]
 enum Place {
     Cloth(usize),
@@ -69,43 +69,43 @@ enum Place {
     Contact(usize),
 }
 
-/// One step of the balls that rest against something.
+/// One step of the balls in resting contact.
 #[derive(Clone, Debug)]
 pub struct Resting {
     /// The balls that take part.
     pub members: [bool; BALLS],
-    /// Time at which the step begins, s.
+    /// Start time of the step, s.
     pub start: f64,
     /// Length of the step, s.
     pub step: f64,
-    /// State at its beginning: what has stopped slipping there has stopped exactly.
+    /// State at its start, in which slips that have ended are exactly zero.
     pub begin: State,
     /// State at its end.
     pub end: State,
     pub(super) contacts: Contacts,
     pub(super) set: ActiveSet,
-    /// The slip that ends first, which sets the scale of the rescaled time, and how large it is at the start, m/s; none if none
-    /// ends soon: time is as it is.
+    /// The slip that ends first, which defines the rescaled time, and its magnitude at the start, m/s; `None` if no slip ends soon and time
+    /// is not rescaled.
     time_scale: Option<(Place, f64)>,
     first: Forces,
     pub(super) last: Forces,
     shared: bool,
-    /// How many steps in a row have ended at once.
+    /// Number of consecutive steps that have ended immediately.
     short_steps: u32,
-    /// How many steps in a row have begun anew.
+    /// Number of consecutive restarts.
     restarts: u32,
-    /// Whether all that holds at the end is what held at the beginning.
+    /// Whether the active set at the end is still that of the start.
     goes_on: bool,
-    /// What its steps have taken since the engine last took account of it.
+    /// Work that the engine has not yet counted.
     pub(super) effort: Effort,
-    /// Whether something else has ended the step.
+    /// Whether another event has ended the step.
     pub(super) interrupted: bool,
-    /// Step that is tried, s; behind the step the one to try next.
+    /// Trial step, s; after the step, the next trial step.
     pub next_step: f64,
     constants: Constants,
 }
 
-/// What is reached after a `span` of rescaled time, and the forces there with the active set of the step's beginning.
+/// Result of a step over a `span` of rescaled time, with the forces there for the active set of the step's start.
 #[derive(Clone, Copy, Debug)]
 struct Trial {
     span: f64,
@@ -120,17 +120,17 @@ impl Trial {
     }
 }
 
-/// What `Resting::begin` finds.
+/// Result of `Resting::begin`.
 pub enum Outcome {
     /// A step of balls that press each other.
     Rests(Box<Resting>),
-    /// Nothing presses; the balls as they go on, those of them whose slips end here, and what it took to know.
+    /// No contact presses: states of the free balls, whether each has a slip that ends here, and the work spent.
     Free(State, [bool; BALLS], Effort),
 }
 
 impl Resting {
-    /// One step from `balls` at time `start`, if any contact presses, of `next_step` seconds at most. The `previous` step,
-    /// if there is one, tells what yields.
+    /// Takes one step of at most `next_step` seconds from `balls` at time `start`, if any contact presses. The `previous` step, if there is
+    /// one, determines which frictions yield.
     pub fn begin(
         table: &Table,
         constants: &Constants,
@@ -177,7 +177,7 @@ impl Resting {
         Outcome::Rests(Box::new(resting))
     }
 
-    /// What the end of this step leaves to the next.
+    /// Returns the data of this step that the next one needs.
     const fn ended(&self) -> Ended<'_> {
         Ended {
             contacts: &self.contacts,
@@ -188,7 +188,7 @@ impl Resting {
         }
     }
 
-    /// Takes the next step if nothing has changed at the end of this one; tells whether that is so.
+    /// Takes the next step if the active set has not changed at the end of this one. Returns whether it has done so.
     pub fn go_on(&mut self, table: &Table) -> bool {
         if self.goes_on && !self.is_still() {
             (self.start, self.begin, self.first) = (self.start + self.step, self.end, self.last);
@@ -200,7 +200,7 @@ impl Resting {
         false
     }
 
-    /// Chooses the step and takes it.
+    /// Chooses the step length and takes the step.
     fn advance(&mut self, table: &Table) {
         let shortest = self.constants.tolerance.shortest_step;
         let begin = self.beginning();
@@ -226,17 +226,17 @@ impl Resting {
             };
             span = shorter.max(shortest);
         };
-        if !self.seeks() {
+        if !self.uses_solver() {
             let at_once = broken && (trial.is_lost() || trial.span < AT_ONCE * span);
             self.short_steps = if at_once { self.short_steps + 1 } else { 0 };
-            if self.seeks() {
+            if self.uses_solver() {
                 self.advance(table);
                 return;
             }
         }
         self.end_if_given_up();
         if self.is_given_up() || trial.step.end.time.is_nan() || trial.step.end.time <= 0.0 {
-            // Nothing can be followed: time goes on.
+            // Nothing can be computed: time advances without motion.
             (self.step, self.end, self.goes_on) = (shortest, self.begin, false);
             return;
         }
@@ -264,7 +264,7 @@ impl Resting {
         };
     }
 
-    /// How soon the slips end that do so next, s, if their ends are so near that the forces do not change any more.
+    /// Returns the time until the next slips end, s, if it is so short that the forces no longer change.
     fn slips_end_after(&self, table: &Table, balls: &State, forces: &Forces) -> Option<f64> {
         let mut soonest = f64::INFINITY;
         self.slips(table.radius, balls, forces, |_, slip, rate| {
@@ -276,7 +276,7 @@ impl Resting {
         let tolerance = &self.constants.tolerance;
         let mut error = 0.0_f64;
         self.slips(table.radius, balls, forces, |_, slip, rate| {
-            // What does not end with the first turns a little until then.
+            // Slips that do not end at the same time turn slightly until then.
             if (slip + soonest * rate).length() > tolerance.slip {
                 error = error.max(self.constants.sliding * soonest * soonest * rate.length() / slip.length());
             }
@@ -289,7 +289,7 @@ impl Resting {
         (is_near && !(0..BALLS).any(turned)).then_some(soonest)
     }
 
-    /// Whether a `spin` about the vertical, rad/s, has come to be one against that of this active set.
+    /// Whether a `spin` about the vertical, rad/s, has the sign opposite to that of this active set.
     fn turns_over(&self, radius: f64, ball: usize, spin: f64) -> bool {
         match self.set.spin[ball] {
             Friction::Slips(sign) => radius * spin * sign.x < -self.constants.tolerance.slip,
@@ -297,7 +297,7 @@ impl Resting {
         }
     }
 
-    /// Hands over every slip of this active set and its rate.
+    /// Passes every slip of this active set and its rate to `each`.
     fn slips(&self, radius: f64, balls: &State, forces: &Forces, mut each: impl FnMut(Place, DVec2, DVec2)) {
         let rates: State = std::array::from_fn(|ball| BallState {
             position: balls[ball].position,
@@ -321,34 +321,34 @@ impl Resting {
         }
     }
 
-    /// Whether forces are sought anew in every state, since those that were found did not last again and again.
-    const fn seeks(&self) -> bool {
+    /// Whether the solver determines the forces in every state, because the active sets found before have repeatedly not lasted.
+    const fn uses_solver(&self) -> bool {
         self.short_steps > MOST_SHORT_STEPS
     }
 
-    /// Whether the step has taken more work than any should.
+    /// Whether the step has exceeded its work budget.
     fn is_given_up(&self) -> bool {
-        self.effort.spent() > MOST_STEP
+        self.effort.spent() > STEP_BUDGET
     }
 
-    /// After a step that is given up nothing rests any more: the shot goes on in micro-collisions.
+    /// After a step that is given up, resting contacts are disabled: the shot continues in micro-collisions.
     fn end_if_given_up(&self) {
         if self.is_given_up() {
-            self.effort.add(MOST_RESTING);
+            self.effort.add(RESTING_BUDGET);
         }
     }
 
-    /// Where the step begins.
+    /// Returns the start of the step.
     const fn beginning(&self) -> Trial {
         let step = Step { end: Phase { balls: self.begin, time: 0.0 }, error: 0.0, best_length: 0.0 };
         Trial { span: 0.0, step, forces: self.first }
     }
 
-    /// What is reached after `span`, by a step that begins at `from`.
+    /// Returns the result of a step from `from` to `span`.
     fn attempt(&self, table: &Table, from: &Trial, span: f64) -> Trial {
         let begin = &from.step.end;
         let mut last = from.forces;
-        let (yields, mut is_lost) = (self.set.yields() || self.seeks(), false);
+        let (yields, mut is_lost) = (self.set.yields() || self.uses_solver(), false);
         let slope = |phase: &Phase| {
             let held = if yields || is_lost {
                 None
@@ -357,9 +357,9 @@ impl Resting {
                 self.scene(table, &phase.balls).accelerations(&self.first)
             };
             let (linear, angular) = held.unwrap_or_else(|| {
-                // Where there are no forces, the step has failed.
+                // Without forces, the step has failed.
                 if !is_lost {
-                    last = self.sought(self.scene(table, &phase.balls), &last, !yields);
+                    last = self.search_forces(self.scene(table, &phase.balls), &last, !yields);
                     is_lost = !yields && !last.converged;
                 }
                 (last.linear, last.angular)
@@ -371,14 +371,14 @@ impl Resting {
         let stiff = self.stiff(table, from, length);
         let mut step = extrapolate(begin, &first, slope, stiff.as_ref(), length, (table.radius, tolerance));
         let forces = self.forces(self.scene(table, &step.end.balls), &from.forces);
-        // Where a friction yields, forces are at the edge of the laws and rarely found to rounding; there the error of the step counts alone.
+        // If a friction yields, forces are at the edge of the laws and rarely converge to rounding; only the error of the step counts then.
         if is_lost || !yields && !forces.converged {
             (step.error, step.best_length) = (f64::INFINITY, WITHOUT_FORCES * length);
         }
         Trial { span, step, forces }
     }
 
-    /// Whether the forces at a step's end are those that obey all laws.
+    /// Whether the forces at a step's end obey all laws.
     fn holds(&self, table: &Table, trial: &Trial) -> bool {
         let end = &trial.step.end.balls;
         let turned = |ball: usize| self.members[ball] && self.turns_over(table.radius, ball, end[ball].spin.z);
@@ -394,14 +394,14 @@ impl Resting {
         })
     }
 
-    /// Longest step that is worth trying, in rescaled time; sets the scale.
+    /// Returns the longest step that is worth trying, in rescaled time, and sets the time scale.
     fn longest_step(&mut self, radius: f64) -> f64 {
         self.time_scale = None;
         let sliding = self.constants.sliding;
-        // While a slip turns in `turn` seconds under accelerations `a`, a step of `h` seconds strays by about `a h⁶/(2000 turn⁴)`.
+        // While a slip turns in `turn` seconds under the acceleration `a`, a step of `h` seconds deviates by about `a h⁶/(2000 turn⁴)`.
         let strays = |turn: f64| {
             let square = turn * turn;
-            libm::pow(2000.0 * MOST_STRAY / sliding * (square * square), 1.0 / 6.0)
+            libm::pow(2000.0 * MAX_DEVIATION / sliding * (square * square), 1.0 / 6.0)
         };
         let mut longest = LONGEST_CURVE / sliding;
         let (mut soonest, mut time_scale) = (f64::INFINITY, None);
@@ -411,7 +411,7 @@ impl Resting {
                 return;
             }
             longest = longest.min(strays(length / rate.length()));
-            // An implicit step begins where a direction has come to follow the forces; before, it turns fast.
+            // An implicit step requires a direction that already follows the forces; before that, it turns fast.
             let turning = (slip.perp_dot(rate) / (length * length)).abs();
             longest = longest.min((STIFF * length / (3.5 * sliding)).max(MOST_TURN / turning));
             let falls = -length * length / rate.dot(slip);
@@ -419,7 +419,7 @@ impl Resting {
                 (soonest, time_scale) = (falls, Some((place, length)));
             }
         });
-        // A slip that is far from its end needs no other time.
+        // A slip that is far from its end needs no rescaled time.
         if longest < 0.1 * soonest {
             return longest;
         }
@@ -428,7 +428,7 @@ impl Resting {
         if share > 0.0 { soonest * FALL.min(-libm::log(share)) } else { FALL * soonest }
     }
 
-    /// How fast time runs in rescaled time.
+    /// Returns the derivative of time with respect to rescaled time.
     fn time_rate(&self, radius: f64, balls: &State) -> f64 {
         let Some((place, from)) = self.time_scale else { return 1.0 };
         let slip = match place {
@@ -439,7 +439,7 @@ impl Resting {
         slip.length() / from
     }
 
-    /// A later state without its rounding.
+    /// Returns a later state without rounding errors.
     fn without_rounding(&self, table: &Table, mut balls: State) -> State {
         let contacts = &self.contacts;
         let set = ActiveSet::of(table, &balls, contacts, self.constants.tolerance.slip).slipping_where(&self.set);
@@ -447,24 +447,24 @@ impl Resting {
         balls
     }
 
-    /// Its contacts and its active set in some state.
+    /// Returns the scene of a state with this step's contacts and active set.
     fn scene<'a>(&'a self, table: &'a Table, balls: &'a State) -> Scene<'a> {
         Scene { table, balls, contacts: &self.contacts, set: &self.set }
     }
 
-    /// The forces in a scene; they have to be sought from `near` ones on where a friction yields, and where what is held does not
-    /// tell them.
+    /// Returns the forces in a scene. They are sought from `near` if a friction yields, or if the linear system of the active set has no
+    /// solution.
     fn forces(&self, scene: Scene<'_>, near: &Forces) -> Forces {
-        if scene.set.yields() || self.seeks() {
-            return self.sought(scene, near, false);
+        if scene.set.yields() || self.uses_solver() {
+            return self.search_forces(scene, near, false);
         }
         self.effort.add(HELD * self.contacts.len().pow(2) as u64);
-        scene.forces(Some(&self.first)).unwrap_or_else(|| self.sought(scene, near, true))
+        scene.forces(Some(&self.first)).unwrap_or_else(|| self.search_forces(scene, near, true))
     }
 
-    /// The forces in a scene by the solver, by a short search if none are to be expected.
-    fn sought(&self, scene: Scene<'_>, near: &Forces, is_short: bool) -> Forces {
-        if self.is_given_up() { *near } else { scene.sought(near, is_short, &self.effort) }
+    /// Returns the forces in a scene by the solver, with a short search if no forces are likely to exist.
+    fn search_forces(&self, scene: Scene<'_>, near: &Forces, is_short: bool) -> Forces {
+        if self.is_given_up() { *near } else { scene.search_forces(near, is_short, &self.effort) }
     }
 
     fn slope(&self, radius: f64, state: &State, (linear, angular): Accelerations<'_>) -> Phase {

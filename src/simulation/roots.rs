@@ -1,17 +1,17 @@
-//! The first time at which a gap closes: roots of small polynomials, found between their extrema.
+//! Root finding: the first time at which a gap closes, as a root of a polynomial of small degree, isolated between its extrema.
 
-/// Highest degree that [`first_crossing`] takes: the gap of two balls whose courses have degree five.
+/// Highest degree that [`first_crossing`] accepts: the gap of two balls with trajectories of degree five.
 pub const MAX_DEGREE: usize = 10;
 
-/// Room for the roots of such a polynomial and the end of the interval.
+/// Capacity for the roots of such a polynomial and the end of the interval.
 const MAX_ROOTS: usize = MAX_DEGREE + 1;
 
-/// First `t` in `(0, end]` at which `value` falls from positive to below zero, given the coefficients of its derivative,
-/// lowest first.
+/// Returns the first `t` in `(0, end]` at which `value` falls from positive to below zero, given the coefficients of its derivative, lowest
+/// first.
 ///
-/// The derivative's own roots are found first, by the same method one degree lower; between them `value` is monotone, so
-/// that a sign change is a single root and none can be missed. The root is located to the last bits of `value`'s own
-/// rounding. A value that starts at or below zero is taken to be just above it.
+/// The roots of the derivative are found first, by the same method one degree lower. Between them `value` is monotone, so that a sign
+/// change is a single root and none can be missed. The root is accurate to the last bits of the rounding of `value` itself. An initial
+/// value at or below zero is treated as just above it.
 pub fn first_crossing(value: impl Fn(f64) -> f64, derivative: &[f64], end: f64) -> Option<f64> {
     let mut turns = [0.0; MAX_ROOTS];
     let count = roots(derivative, end, &mut turns);
@@ -26,13 +26,13 @@ pub fn first_crossing(value: impl Fn(f64) -> f64, derivative: &[f64], end: f64) 
     None
 }
 
-/// Value of a polynomial with coefficients lowest first.
+/// Evaluates a polynomial with coefficients in ascending order of powers.
 #[inline]
 pub fn horner(coefficients: &[f64], t: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, c| sum * t + c)
 }
 
-/// All roots in the open interval `(0, end)` in ascending order where the polynomial changes sign; returns their number.
+/// Finds all sign changes of the polynomial in the open interval `(0, end)`, in ascending order. Returns their number.
 fn roots(coefficients: &[f64], end: f64, found: &mut [f64; MAX_ROOTS]) -> usize {
     let mut degree = coefficients.len().saturating_sub(1);
     while degree > 0 && coefficients[degree] == 0.0 {
@@ -91,7 +91,7 @@ fn roots_between_extrema(coefficients: &[f64], end: f64, found: &mut [f64; MAX_R
 /// Whether all Bernstein coefficients on `[0, end]` have the same strict sign; they bound the polynomial.
 fn bernstein_shares_sign(coefficients: &[f64], end: f64) -> bool {
     let degree = coefficients.len() - 1;
-    // b_j = sum_i C(j,i)/C(n,i) c_i end^i: scale once, then apply Pascal's differences upwards.
+    // b_j = sum_i C(j,i)/C(n,i) c_i end^i: scale once, then apply Pascal's scheme of sums.
     let mut b = [0.0; MAX_DEGREE + 1];
     let mut power = 1.0;
     let mut binomial = 1.0;
@@ -109,7 +109,7 @@ fn bernstein_shares_sign(coefficients: &[f64], end: f64) -> bool {
     b.iter().all(|x| *x > 0.0) || b.iter().all(|x| *x < 0.0)
 }
 
-/// Real roots of `a t² + b t + c` in ascending order, without cancellation.
+/// Returns the real roots of `a t² + b t + c` in ascending order, without cancellation.
 fn quadratic(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
     let discriminant = b * b - 4.0 * a * c;
     if discriminant < 0.0 {
@@ -120,8 +120,8 @@ fn quadratic(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
     Some([first.min(second), first.max(second)])
 }
 
-/// Root of a function that falls from positive at `low` to negative at `high`: Newton's steps, bisection where they
-/// leave the bracket or shrink it too slowly.
+/// Returns the root of a function that falls from positive at `low` to negative at `high`: Newton's method, with bisection if a step leaves
+/// the bracket or shrinks it too slowly.
 fn bisect_newton(value: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let mut t = 0.5 * (low + high);
     let mut last_step = high - low;
@@ -143,7 +143,7 @@ fn bisect_newton(value: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64, mut low
             0.5 * (low + high)
         };
         last_step = next - t;
-        // Adjacent numbers, or a step below the last bit: nothing is left to gain.
+        // Adjacent numbers, or a step below the last bit: no further progress is possible.
         if next <= low || next >= high || last_step.abs() <= 0.5 * f64::EPSILON * t {
             return next.clamp(low, high);
         }
@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn two_roots_a_ten_millionth_apart_are_told_from_none() {
+    fn two_roots_a_ten_millionth_apart_are_distinguished_from_none() {
         let touch = from_roots(&[0.5, 0.5 + 1e-7, -1.0, -2.0]);
         let value = |t: f64| (t - 0.5) * (t - 0.5 - 1e-7) * (t + 1.0) * (t + 2.0);
         let t = first_crossing(value, &derivative(&touch), 1.0);

@@ -1,32 +1,32 @@
-//! What the engine spares itself, each with a switch, so that a bench can tell what it is worth.
+//! Optimizations of the engine, each with a switch, so that a benchmark can measure its effect.
 //!
-//! A saving leaves out work whose result is known beforehand: with its switch off the engine does that work and comes to
-//! the same bits. The switches are constants of a type, which costs nothing at run time.
+//! An optimization omits work whose result is known: with its switch off, the engine does this work and produces identical bits. The
+//! switches are associated constants of a type, which costs nothing at run time.
 
-/// The switches; all savings are on unless a type says otherwise.
+/// The switches; all optimizations are on by default.
 pub trait Savings {
-    /// Balls at rest predict nothing: neither cushions nor, two of them, each other.
+    /// Balls at rest predict nothing: neither cushion impacts nor, for two of them, collisions.
     const BALLS_AT_REST: bool = true;
-    /// What a ball or a pair will meet is kept as long as no event changes its course; otherwise all of it is predicted
-    /// anew at every event, from the moments at which the courses began.
+    /// Predictions of a ball or a pair are kept until an event changes a trajectory. Otherwise everything is predicted again at every
+    /// event, from the times at which the trajectories started.
     const KEPT_PREDICTIONS: bool = true;
-    /// Only the cushions are solved for that a ball can reach before its motion ends.
+    /// Only cushions that a ball can reach before its motion ends are solved for.
     const CUSHIONS_IN_REACH: bool = true;
-    /// No root is sought for two balls between whose courses there is a line that neither crosses.
+    /// No root is sought for two balls whose trajectories are separated by a line.
     const COURSES_APART: bool = true;
-    /// While the cue ball alone moves, a loop of its own follows it, which neither looks for what comes next nor keeps its
-    /// course in memory. It keeps predictions, and so is off where [`Savings::KEPT_PREDICTIONS`] is.
+    /// While the cue ball moves alone, a specialized loop follows it, which compares no event times and does not store the trajectory in
+    /// memory. It keeps predictions, and is therefore off if [`Savings::KEPT_PREDICTIONS`] is off.
     const ALONE: bool = true;
-    /// A ball that only rolls out is not followed if the observer does not ask for ends.
+    /// A ball that only rolls to rest is not simulated if the observer does not need the end.
     const LAST_ROLLS: bool = true;
-    /// The simulation ends when the observer says so: the outcome is decided.
+    /// The simulation ends when the observer breaks, because the outcome is decided.
     const EARLY_END: bool = true;
-    /// The simulation ends before a resting contact is followed if the energy that is left brings the cue ball to none of the balls for
+    /// The simulation ends before a resting contact is simulated if the remaining energy cannot bring the cue ball to any of the balls for
     /// which the observer waits.
     const OUT_OF_REACH: bool = true;
 }
 
-/// All savings: what [`super::simulate`] uses.
+/// All optimizations; used by [`super::simulate`].
 #[derive(Clone, Copy, Debug)]
 pub struct All;
 

@@ -1,4 +1,4 @@
-//! The scheduler: when every ball has its next event of its own, and every pair its next collision.
+//! Event scheduler: predicts the next own event of every ball and the next collision of every pair.
 
 use std::ops::ControlFlow;
 
@@ -17,11 +17,11 @@ use crate::{
     table::{BALLS, PAIRS},
 };
 
-/// A horizon beyond which nobody looks, s: no ball moves for so long.
+/// Prediction horizon, s: no ball moves for so long.
 const LONGEST: f64 = 1e9;
 
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
-    /// Puts a ball on a course that can last for `lasts` seconds, and predicts which cushion it will meet.
+    /// Sets the trajectory of a ball, which is valid for `lasts` seconds, and predicts its next cushion impact.
     #[inline(always)]
     pub(super) fn set(&mut self, index: usize, segment: Segment, lasts: f64) {
         let ball = &mut self.balls[index];
@@ -32,7 +32,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
     }
 
-    /// Predicts which cushion a ball will meet; returns whether it is pressed against one instead.
+    /// Predicts the next cushion impact of a ball. Returns whether the ball is pressed against a cushion instead.
     #[inline(always)]
     fn predict_cushion(&mut self, index: usize) -> bool {
         let Ball { segment, lasts, rail_after, rail, .. } = &mut self.balls[index];
@@ -55,7 +55,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             _ => cushion_ahead::<S>(&self.constants, segment, *lasts),
         };
         let pressed = ahead == Ahead::Pressed;
-        // A ball pressed against one cushion can meet another; and if nothing holds it after all, the same one.
+        // A ball pressed against one cushion can hit another; and if nothing holds it after all, the same one.
         let (ahead, which) =
             if pressed { curved_cushion_ahead(&self.constants, segment, *lasts, |_| false) } else { (ahead, which) };
         if let Ahead::Meeting(after) = ahead {
@@ -66,7 +66,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         pressed
     }
 
-    /// Predicts what one ball will meet, after its course has been set at `now`.
+    /// Predicts the collisions of one ball, after its trajectory has been set at `now`.
     #[inline(always)]
     pub(super) fn look_ahead_of(&mut self, now: f64, index: usize) -> ControlFlow<()> {
         if !S::KEPT_PREDICTIONS || self.pressed || self.resting.is_some() {
@@ -76,14 +76,16 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let still = ball.segment.motion == Motion::Stationary;
         let flies = ball.segment.motion == Motion::Flying;
         let horizon = self.times[index] - now;
-        let way = Triangle::new(ball.segment.position, ball.segment.velocity, ball.segment.half_acceleration, horizon);
+        let triangle =
+            Triangle::new(ball.segment.position, ball.segment.velocity, ball.segment.half_acceleration, horizon);
         let apart = self.constants.diameter + self.constants.tolerance.surely_apart;
         for (pair, other) in PAIRS_OF[index] {
             let other = &self.balls[other].segment;
             let at_rest = other.motion == Motion::Stationary;
-            // Most pairs end here: one ball passes another, which lies still.
+            // Most pairs end here: one ball passes another one that is at rest.
             if at_rest
-                && ((S::BALLS_AT_REST && still) || (S::COURSES_APART && !flies && way.clears(other.position, apart)))
+                && ((S::BALLS_AT_REST && still)
+                    || (S::COURSES_APART && !flies && triangle.clears(other.position, apart)))
             {
                 self.times[BALLS + pair] = f64::INFINITY;
                 self.pairs[pair] = Meeting::unseen(now, true);
@@ -92,13 +94,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             }
         }
         if self.pressed {
-            // Only now is it known that balls press each other.
+            // Only the pair predictions have shown that balls press each other.
             return self.look_ahead(now, only(index));
         }
         ControlFlow::Continue(())
     }
 
-    /// Predicts what the `changed` balls will meet, after their courses have been set.
+    /// Predicts the collisions of the `changed` balls, after their trajectories have been set.
     pub(super) fn look_ahead(&mut self, now: f64, changed: [bool; BALLS]) -> ControlFlow<()> {
         let mut changed = changed;
         if !S::KEPT_PREDICTIONS {
@@ -118,13 +120,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         ControlFlow::Continue(())
     }
 
-    /// Whether an impact is due at this very moment. It comes first: forces do nothing in no time.
+    /// Whether an impact is due at this moment. Impacts come first, because forces have no effect in zero time.
     fn collides_at(&self, now: f64) -> bool {
         let at_rail = |index: usize| self.balls[index].rail_after < self.balls[index].lasts && self.times[index] <= now;
         (0..BALLS).any(at_rail) || self.times[BALLS..].iter().any(|time| *time <= now)
     }
 
-    /// Predicts what balls will meet that go on pressing each other as before.
+    /// Predicts the collisions of balls that continue to press each other as before.
     pub(super) fn look_ahead_of_pressed(&mut self, now: f64, members: [bool; BALLS]) {
         if !S::KEPT_PREDICTIONS {
             self.predict_all_again(members);
@@ -165,7 +167,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
     }
 
-    /// Works out once more what is known already, where that saving is switched off. What presses has been dealt with.
+    /// Repeats known predictions, for when this optimization is switched off. Pressed balls have already been handled.
     fn predict_all_again(&mut self, changed: [bool; BALLS]) {
         let pressed = self.pressed;
         for index in (0..BALLS).filter(|&index| !changed[index]) {
@@ -182,7 +184,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 }
 
 impl Ball {
-    /// A ball that lies still for ever.
+    /// Creates a ball at permanent rest.
     pub(super) const fn at_rest(position: glam::DVec2) -> Self {
         Self {
             segment: Segment::at_rest(position),

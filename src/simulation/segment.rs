@@ -1,14 +1,14 @@
-//! One stretch of a ball's course between two changes, in closed form.
+//! A segment: the closed-form trajectory of a ball between two events.
 
 use glam::{DVec2, DVec3};
 
 use super::{Constants, hops::Hops};
 use crate::physics::{BallState, Motion, SpatialState, decayed_spin, roll_on_slope, slide_on_slope, slip};
 
-/// A slip of less than this share of the ball's own speeds is rounding: the ball rolls.
+/// A slip below this share of the ball's own speeds is a rounding error: the ball rolls.
 const SLIP_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// A ball's course from `start` on, until something changes it.
+/// A ball's trajectory from `start` until the next event changes it.
 #[derive(Clone, Debug)]
 pub struct Segment {
     /// Time at which the segment begins, s.
@@ -17,28 +17,28 @@ pub struct Segment {
     pub position: DVec2,
     /// Velocity at the start, m/s.
     pub velocity: DVec2,
-    /// Half the acceleration, which is constant but for [`Motion::Resting`] and [`Motion::Flying`], m/s²: `-k` of thesis
-    /// equation (38).
+    /// Half the acceleration, m/s²: `-k` of thesis equation (38). Constant during the segment, except for [`Motion::Resting`] and
+    /// [`Motion::Flying`].
     pub half_acceleration: DVec2,
     /// Angular velocity at the start, rad/s.
     pub spin: DVec3,
-    /// The equation of motion in force.
+    /// The motion phase, which selects the equation of motion.
     pub motion: Motion,
-    /// What is more than a parabola on the cloth. It is kept apart, since it is rare and larger than all the rest.
+    /// Trajectory data beyond a parabola on the cloth. Boxed, because it is rare and larger than all other fields together.
     pub course: Option<Box<Course>>,
 }
 
-/// A course that is more than a parabola on the cloth.
+/// A trajectory that is more than a parabola on the cloth.
 #[derive(Clone, Copy, Debug)]
 pub enum Course {
-    /// That of a resting contact.
+    /// A resting contact.
     Contact(Curve),
-    /// That of a ball in the air.
+    /// A ball in the air.
     Hops(Hops),
 }
 
-/// The part of a resting contact's course that is not a parabola: one step of its integration, as polynomials that meet
-/// the integrated state and its derivatives at both ends.
+/// The part of a resting contact's trajectory beyond a parabola: one step of its integration, as polynomials that match the integrated
+/// state and its derivatives at both ends.
 #[derive(Clone, Copy, Debug)]
 pub struct Curve {
     /// Coefficients of `t³`, `t⁴` and `t⁵` in the position, m/s³ and so on.
@@ -47,7 +47,7 @@ pub struct Curve {
     pub spin: [DVec3; 3],
 }
 
-/// Whether a free ball slides: its slip is more than the rounding of what it is the difference of.
+/// Whether a free ball slides: its slip exceeds the rounding error of the velocities whose difference it is.
 pub fn slides(radius: f64, state: &BallState) -> bool {
     let spin_squared = radius * radius * state.spin.truncate().length_squared();
     slip(radius, state.velocity, state.spin).length_squared()
@@ -55,7 +55,7 @@ pub fn slides(radius: f64, state: &BallState) -> bool {
 }
 
 impl Segment {
-    /// A ball that lies still from time zero on.
+    /// Creates the segment of a ball that is at rest from time zero on.
     pub const fn at_rest(position: DVec2) -> Self {
         Self {
             start: 0.0,
@@ -68,8 +68,8 @@ impl Segment {
         }
     }
 
-    /// The free course that follows from `state` at time `start`, and how long it can last, s: until the slip or the
-    /// speed is used up (thesis equations 25 and 26).
+    /// Returns the free trajectory from `state` at time `start`, and its longest duration, s: until slip or speed is zero (thesis equations
+    /// 25 and 26).
     #[inline(always)]
     pub fn free(constants: &Constants, start: f64, state: &BallState) -> (Self, f64) {
         let radius = constants.radius;
@@ -95,7 +95,7 @@ impl Segment {
             }
             let slide = slide_on_slope(constants.sliding, constants.tilt, state.velocity, u);
             segment.half_acceleration = slide.half_acceleration;
-            (segment, slide.lasts)
+            (segment, slide.duration)
         } else if speed_squared > 0.0 {
             segment.roll(constants)
         } else {
@@ -103,7 +103,7 @@ impl Segment {
         }
     }
 
-    /// Turns the segment into a rolling one with the velocity that it has, and tells how long it can last, s.
+    /// Converts the segment into a rolling one with its present velocity. Also returns its longest duration, s.
     #[inline(always)]
     fn roll(mut self, constants: &Constants) -> (Self, f64) {
         let speed = self.velocity.length();
@@ -116,15 +116,14 @@ impl Segment {
         if !constants.level {
             let roll = roll_on_slope(&constants.rolling, constants.tilt, self.velocity);
             self.half_acceleration = roll.half_acceleration;
-            return (self, roll.lasts);
+            return (self, roll.duration);
         }
         let (deceleration, end) = constants.rolling.band(speed);
         self.half_acceleration = self.velocity * (-0.5 * deceleration / speed);
         (self, (speed - end) / deceleration)
     }
 
-    /// Whether a rolling ball comes to rest at the end of this course, and does not go on in the next band of its
-    /// deceleration.
+    /// Whether a rolling ball comes to rest at the end of this segment, rather than continuing in the next band of deceleration.
     #[inline(always)]
     pub fn rolls_to_rest(&self, constants: &Constants) -> bool {
         if constants.even {
@@ -136,14 +135,14 @@ impl Segment {
         roll_on_slope(&constants.rolling, constants.tilt, self.velocity).velocity == DVec2::ZERO
     }
 
-    /// The course that follows when this one's motion has lasted its full `duration`, s, and how long that can last.
+    /// Returns the segment that follows after this one's full `duration`, s, and its longest duration.
     #[inline(always)]
     pub fn successor(&self, constants: &Constants, duration: f64) -> (Self, f64) {
         let wz = decayed_spin(self.spin.z, constants.spinning, duration);
         let spin = DVec3::new(0.0, 0.0, wz);
         let start = self.start + duration;
         if self.motion == Motion::Sliding {
-            // What the slip leaves is known without its duration, which keeps the rounding small. A slope adds its part.
+            // The velocity after the slip does not depend on the duration, which keeps rounding errors small. A slope adds its part.
             let mut velocity = self.velocity - slip(constants.radius, self.velocity, self.spin) * (2.0 / 7.0);
             if !constants.even {
                 velocity += (5.0 / 7.0 * duration) * constants.tilt;
@@ -167,7 +166,7 @@ impl Segment {
         }
     }
 
-    /// Centre `t` seconds after the start, m.
+    /// Returns the centre `t` seconds after the start, m.
     #[inline(always)]
     pub fn position_after(&self, t: f64) -> DVec2 {
         match &self.course {
@@ -176,7 +175,7 @@ impl Segment {
         }
     }
 
-    /// Velocity `t` seconds after the start, m/s.
+    /// Returns the velocity `t` seconds after the start, m/s.
     #[inline(always)]
     pub fn velocity_after(&self, t: f64) -> DVec2 {
         match &self.course {
@@ -207,14 +206,15 @@ impl Segment {
         }
     }
 
-    /// Coefficients of the position along the cloth about the start, those of `t⁰` first, m, m/s and so on: not of a ball in the air.
+    /// Returns the coefficients of the position along the cloth about the start, in ascending powers of `t`, m, m/s and so on. Not valid
+    /// for a ball in the air.
     #[inline]
     pub fn coefficients(&self) -> [DVec2; 6] {
         let [c3, c4, c5] = self.curve().map_or([DVec2::ZERO; 3], |curve| curve.position);
         [self.position, self.velocity, self.half_acceleration, c3, c4, c5]
     }
 
-    /// The curve of a resting contact.
+    /// Returns the curve of a resting contact.
     pub fn curve(&self) -> Option<&Curve> {
         match self.course.as_deref() {
             Some(Course::Contact(curve)) => Some(curve),
@@ -222,7 +222,7 @@ impl Segment {
         }
     }
 
-    /// The flight of a ball in the air.
+    /// Returns the flight of a ball in the air.
     pub fn hops(&self) -> Option<&Hops> {
         match self.course.as_deref() {
             Some(Course::Hops(hops)) => Some(hops),
@@ -230,12 +230,12 @@ impl Segment {
         }
     }
 
-    /// Position, velocity and spin in space `t` seconds after the start: in the air, or on the cloth.
+    /// Returns position, velocity and spin in three dimensions `t` seconds after the start, in the air or on the cloth.
     pub fn spatial_after(&self, constants: &Constants, t: f64) -> SpatialState {
         self.hops().map_or_else(|| self.state_after(constants, t).into(), |hops| hops.state_after(t))
     }
 
-    /// Angular velocity `t` seconds after the start, rad/s.
+    /// Returns the angular velocity `t` seconds after the start, rad/s.
     #[inline(always)]
     pub fn spin_after(&self, constants: &Constants, t: f64) -> DVec3 {
         match self.course.as_deref() {
@@ -251,7 +251,7 @@ impl Segment {
             Motion::Rolling => 2.0,
             Motion::Stationary | Motion::Resting | Motion::Flying | Motion::OffTable => 0.0,
         } * constants.per_radius;
-        // A slope does not turn a sliding ball.
+        // A slope exerts no torque on a sliding ball.
         let mut turning = self.half_acceleration;
         if !constants.even && self.motion == Motion::Sliding {
             turning -= 0.5 * constants.tilt;
@@ -260,7 +260,7 @@ impl Segment {
         horizontal.extend(decayed_spin(self.spin.z, constants.spinning, t))
     }
 
-    /// Position, velocity and spin `t` seconds after the start.
+    /// Returns position, velocity and spin `t` seconds after the start.
     #[inline(always)]
     pub fn state_after(&self, constants: &Constants, t: f64) -> BallState {
         BallState {

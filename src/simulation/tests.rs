@@ -1,4 +1,4 @@
-//! The engine on tables whose parts go beyond the thesis.
+//! Engine tests on tables with models that go beyond the thesis.
 
 use std::ops::ControlFlow;
 
@@ -14,7 +14,7 @@ use crate::{
     table::{Layout, OneRail, RailModel, Rails, Table},
 };
 
-/// Where the cue ball ends on `match` with a nose of this restitution, which draw drives up.
+/// Returns the final position of the cue ball on `match` with a nose of this restitution, which draw makes the ball climb.
 fn end_at_a_dead_nose(rail_restitution: f64) -> DVec2 {
     let rail = Rails { model: RailModel::Nose, height: Some(0.037_36), ..Rails::default() };
     let table = Table { rail, rail_restitution, rail_friction: 0.3, ..Table::default() };
@@ -25,12 +25,12 @@ fn end_at_a_dead_nose(rail_restitution: f64) -> DVec2 {
 
 #[test]
 fn a_nose_that_just_throws_a_ball_back_and_one_that_just_does_not_differ_little() {
-    // The one that stops it has pressed it down and met it again until nothing of its approach was left.
+    // A nose that stops the ball presses it down and hits it again until its approach speed is zero.
     let ends = [0.0955, 0.096, 0.0965].map(end_at_a_dead_nose);
     assert!(ends[0].distance(ends[1]) < 1.2 * ends[1].distance(ends[2]), "{ends:?}");
 }
 
-/// What happens, and the pieces of the cue ball's course with their ends.
+/// Events of a shot, and the segments of the cue ball with their ends.
 #[derive(Default)]
 struct Course {
     events: Vec<Event>,
@@ -54,13 +54,14 @@ impl Observer for Course {
     }
 }
 
-/// The course of the cue ball, and where it comes to rest; the others lie in the far corners unless `second` says otherwise.
+/// Plays a shot and returns the record of the cue ball and its final position; the other balls are in the far corners, unless `second`
+/// gives a position.
 fn played(table: &Table, from: DVec2, velocity: DVec2, spin: DVec3, second: Option<DVec2>) -> (Course, DVec2) {
     let corner = table.reach() - DVec2::splat(0.001);
     among(table, [from, second.unwrap_or(-corner), DVec2::new(-corner.x, corner.y)], velocity, spin)
 }
 
-/// The same with all balls where they are said to be.
+/// As [`played`], with given positions of all balls.
 fn among(table: &Table, balls: [DVec2; 3], velocity: DVec2, spin: DVec3) -> (Course, DVec2) {
     let layout = Layout::new(balls);
     let mut course = Course::default();
@@ -81,7 +82,7 @@ fn each_rail_has_its_own_constants() {
         let table = Table { rail, ..Table::default() };
         for (rail, own) in Rail::ALL.into_iter().zip([left, right, bottom, top]) {
             let OneRail { e, mu, .. } = own.unwrap();
-            // Straight at the rail, with so much side that the friction is at its limit.
+            // Straight at the rail, with enough sidespin for friction at its limit.
             let from = -0.5 * rail.normal() * table.reach();
             let (course, _) = played(&table, from, -rail.normal(), DVec3::new(0.0, 0.0, 80.0), None);
             let hit = course.events.iter().position(|event| matches!(event.kind, EventKind::BallRail(..))).unwrap();
@@ -131,7 +132,7 @@ fn slow_balls_stop_where_the_law_says() {
         let (course, stop) = rolled(&table, DVec2::ZERO, DVec2::new(0.6, 0.8) * speed);
         let stops = course.events.iter().filter(|event| matches!(event.kind, EventKind::RollingStationary(0)));
         assert_eq!((stops.count(), course.events.len()), (1, 1), "{speed}");
-        // With a resistance of c0 + c1 v, c1 v much less than c0.
+        // With a resistance of c0 + c1 v, c1 v much smaller than c0.
         let growth = table.rolling_growth * speed / least;
         let known = speed * speed / least * (0.5 - growth / 3.0 + growth * growth / 4.0);
         assert!((stop.length() / known - 1.0).abs() < 1e-3, "{speed}: {} {known}", stop.length());
@@ -141,7 +142,7 @@ fn slow_balls_stop_where_the_law_says() {
 
 #[test]
 fn the_last_band_stops_a_ball_where_it_is() {
-    // A ball that stops in a band almost to rest must not be put back by what is left of its speed. The last band begins here.
+    // A ball that stops in a band that ends close to rest must not be moved back by its remaining speed. The last band starts here.
     let table = Table::default();
     for step in 0..2000 {
         let speed = 0.0273 + 1e-7 * f64::from(step);
@@ -176,7 +177,7 @@ fn on_a_slope_a_course_has_no_jumps_and_ends_in_rest() {
 
 #[test]
 fn a_ball_that_rolls_down_a_slope_meets_another_at_its_surface() {
-    // The roll bends by some centimetres: a straight line would meet the other ball elsewhere, or not at all.
+    // The path of the roll bends by some centimetres: on a straight line, the ball would hit the other one elsewhere or not at all.
     let table = Table { tilt: DVec2::new(0.0, 1e-3), ..Table::preset("textbook").unwrap() };
     for aside in [0.0, 0.01, 0.03, 0.05] {
         let second = DVec2::new(0.7, aside);
@@ -190,7 +191,7 @@ fn a_ball_that_rolls_down_a_slope_meets_another_at_its_surface() {
     }
 }
 
-/// Shots all over the table, as `(place of the cue ball, its velocity, its spin, place of a second ball)`.
+/// Returns shots all over the table, as `(cue ball's position, its velocity, its spin, position of a second ball)`.
 fn shots() -> impl Iterator<Item = (DVec2, DVec2, DVec3, DVec2)> {
     (0..40).map(|index| {
         let turn = DVec2::from_angle(0.7 + 2.4 * f64::from(index));
@@ -208,7 +209,7 @@ fn on_a_slope_no_energy_is_gained() {
         let constants = super::Constants::of(&table);
         for (from, velocity, spin, _) in shots() {
             let (course, _) = played(&table, from, velocity, spin, None);
-            // Until another ball gives or takes.
+            // Until a collision with another ball transfers energy.
             let met = course.events.iter().find(|event| matches!(event.kind, EventKind::BallBall(..)));
             let until = met.map_or(f64::INFINITY, |event| event.time);
             let pieces = course.pieces.iter().filter(|(_, end)| *end <= until);
@@ -221,7 +222,7 @@ fn on_a_slope_no_energy_is_gained() {
             });
             let mut last = f64::INFINITY;
             for energy in energies {
-                // Where stretches meet, the speed across the way is right to the first order of the slope only.
+                // At the junctions of stretches, the transverse speed is only correct to first order in the slope.
                 assert!(energy < last + 1e-5, "{name}, {from}, {velocity}: {energy} after {last}");
                 last = energy;
             }
@@ -242,7 +243,7 @@ fn a_mirrored_shot_on_a_mirrored_slope_ends_at_the_mirrored_place() {
             // Spin is an axial vector.
             let turned = DVec3::new(-spin.x, spin.y, -spin.z);
             let (image, image_end) = among(&mirrored, balls.map(|ball| mirror * ball), mirror * velocity, turned);
-            // Longer shots make much of rounding.
+            // Longer shots amplify rounding errors.
             if course.events.len() < 12 {
                 judged += 1;
                 assert_eq!(course.events.len(), image.events.len(), "{name}, {from}");
@@ -263,7 +264,7 @@ fn a_ball_that_rolls_along_the_rail_that_the_table_leans_to_comes_to_rest() {
                 let (course, stop) = rolled(&table, DVec2::new(-1.0, reach.y - gap), DVec2::new(0.5, aside));
                 assert!(stop.y <= reach.y + 1e-12 && stop.y > reach.y - 0.02, "{name}, {gap}, {aside}: {stop}");
                 assert!(course.events.len() <= 30, "{name}, {gap}, {aside}: {} events", course.events.len());
-                // The rail, which the ball leans on, slows it by a little.
+                // The rail, against which the ball leans, slows it down slightly.
                 let (_, level) =
                     rolled(&Table { tilt: DVec2::ZERO, ..table.clone() }, DVec2::new(-1.0, 0.0), DVec2::X * 0.5);
                 assert!((stop.x - level.x).abs() < 0.04 * (level.x + 1.0), "{name}, {gap}, {aside}: {stop} {level}");
@@ -272,10 +273,10 @@ fn a_ball_that_rolls_along_the_rail_that_the_table_leans_to_comes_to_rest() {
     }
 }
 
-/// Where two balls meet opposite cushions at the same moment, the second's impact, as slow as the end of a chatter, must not be
-/// swallowed by the resting contact of the first.
+/// If two balls hit opposite cushions at the same moment, the second impact, which is as slow as the end of a chatter, must not be absorbed
+/// by the resting contact of the first.
 #[test]
-fn what_closes_faster_than_counts_as_nothing_is_no_resting_contact_yet() {
+fn a_contact_that_closes_faster_than_the_tolerance_does_not_rest_yet() {
     let table = Table::preset("thesis").unwrap();
     let constants = Constants::of(&table);
     let rests = |closing: f64| {
@@ -292,7 +293,7 @@ fn what_closes_faster_than_counts_as_nothing_is_no_resting_contact_yet() {
     assert!(!rests(2.5e-10));
 }
 
-/// The steps of resting contacts that a shot takes.
+/// Counts the steps of the resting contacts of a shot.
 #[derive(Default)]
 struct Steps(usize);
 
@@ -307,8 +308,8 @@ impl Observer for Steps {
     }
 }
 
-/// A ball presses two others into a corner, one of which begins to roll next to not at all: no forces are found that obey all laws
-/// to rounding, and each search for them takes as long as hundreds of bounces. In micro-collisions they roll on until they stand.
+/// A ball presses two others into a corner, and one of them begins to roll extremely slowly. No forces are found that obey all laws to
+/// rounding, and each search costs as much as hundreds of bounces. In micro-collisions, they roll on until they come to rest.
 #[test]
 fn a_shot_whose_forces_are_not_found_goes_on_in_micro_collisions() {
     let table = Table { ball_restitution: 0.3, rail_restitution: 0.3, ..Table::preset("textbook").unwrap() };
@@ -326,12 +327,12 @@ fn a_shot_whose_forces_are_not_found_goes_on_in_micro_collisions() {
     };
     let mut steps = Steps::default();
     let end = simulate(&table, &Layout::new(balls), &strike(&table, &cue), &mut steps);
-    // Balls that the guard stops would stand after 1.22 s.
+    // If the guard stopped the balls, they would be at rest after 1.22 s.
     assert!(steps.0 < 30_000 && end.time > 1.5, "{} {}", steps.0, end.time);
 }
 
-/// Three balls in a row fill the table but for 1e-10 m, and the cue ball comes back into it: just before it has passed the middle of the
-/// row, the row needs 7e-16 m more than there is, which no impulse gives.
+/// Three balls in a row fill the table except for 1e-10 m, and the cue ball returns into the row. Just before it has passed the middle, the
+/// row needs 7e-16 m more than there is, which no impulse creates.
 #[test]
 fn a_row_that_rounding_jams_lets_the_ball_pass() {
     let preset = Table::preset("textbook").unwrap();
@@ -351,12 +352,12 @@ fn a_row_that_rounding_jams_lets_the_ball_pass() {
     };
     let mut steps = Steps::default();
     let end = simulate(&table, &Layout::new(balls), &strike(&table, &cue), &mut steps);
-    // It passes after 0.045 s at 5 m/s.
+    // The ball passes after 0.045 s at 5 m/s.
     assert!(end.time > 1.0, "{}", end.time);
 }
 
-/// A ball that rolls exactly into the corner of a square table meets both cushions at once, whichever is numbered first: mirrored at the
-/// diagonal, where its side spin turns the other way, the shot is the same.
+/// A ball that rolls exactly into the corner of a square table hits both cushions at once, independent of their numbering: mirrored at the
+/// diagonal, with the opposite sidespin, the shot is the same.
 #[test]
 fn a_ball_in_a_corner_meets_both_cushions_together() {
     let table = Table { length: 1.5, width: 1.5, rail_friction: 0.2, ..Table::preset("thesis").unwrap() };

@@ -1,103 +1,101 @@
-//! The numbers that decide when something counts as nothing and depend on the table: each with its unit, its reason and what goes wrong
-//! where it is chosen badly. Those that depend on no table stand beside what uses them.
+//! Table-dependent tolerances, each with its unit, its reason and the effect of a bad choice. Tolerances that do not depend on the table
+//! are defined where they are used.
 
 use crate::{
     physics::{FIRST_BOUNCE, rolling_deceleration},
     table::Table,
 };
 
-/// What counts as nothing on one table. Lengths grow with the table's length `L`, since coordinates are rounded to a share
-/// of it; speeds with `√(g R)`, accelerations with `g`.
+/// Tolerances of one table. Lengths scale with the table's length `L`, because coordinates are rounded to a share of it; speeds scale with
+/// `√(g R)`, accelerations with `g`.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerance {
-    /// Gaps below this are contact, m. Coordinates are rounded to `ε L / 4`, gaps to a few times that. Larger: real gaps
-    /// are closed too early. Smaller: contacts are lost.
+    /// Gaps below this count as contact, m. Coordinates are rounded to `ε L / 4`, gaps to a few times that. Larger: real gaps are closed
+    /// too early. Smaller: contacts are lost.
     pub touching: f64,
-    /// Impacts that follow each other within this time may be at one moment, s: the gaps then tell which of them are. A ball of
-    /// 2e-2 √(gR) closes a gap that counts as none meanwhile. Smaller: rounding decides whether balls are struck together or in turn.
-    /// Larger: the gaps are asked in vain.
+    /// Impacts within this time may be simultaneous, s; their gaps decide. In this time, a ball with the speed 2e-2 √(gR) closes a gap of
+    /// the touching tolerance. Smaller: rounding decides whether balls are struck together or in turn. Larger: gaps are checked needlessly.
     pub moment: f64,
-    /// A gap that stays above this is not closed by any rounding, m. Smaller: a prediction that is rounded otherwise than
-    /// the test could be missed. Larger: roots are sought in vain.
+    /// A gap that stays above this cannot be closed by rounding, m. Smaller: a prediction with other rounding than the test could be
+    /// missed. Larger: roots are sought needlessly.
     pub surely_apart: f64,
-    /// Bounces that are given up together with others are lower than this, m: so far a ball may be moved at the end of a
-    /// chatter. A moving ball nearer than this touches what rests. Larger: the course jumps. Smaller: coupled contacts end their
-    /// chatters one at a time.
+    /// Bounces that are given up together with others are lower than this, m: a ball may be moved by this much at the end of a chatter. A
+    /// moving ball nearer than this touches resting balls. Larger: trajectories jump. Smaller: coupled contacts end their chatters one at a
+    /// time.
     pub coupled_gap: f64,
-    /// Speeds along a contact's normal below this are none, m/s: in ten seconds they move a ball by some 1e-10 m. Smaller:
-    /// what rounding leaves of an impact counts as a bounce.
+    /// Speeds along a contact's normal below this count as zero, m/s: in ten seconds they move a ball by some 1e-10 m. Smaller: the
+    /// rounding error of an impact counts as a bounce.
     pub opening: f64,
-    /// Accelerations along a contact's normal below this do not press, m/s²: a hundred roundings of g. Smaller: rounding
-    /// presses balls together that roll on side by side.
+    /// Accelerations along a contact's normal below this do not press, m/s²: a hundred roundings of g. Smaller: rounding presses balls
+    /// together that roll side by side.
     pub pressing: f64,
-    /// Slips below this are none, m/s. It is well above the error of the integration, so that what sticks is seen to
-    /// stick; what is cut off would have moved a ball by less than 1e-10 m.
+    /// Slips below this count as zero, m/s. This is well above the integration error, so that sticking is detected; the neglected slip
+    /// would move a ball by less than 1e-10 m.
     pub slip: f64,
-    /// A slip below this is stopped at once if it then holds, m/s: what it still does until it ends, an impulse does too,
-    /// but for the change of the other forces meanwhile, which is of second order.
+    /// A slip below this is stopped at once if friction can then hold it, m/s. An impulse has the same effect as the rest of the slip,
+    /// except for the simultaneous change of the other forces, which is of second order.
     pub ending_slip: f64,
-    /// Slips up to this may have begun slowly, m/s: their friction acts against their rate. Larger: the direction is wrong for
-    /// longer. Smaller: the steps get as short as the direction is stiff.
+    /// Slips up to this may have begun slowly, m/s: their friction opposes their rate. Larger: the direction is wrong for longer. Smaller:
+    /// the stiffness of the direction makes the steps short.
     pub yielding: f64,
-    /// Balls in resting contact that are all slower than this are at rest, m/s, unless another one that moves touches them: they would
-    /// roll on for less than 1e-11 m, in ever smaller steps as their slips fade with their speeds.
+    /// Balls in resting contact that are all slower than this are at rest, m/s, unless another moving ball touches them. They would roll
+    /// for less than 1e-11 m, in ever smaller steps, because their slips fade with their speeds.
     pub still: f64,
-    /// Shortest step of a resting contact, s: frictions change a speed by less than a two-hundredth of what counts as a slip
-    /// meanwhile, and it is never more than 1e-13 s.
-    /// Larger: what ends is overshot, and flips. Smaller: steps are rounded away.
+    /// Shortest step of a resting contact, s. Frictions change a speed by less than a two-hundredth of the slip tolerance in it, and it is
+    /// never more than 1e-13 s. Larger: transitions are overshot and reverse. Smaller: steps vanish in rounding.
     pub shortest_step: f64,
-    /// In shorter steps, s, the places at both ends, which are rounded, say less of the velocity than the velocities do where both agree.
+    /// In shorter steps, s, the rounded positions at both ends determine the velocity less accurately than the velocities themselves,
+    /// provided that both agree.
     pub shortest_quintic: f64,
-    /// Estimated error that a step of a resting contact may make, in m, m/s, or R times rad/s. A contact takes some tens
-    /// of steps.
+    /// Accepted estimated error of a step of a resting contact, in m, m/s, or R times rad/s. A contact takes some tens of steps.
     pub step: f64,
-    /// Forces per mass that are broken or missing by less than this count as rounding, m/s².
+    /// Violations or differences of forces per mass below this count as rounding errors, m/s².
     pub slack: f64,
-    /// Bounces slower than this may be the end of a chatter, m/s: the test costs nothing where it cannot matter. It grows
-    /// with the number of bounces that a chatter has.
+    /// Bounces slower than this may be the end of a chatter, m/s; for faster ones the test is skipped, because it cannot matter. Scales
+    /// with the number of bounces of a chatter.
     pub slow_bounce: f64,
-    /// What a rail lifts more slowly than this stays on the cloth, m/s.
+    /// A ball that a rail lifts more slowly than this stays on the cloth, m/s.
     pub least_lift: f64,
-    /// A chatter ends at this bounce speed whatever presses the ball, m/s: a slip about to end, or another ball behind it.
-    /// Its bounces are 1e-19 m high, and what is left of them moves a ball by less than 1e-9 m.
+    /// A chatter ends at this bounce speed whatever presses the ball, m/s, be it a slip about to end or another ball behind it. Its bounces
+    /// are 1e-19 m high, and the rest of them moves a ball by less than 1e-9 m.
     pub slowest_bounce: f64,
-    /// A chatter of several coupled contacts ends at this bounce speed, m/s, where the bounces make slips: the places are then right to as
-    /// many metres.
+    /// A chatter of several coupled contacts whose bounces create slips ends at this bounce speed, m/s; its value in metres is the
+    /// resulting accuracy of the positions.
     pub slowest_coupled_bounce: f64,
-    /// The `slowest_bounce` of bounces that lose nothing and go on as long as the ball is pressed, m/s: they are less than 1e-16 m high, and
-    /// there are tens of millions of them a second. Larger: a ball that is pressed no more has lost the speed with which it would
+    /// The `slowest_bounce` for bounces without loss, which continue as long as the ball is pressed, m/s. They are less than 1e-16 m high,
+    /// and there are tens of millions of them a second. Larger: a ball that is no longer pressed has lost the speed with which it would
     /// leave.
     pub slowest_lossless_bounce: f64,
-    /// No bounce in the air, on a nose or on another ball, is slower than this, m/s: it is a quarter of a micrometre high.
+    /// Smallest separation speed in the air, on a nose or another ball, m/s: such a bounce is a quarter of a micrometre high.
     pub slowest_in_air: f64,
-    /// Where nothing rests any more, bounces slower than this lose nothing, m/s: they are lower than a micrometre. Larger: balls that are
-    /// pressed together are farther apart. Smaller: there are more bounces.
+    /// After resting contacts are disabled, bounces slower than this lose nothing, m/s: they are lower than a micrometre. Larger: pressed
+    /// balls are farther apart. Smaller: there are more bounces.
     pub fastest_micro_collision: f64,
-    /// How far apart balls and cushions are put by such a bounce, m: those that begin from rest come to some speed by falling through it.
-    /// Larger: the course jumps. Smaller: it takes more bounces.
+    /// Gap that such a bounce creates between balls and cushions, m: balls that start from rest gain some speed by crossing it. Larger:
+    /// trajectories jump. Smaller: more bounces are needed.
     pub micro_room: f64,
-    /// Balls that never slip and that no forces hold together begin to bounce at this speed, m/s: above the slowest bounce,
-    /// so that the chatter does not end at once.
+    /// First bounce speed of balls that never slip in a state without consistent forces, m/s: above the slowest bounce, so that the chatter
+    /// does not end at once.
     pub first_bounce: f64,
-    /// A contact that closes again sooner than this has not ended, s: balls that never slip on each other may press only while one of
-    /// them slips on the cloth; when that ends they bounce, and the bounce makes it slip again. Four times as long as the friction of
-    /// sliding takes to undo the `first_bounce`. Larger: contacts end late. Smaller: each of these bounces is told as an end.
+    /// A contact that closes again sooner than this has not ended, s. Balls that never slip on each other may press only while one of them
+    /// slips on the cloth; when that slip ends they bounce, and the bounce makes the ball slip again. Four times as long as sliding
+    /// friction takes to cancel the `first_bounce`. Larger: contacts end late. Smaller: each of these bounces is reported as an end.
     pub shortest_parting: f64,
-    /// Error in speed that ending a chatter early may make, m/s: 1e-11 m after ten seconds.
+    /// Accepted speed error of ending a chatter early, m/s: 1e-11 m after ten seconds.
     pub negligible: f64,
-    /// The same where several contacts are coupled, whose bounces do not fade in order, m/s: 1e-9 m after ten seconds.
+    /// The same if several contacts are coupled, whose bounces do not fade regularly, m/s: 1e-9 m after ten seconds.
     pub negligible_coupled: f64,
 }
 
-/// How many times as many bounces a chatter has as at a restitution of 0.95, from as many up to ten times: in inverse proportion
-/// to what is lost. Without loss none ends.
+/// Returns the number of bounces of a chatter relative to that at a restitution of 0.95, limited to 1 to 10: it is inversely proportional
+/// to the loss. Chatters without loss do not end, and have the factor 1.
 fn liveliness(table: &Table) -> f64 {
     let lost = 1.0 - table.largest_restitution();
     if lost > 0.0 { (0.05 / lost).clamp(1.0, 10.0) } else { 1.0 }
 }
 
 impl Tolerance {
-    /// What counts as nothing on `table`.
+    /// Returns the tolerances of `table`.
     pub fn of(table: &Table) -> Self {
         let speed = (table.gravity * table.radius).sqrt();
         let friction = table.sliding_friction.max(table.spinning_friction) * table.gravity;

@@ -1,4 +1,4 @@
-//! Which ball is the cue ball: each player of a game has one of the two.
+//! The player's choice of cue ball: white or yellow.
 
 use std::{fmt, str::FromStr};
 
@@ -6,29 +6,29 @@ use serde::{Deserialize, Serialize};
 
 use super::{BALL_NAMES, BALLS};
 
-/// The ball that a player plays with. In a layout it always comes first, ball 0, and the opponent's second, ball 1.
+/// The ball that a player strikes. In a layout the cue ball is always ball 0 and the opponent's ball is ball 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum CueBall {
-    /// White; yellow is the opponent's.
+    /// White; the opponent has yellow.
     #[default]
     White,
-    /// Yellow; white is the opponent's.
+    /// Yellow; the opponent has white.
     Yellow,
 }
 
-/// A word that is no cue ball.
+/// Error for a word that does not name a cue ball.
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error("there is no cue ball \"{0}\"; use white or yellow")]
 pub struct UnknownCueBall(String);
 
 impl CueBall {
-    /// Its colour.
+    /// Returns the ball's colour as a word.
     pub const fn name(self) -> &'static str {
         self.names()[0]
     }
 
-    /// The colours of the cue ball, the opponent's ball and the red one.
+    /// Returns the colours of the cue ball, the opponent's ball and the red ball, in this order.
     pub const fn names(self) -> [&'static str; BALLS] {
         let [white, yellow, red] = BALL_NAMES;
         match self {
@@ -37,7 +37,7 @@ impl CueBall {
         }
     }
 
-    /// What belongs to white, yellow and red, in the order of the balls of a layout; and back again.
+    /// Reorders values from the order white, yellow, red to the order of a layout's balls. The same call converts back.
     pub fn ordered<T>(self, mut colours: [T; BALLS]) -> [T; BALLS] {
         if self == Self::Yellow {
             colours.swap(0, 1);
@@ -45,7 +45,7 @@ impl CueBall {
         colours
     }
 
-    /// The opponent's.
+    /// Returns the opponent's cue ball.
     #[must_use]
     pub const fn other(self) -> Self {
         match self {

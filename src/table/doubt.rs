@@ -1,69 +1,69 @@
-//! How well a table is known: standard deviations and correlations of its constants, and other laws that its rails may follow.
+//! Uncertainty of a table: standard deviations and correlations of its constants, and alternative rail models.
 
 use std::{collections::BTreeMap, sync::LazyLock};
 
 use serde::{Deserialize, Serialize};
 
-use super::{JUDGED, OneRail, Rail, RailModel, Table, flaws::roughest};
+use super::{JUDGED, OneRail, Rail, RailModel, Table, flaws::max_sliding_friction};
 use crate::statistics::cholesky;
 
 const MATCH: &str = include_str!("match_doubt.toml");
 const UNKNOWN: &str = include_str!("unknown_doubt.toml");
 
-/// How well a table's constants are known: the TOML section `[doubt]`. They are taken to be normally distributed around
-/// the table's own values; a constant that is not named is certain.
+/// Uncertainty of a table's constants: the TOML section `[doubt]`. The constants are normally distributed around the table's own values. A
+/// constant that is not listed is certain.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TableDoubt {
-    /// Standard deviations by the names of the constants (`mu_s`, `rail.height`, …), in the units of the table's file.
+    /// Standard deviation by the name of the constant (`mu_s`, `rail.height`, …), in the units of the table's file.
     #[serde(default)]
     pub deviations: BTreeMap<String, f64>,
-    /// Correlations of two of them; those that are not named are 0.
+    /// Correlations of pairs of constants; 0 for pairs that are not listed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub correlations: Vec<(String, String, f64)>,
-    /// Laws of the rails that the real ones may follow in place of the table's own.
+    /// Rail models that the real rails may follow instead of the table's own model.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub laws: Vec<OtherLaw>,
 }
 
-/// A law that the rails may follow in place of the table's own.
+/// A rail model that the real rails may follow instead of the table's own.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OtherLaw {
-    /// The law.
+    /// The model.
     pub model: RailModel,
-    /// How likely it is. The table's own law has what all others leave of 1.
+    /// Probability of this model. The table's own model has the rest, up to a total of 1.
     pub weight: f64,
-    /// The constants with which this law comes nearest to what is known of the table; of those that are not named the table's own
-    /// are taken.
+    /// Constants with which this model fits the known data of the table best. Constants that are not listed keep the table's own values.
     #[serde(default)]
     pub values: BTreeMap<String, f64>,
-    /// Standard deviations in place of the table's own law's; of constants that are not named those.
+    /// Standard deviations that replace those of the table's own model. Constants that are not listed keep those.
     #[serde(default)]
     pub deviations: BTreeMap<String, f64>,
-    /// Correlations; those of the table's own law do not count.
+    /// Correlations; those of the table's own model do not apply.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub correlations: Vec<(String, String, f64)>,
 }
 
-/// How much of a constant's variance the others must leave open for correlations to be those of something.
-const LEAST_LEFT: f64 = 1e-9;
+/// Smallest share of a constant's variance that the other constants must leave unexplained. Below it, the correlation matrix is not
+/// accepted as positive definite.
+const MIN_UNEXPLAINED: f64 = 1e-9;
 
-/// A constant that can be in doubt.
+/// A constant of a table that can be uncertain.
 #[derive(Debug)]
 pub(super) struct Constant {
     pub(super) name: &'static str,
     pub(super) get: fn(&Table) -> Option<f64>,
     set: fn(&mut Table, f64),
-    /// Values that draws are kept within.
+    /// Smallest and largest value that a draw can have.
     limits: (f64, f64),
 }
 
-/// Of a slope, m/s². Who draws or looks for one keeps it below the steepest that the table may have, besides.
-const LEAN: (f64, f64) = (-1.0, 1.0);
+/// Limits of one component of the tilt, m/s². Callers that draw or fit a tilt also keep it below the steepest slope that the table accepts.
+const TILT_LIMITS: (f64, f64) = (-1.0, 1.0);
 
-/// All of them. A constant that a table's model does not have is left out there. Draws take them in this order: new ones come
-/// last.
+/// All constants that can be uncertain. A constant that a table's models do not have is skipped. A sampler draws them in this order, so
+/// that new ones must be appended at the end.
 pub(super) const CONSTANTS: [Constant; 22] = [
     constant("e_rail", |table| Some(table.rail_restitution), |table, value| table.rail_restitution = value, (0.0, 1.0)),
     constant("mu_rail", |table| Some(table.rail_friction), |table, value| table.rail_friction = value, (0.0, 0.99)),
@@ -87,7 +87,7 @@ pub(super) const CONSTANTS: [Constant; 22] = [
     constant(
         "mu_s",
         |table| Some(table.sliding_friction),
-        |table, value| table.sliding_friction = value.min(roughest(table.rail.model)),
+        |table, value| table.sliding_friction = value.min(max_sliding_friction(table.rail.model)),
         (0.01, 1e3),
     ),
     constant("mu_r", |table| Some(table.rolling_friction), |table, value| table.rolling_friction = value, (1e-3, 1e3)),
@@ -98,8 +98,8 @@ pub(super) const CONSTANTS: [Constant; 22] = [
         |table, value| table.spinning_friction = value,
         (0.0, 1e3),
     ),
-    constant("tilt.x", |table| Some(table.tilt.x), |table, value| table.tilt.x = value, LEAN),
-    constant("tilt.y", |table| Some(table.tilt.y), |table, value| table.tilt.y = value, LEAN),
+    constant("tilt.x", |table| Some(table.tilt.x), |table, value| table.tilt.x = value, TILT_LIMITS),
+    constant("tilt.y", |table| Some(table.tilt.y), |table, value| table.tilt.y = value, TILT_LIMITS),
     constant("e_ball", |table| Some(table.ball_restitution), |table, value| table.ball_restitution = value, (0.0, 1.0)),
     constant(
         "mu_b",
@@ -118,14 +118,14 @@ pub(super) const CONSTANTS: [Constant; 22] = [
         |table, value| table.cue_end_mass = Some(value.min(table.cue_mass)),
         (1e-4, f64::MAX),
     ),
-    own::<0, false>("rail.left.e"),
-    own::<1, false>("rail.right.e"),
-    own::<2, false>("rail.bottom.e"),
-    own::<3, false>("rail.top.e"),
-    own::<0, true>("rail.left.mu"),
-    own::<1, true>("rail.right.mu"),
-    own::<2, true>("rail.bottom.mu"),
-    own::<3, true>("rail.top.mu"),
+    single_rail::<0, false>("rail.left.e"),
+    single_rail::<1, false>("rail.right.e"),
+    single_rail::<2, false>("rail.bottom.e"),
+    single_rail::<3, false>("rail.top.e"),
+    single_rail::<0, true>("rail.left.mu"),
+    single_rail::<1, true>("rail.right.mu"),
+    single_rail::<2, true>("rail.bottom.mu"),
+    single_rail::<3, true>("rail.top.mu"),
 ];
 
 const fn constant(
@@ -137,8 +137,8 @@ const fn constant(
     Constant { name, get, set, limits }
 }
 
-/// What a rail has of its own, by its place in [`Rail::ALL`]: its friction, or how much it gives back.
-const fn own<const RAIL: usize, const FRICTION: bool>(name: &'static str) -> Constant {
+/// Returns the constant for the friction or the restitution of one single rail; `RAIL` is its index in [`Rail::ALL`].
+const fn single_rail<const RAIL: usize, const FRICTION: bool>(name: &'static str) -> Constant {
     const fn field<const FRICTION: bool>(own: &mut OneRail) -> &mut Option<f64> {
         if FRICTION { &mut own.mu } else { &mut own.e }
     }
@@ -153,24 +153,22 @@ const fn own<const RAIL: usize, const FRICTION: bool>(name: &'static str) -> Con
     )
 }
 
-/// Why a doubt is refused.
+/// Why a `[doubt]` section is refused.
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum DoubtError {
-    /// A name that no constant has.
-    #[error("the doubt names \"{0}\", which is no constant that can be in doubt; accepted are {accepted}", accepted = names())]
+    /// The name of no known constant.
+    #[error("the doubt names \"{0}\", which is not one of the constants; accepted are {accepted}", accepted = names())]
     Unknown(String),
-    /// A standard deviation that is none.
-    #[error("the doubt has {0} = {1}; accepted is a standard deviation from 0 in the unit of the table's file")]
+    /// A negative or infinite standard deviation, or NaN.
+    #[error("the doubt has {0} = {1}; accepted is a standard deviation of 0 or more in the unit of the table's file")]
     Deviation(String, f64),
-    /// A value that a constant cannot have: both as text, and what is accepted.
-    #[error("the doubt has {0} under another law of the rails; accepted are numbers {1}")]
+    /// A value that the constant cannot have: the assignment and the accepted range, both as text.
+    #[error("the doubt has {0} for another rail law; accepted are numbers {1}")]
     Value(String, String),
-    /// A weight that no law can have.
-    #[error(
-        "the doubt gives its laws of rails the weight {0} in all; accepted are weights from 0 that come to less than 1"
-    )]
+    /// The total weight of the alternative rail models, which is negative or not below 1.
+    #[error("the weights of the rail laws in the doubt add up to {0}; accepted are weights from 0 with a sum below 1")]
     Weight(f64),
-    /// Correlations that no distribution has.
+    /// Correlations that do not form a positive definite matrix.
     #[error("the correlations of the doubt contradict each other at \"{0}\"; accepted is a positive definite matrix")]
     Correlations(String),
 }
@@ -180,10 +178,11 @@ fn names() -> String {
 }
 
 impl TableDoubt {
-    /// What is not known of `table`: what its file says, or else for `match` what the fit to the film has left open, nothing
-    /// for the tables of the thesis' equations, and for any other what real tables differ by.
+    /// Returns the uncertainty of `table`. If its file has a `[doubt]` section, that is used. Otherwise it is what the fit to the filmed
+    /// shots leaves open for `match`, no uncertainty for the tables of the thesis' equations, and the spread among real tables for any
+    /// other table.
     pub fn of(table: &Table) -> Self {
-        // Read once: the coach asks at every question. A test reads them all.
+        // Parsed once, because the coach needs it for every query. A test parses all of them.
         static KNOWN: LazyLock<Vec<(Table, TableDoubt)>> = LazyLock::new(|| {
             let judged = JUDGED.iter().filter_map(|name| Some((Table::preset(name).ok()?, TableDoubt::default())));
             judged.chain([(Table::default(), toml::from_str(MATCH).unwrap_or_default())]).collect()
@@ -193,12 +192,12 @@ impl TableDoubt {
         table.doubt.as_ref().or_else(known).unwrap_or(&OTHER).clone()
     }
 
-    /// The value of a constant; `None` where the table's models do not have it, or the name is unknown.
+    /// Returns the value of a constant; `None` if the table's models do not have it or the name is unknown.
     pub fn value(table: &Table, name: &str) -> Option<f64> {
         CONSTANTS.iter().find(|constant| constant.name == name).and_then(|constant| (constant.get)(table))
     }
 
-    /// `table` with this value of a constant, kept within its limits; unchanged where its models do not have it.
+    /// Returns `table` with a new value of a constant, clamped to its limits; unchanged if the table's models do not have it.
     #[must_use]
     pub fn with_value(table: &Table, name: &str, value: f64) -> Table {
         let mut table = table.clone();
@@ -208,12 +207,12 @@ impl TableDoubt {
         table
     }
 
-    /// Whether nothing is in doubt.
+    /// Whether no constant and no rail model is uncertain.
     pub fn is_certain(&self) -> bool {
         self.laws.is_empty() && self.deviations.values().all(|deviation| *deviation == 0.0)
     }
 
-    /// The same without any doubt about constants of these names.
+    /// Returns the same uncertainty with the constants that `is_known` accepts made certain.
     #[must_use]
     pub fn without(&self, is_known: impl Fn(&str) -> bool) -> Self {
         let mut doubt = self.clone();
@@ -226,16 +225,16 @@ impl TableDoubt {
         doubt
     }
 
-    /// What is in doubt where the rails of `table` follow another law: the table with that law, and its constants' doubt.
-    pub(super) fn under(&self, law: &OtherLaw, table: &Table) -> (Table, Self) {
+    /// Returns `table` with the alternative rail model `law`, and the uncertainty of that table's constants.
+    pub(super) fn with_model(&self, law: &OtherLaw, table: &Table) -> (Table, Self) {
         let mut other = table.clone();
         other.rail.model = law.model;
-        other.sliding_friction = table.sliding_friction.min(roughest(law.model));
+        other.sliding_friction = table.sliding_friction.min(max_sliding_friction(law.model));
         other.rail.kappa = table.rail.kappa.filter(|_| law.model == RailModel::Smooth);
         for constant in &CONSTANTS {
             if let Some(value) = law.values.get(constant.name) {
-                // A constant that the table's own law does not have is one of the other's.
-                constant.give(&mut other, *value);
+                // The alternative model may have a constant that the table's own model lacks.
+                constant.assign(&mut other, *value);
             }
         }
         let mut deviations = self.deviations.clone();
@@ -246,7 +245,7 @@ impl TableDoubt {
     /// Checks every name and number.
     ///
     /// # Errors
-    /// Where one cannot be.
+    /// The first name or number that is not accepted.
     pub fn validate(&self) -> Result<(), DoubtError> {
         let unknown = |name: &&String| !CONSTANTS.iter().any(|constant| constant.name == **name);
         let values = self.laws.iter().flat_map(|law| law.values.keys());
@@ -285,10 +284,10 @@ impl TableDoubt {
         })
     }
 
-    /// The lower triangle L of the covariance `L Lᵀ` of these constants by rows.
+    /// Returns the lower triangular Cholesky factor `L` of the covariance matrix `L Lᵀ` of these constants, row by row.
     ///
     /// # Errors
-    /// Where the correlations contradict each other.
+    /// Fails if the correlation matrix is not positive definite.
     pub fn factor(&self, names: &[&str]) -> Result<Vec<Vec<f64>>, DoubtError> {
         let correlation = |row: usize, column: usize| {
             let (row, column) = (names[row], names[column]);
@@ -301,7 +300,7 @@ impl TableDoubt {
         let line = |row: usize| (0..names.len()).map(|column| entry(row, column)).collect();
         let matrix: Vec<Vec<f64>> = (0..names.len()).map(line).collect();
         let mut factor =
-            cholesky(&matrix, LEAST_LEFT).map_err(|row| DoubtError::Correlations(names[row].to_owned()))?;
+            cholesky(&matrix, MIN_UNEXPLAINED).map_err(|row| DoubtError::Correlations(names[row].to_owned()))?;
         for (line, name) in factor.iter_mut().zip(names) {
             for entry in line {
                 *entry *= self.deviations[*name];
@@ -312,15 +311,16 @@ impl TableDoubt {
 }
 
 impl Constant {
-    /// Gives a table this value, within the limits; one whose models do not have the constant stays as it is.
+    /// Sets the constant to `value`, clamped to the limits. Does nothing if the table's models do not have the constant.
     pub(super) fn change(&self, table: &mut Table, value: f64) {
         if (self.get)(table).is_some() {
-            self.give(table, value);
+            self.assign(table, value);
         }
     }
 
-    /// Gives a table this value, within the limits; where its own lies beyond them, up to that.
-    fn give(&self, table: &mut Table, value: f64) {
+    /// Sets the constant to `value`, clamped to the limits. If the table's present value lies outside them, the range extends to that
+    /// value.
+    fn assign(&self, table: &mut Table, value: f64) {
         let own = (self.get)(table).unwrap_or(value);
         (self.set)(table, value.clamp(self.limits.0.min(own), self.limits.1.max(own)));
     }
@@ -349,10 +349,10 @@ mod tests {
     }
 
     #[test]
-    fn a_doubt_that_cannot_be_is_refused_by_name() {
+    fn an_invalid_doubt_is_refused_by_name() {
         let doubt = |text: &str| toml::from_str::<TableDoubt>(text).unwrap().validate().unwrap_err().to_string();
-        let said = doubt("deviations = { mu_x = 0.1 }");
-        assert!(said.contains("mu_x") && said.contains("mu_rail"), "{said}");
+        let message = doubt("deviations = { mu_x = 0.1 }");
+        assert!(message.contains("mu_x") && message.contains("mu_rail"), "{message}");
         assert!(doubt("deviations = { mu_s = -0.1 }").contains("mu_s = -0.1"));
         assert!(doubt("deviations = { mu_s = nan }").contains("mu_s = NaN"));
         let pair = "deviations = { mu_s = 0.1, mu_r = 0.1 }\ncorrelations = [[\"mu_s\", \"mu_r\", ";
@@ -373,6 +373,6 @@ mod tests {
         (table.rail.model, table.rail.kappa) = (RailModel::Nose, None);
         let text = "[[laws]]\nmodel = \"smooth\"\nweight = 0.5\nvalues = { \"rail.kappa\" = 1.2 }";
         let doubt: TableDoubt = toml::from_str(text).unwrap();
-        assert_eq!(doubt.under(&doubt.laws[0], &table).0.rail.kappa, Some(1.2));
+        assert_eq!(doubt.with_model(&doubt.laws[0], &table).0.rail.kappa, Some(1.2));
     }
 }

@@ -1,35 +1,35 @@
-//! What is wrong with the values of a table's models, if anything.
+//! Validation of the constants of a table's models.
 
 use super::{Rail, RailModel, Table, models::Fade};
 
-/// The steepest slope that courses are computed for, as a share of `mu_r g`, which is where balls would roll by themselves, and of `mu_s g`,
-/// below which slides do not end by themselves.
+/// Steepest accepted slope, as a share of `mu_r g` and of `mu_s g`. At `mu_r g` balls would start to roll by themselves; at `mu_s g` a
+/// slide would never end.
 const STEEPEST: f64 = 0.2;
 
-/// Whether this coefficient of friction can be one of a cushion or of two balls.
+/// Whether `value` is an acceptable coefficient of friction of a cushion or between two balls.
 ///
-/// On a ball that the cloth does not let slip, a push `N` on its side and a friction `f` up or down there act like
-/// `5/7 (N ± f)`: from `f = N` on, friction presses a contact together by more than its push parts it, and forces that obey
-/// all laws are not unique or do not exist (Painlevé 1895).
-pub(super) fn rubs(value: f64) -> bool {
+/// Consider a ball that the cloth does not let slip, with a push `N` on its side and vertical friction `f` at that contact. They act like
+/// `5/7 (N ± f)`: from `f = N` on, friction presses the contact together more strongly than the push separates it. Contact forces that obey
+/// all laws are then not unique or do not exist (Painlevé's paradox, 1895).
+pub(super) fn is_accepted_friction(value: f64) -> bool {
     (0.0..1.0).contains(&value)
 }
 
-/// What [`rubs`] accepts.
-pub(super) const RUBS: &str = "0 to below 1, where the forces of a contact are unique";
+/// The values that [`is_accepted_friction`] accepts, for error messages.
+pub(super) const ACCEPTED_FRICTION: &str = "0 to below 1, where the forces of a contact are unique";
 
-/// The largest `mu_s` that goes with rails of this model. In the steps of Mathavan's law the friction of a rougher cloth would drive the
-/// ball: it would gain energy.
-pub(super) const fn roughest(model: RailModel) -> f64 {
+/// Returns the largest `mu_s` that is accepted with this rail model. With a rougher cloth, the integration steps of Mathavan's model would
+/// let friction drive the ball, which would gain energy.
+pub(super) const fn max_sliding_friction(model: RailModel) -> f64 {
     if matches!(model, RailModel::Mathavan) { 1.0 } else { f64::INFINITY }
 }
 
-/// The steepest slope that is accepted, m/s².
+/// Returns the steepest accepted slope, m/s².
 pub fn steepest_tilt(table: &Table) -> f64 {
     STEEPEST * table.rolling_friction.min(table.sliding_friction) * table.gravity
 }
 
-/// The keys of what a rail may have of its own.
+/// TOML keys of the constants that a single rail can override.
 const OWN: [(Rail, [&str; 3]); 4] = [
     (Rail::Left, ["rail.left.e", "rail.left.mu", "rail.left.height"]),
     (Rail::Right, ["rail.right.e", "rail.right.mu", "rail.right.height"]),
@@ -37,7 +37,7 @@ const OWN: [(Rail, [&str; 3]); 4] = [
     (Rail::Top, ["rail.top.e", "rail.top.mu", "rail.top.height"]),
 ];
 
-/// The first value that cannot be, with its key and what would be accepted.
+/// Returns the first invalid value, with its key and the accepted range.
 pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> {
     let Table { rail, radius, .. } = table;
     let restitution = |value: f64| (0.0..=1.0).contains(&value);
@@ -45,20 +45,20 @@ pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> 
         let Fade { from, slope, least } = *fade;
         (0.0..=100.0).contains(&from) && (0.0..=10.0).contains(&slope) && restitution(least)
     };
-    // The nose touches the ball between its equator and well below its top.
+    // The nose touches the ball between the equator and a height well below the ball's top.
     let height = |value: f64| (*radius..=1.6 * *radius).contains(&value);
     let mut checks = vec![
         (
             "mu_s",
             table.sliding_friction,
-            table.sliding_friction <= roughest(rail.model),
-            "0.0001 to 1 where the rails are Mathavan's",
+            table.sliding_friction <= max_sliding_friction(rail.model),
+            "0.0001 to 1 with the rail model mathavan",
         ),
         ("c1", table.rolling_growth, (0.0..=1.0).contains(&table.rolling_growth), "0 to 1 per second"),
         (
             "tilt",
             table.tilt.length(),
-            // Courses on a slope are right to its first order: at this limit to two thousandths of the way.
+            // Trajectories on a slope are correct to first order in the slope: at this limit to 0.2 % of the path length.
             table.tilt.length() <= steepest_tilt(table),
             "at most a fifth of mu_r g and of mu_s g in m/s²; a table that slopes by 1 mm a metre has 0.0098",
         ),
@@ -72,7 +72,7 @@ pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> 
     for (which, [e, mu, high]) in OWN {
         let own = rail.own(which);
         checks.extend(own.e.map(|value| (e, value, restitution(value), "0 to 1")));
-        checks.extend(own.mu.map(|value| (mu, value, rubs(value), RUBS)));
+        checks.extend(own.mu.map(|value| (mu, value, is_accepted_friction(value), ACCEPTED_FRICTION)));
         checks.extend(own.height.map(|value| (high, value, height(value), "from R to 1.6 R, in metres")));
     }
     let fades = [("rail.fade", rail.fade), ("e_ball_fade", table.ball_fade)];
@@ -81,8 +81,10 @@ pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> 
         checks.push((key, value.slope, fade(&value), accepted));
     }
     if let Some(law) = table.ball_slip_friction {
-        let holds =
-            law.least >= 0.0 && law.rise >= 0.0 && rubs(law.least + law.rise) && (0.0..=1e3).contains(&law.fade);
+        let holds = law.least >= 0.0
+            && law.rise >= 0.0
+            && is_accepted_friction(law.least + law.rise)
+            && (0.0..=1e3).contains(&law.fade);
         checks.push((
             "mu_b_slip",
             law.least,
@@ -102,7 +104,7 @@ mod tests {
     use crate::table::TableError;
 
     #[test]
-    fn what_a_model_cannot_have_is_refused_by_name_and_value() {
+    fn invalid_constants_of_models_are_refused_by_name_and_value() {
         let text = toml::to_string(&Table::default()).unwrap();
         for (from, to, key) in [
             ("height = 0.03736", "height = 0.08", "rail.height"),
@@ -126,7 +128,7 @@ mod tests {
         let mathavan = text.replace("model = \"smooth\"", "model = \"mathavan\"");
         assert!(Table::from_toml(&mathavan).is_ok());
         let rough = Table::from_toml(&mathavan.replace("mu_s = 0.203", "mu_s = 1.1")).unwrap_err().to_string();
-        assert!(rough.contains("mu_s = 1.1; accepted is 0.0001 to 1 where the rails are Mathavan's"), "{rough}");
+        assert!(rough.contains("mu_s = 1.1; accepted is 0.0001 to 1 with the rail model mathavan"), "{rough}");
         let unknown = text.replace("model = \"smooth\"", "model = \"rubber\"");
         let message = Table::from_toml(&unknown).unwrap_err().to_string();
         assert!(message.contains("rubber") && message.contains("mathavan"), "{message}");

@@ -1,39 +1,38 @@
-//! What decides how balls leave the cloth and come down on it again.
+//! Constants of the cloth for balls that leave it and land on it again.
 
 use serde::{Deserialize, Serialize};
 
-/// The cloth as a ball meets it from above: the TOML section `[flight]`. A table without it keeps all balls on the cloth, as
-/// the thesis does.
+/// The cloth as a ball hits it from above: the TOML section `[flight]`. Without this section all balls stay on the cloth, as in the thesis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Flight {
     /// Coefficient of restitution `e_c` of ball and cloth, 0 to below 1.
     #[serde(rename = "e_c")]
     pub restitution: f64,
-    /// Coefficient of friction `mu_c` of a ball that comes down on the cloth; without it that of a sliding ball.
+    /// Coefficient of friction `mu_c` of a ball that lands on the cloth; `None` for the coefficient of sliding friction.
     #[serde(rename = "mu_c", skip_serializing_if = "Option::is_none")]
     pub friction: Option<f64>,
 }
 
 impl Default for Flight {
-    /// A cloth on slate, which gives back half of a ball's speed.
+    /// A cloth on slate, which returns half of a ball's vertical speed.
     fn default() -> Self {
         Self { restitution: 0.5, friction: None }
     }
 }
 
 impl Flight {
-    /// The first value that cannot be, with its key and what would be accepted.
+    /// Returns the first invalid value, with its key and the accepted range.
     pub(super) fn flaw(&self) -> Option<(&'static str, f64, &'static str)> {
         let (e, mu) = (self.restitution, self.friction.unwrap_or(0.0));
         if !(0.0..=MOST_RESTITUTION).contains(&e) {
-            return Some(("flight.e_c", e, "0 to 0.99: a ball that loses nothing would hop for ever"));
+            return Some(("flight.e_c", e, "0 to 0.99: a ball that loses nothing would hop forever"));
         }
         (!(0.0..=1e3).contains(&mu)).then_some(("flight.mu_c", mu, "0 to 1000"))
     }
 }
 
-/// Hops that lose less than a hundredth of their speed last for minutes.
+/// Largest accepted restitution of the cloth: hops that lose less than a hundredth of their speed last for minutes.
 const MOST_RESTITUTION: f64 = 0.99;
 
 #[cfg(test)]
@@ -41,7 +40,7 @@ mod tests {
     use super::*;
     use crate::table::{Table, TableError};
 
-    /// The textbook's table with a section `[flight]`.
+    /// Returns the textbook table with an additional section `[flight]`.
     fn table(flight: &str) -> Result<Table, TableError> {
         let table = Table::preset("textbook").unwrap();
         Table::from_toml(&format!("{}\n{flight}", toml::to_string(&table).unwrap()))

@@ -1,4 +1,4 @@
-//! Where the three balls lie, and which layouts are possible.
+//! Positions of the three balls, and the check that a layout is possible.
 
 use glam::DVec2;
 use rand::{Rng, RngExt};
@@ -13,11 +13,11 @@ pub const BALLS: usize = 3;
 /// Pairs of balls, in the order used everywhere.
 pub const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];
 
-/// Their names by their index where white is the cue ball; [`super::CueBall`] knows those of either player.
+/// Colours of the balls by index if white is the cue ball; [`super::CueBall`] has them for either player.
 pub const BALL_NAMES: [&str; BALLS] = ["white", "yellow", "red"];
 
-/// How far balls may overlap each other or a cushion in a layout that is accepted, m. A touching ball written with the
-/// digits of a JSON file is off by rounding; 1e-9 m is far below what can be seen or measured.
+/// Largest accepted overlap of two balls, or of a ball and a cushion, in a layout, m. Rounding to the digits of a JSON file makes touching
+/// balls overlap slightly; 1e-9 m is far below what can be seen or measured.
 pub const TOUCHING_TOLERANCE: f64 = 1e-9;
 
 /// Positions of the three balls' centres in metres, origin at the table's centre. Ball 0 is the cue ball.
@@ -64,8 +64,8 @@ pub enum LayoutError {
         "{} and {} are {} m apart; at least {} m is needed",
         BALL_NAMES[*first],
         BALL_NAMES[*second],
-        told_apart(*distance, *least)[0],
-        told_apart(*distance, *least)[1]
+        with_distinct_digits(*distance, *least)[0],
+        with_distinct_digits(*distance, *least)[1]
     )]
     Overlap {
         /// Index of one ball.
@@ -86,7 +86,7 @@ pub enum LayoutError {
 }
 
 impl LayoutError {
-    /// The same with the names that the balls have for who plays with `cue_ball`: ball 0 is theirs.
+    /// Returns the same error with the ball colours for a player whose cue ball, ball 0, is `cue_ball`.
     #[must_use]
     pub fn told_to(mut self, cue_ball: CueBall) -> Self {
         let colours = cue_ball.ordered([0, 1, 2]);
@@ -99,29 +99,30 @@ impl LayoutError {
     }
 }
 
-/// Two lengths, in m, to a tenth of a millimetre, or with as many decimals as tell them apart.
-fn told_apart(one: f64, other: f64) -> [String; 2] {
-    let told = |decimals: usize| [one, other].map(|length| format!("{length:.decimals$}"));
-    (4..15).map(told).find(|[one, other]| one != other).unwrap_or_else(|| told(15))
+/// Formats two lengths in metres with 4 decimals, or with as many decimals as needed to make the texts differ.
+fn with_distinct_digits(one: f64, other: f64) -> [String; 2] {
+    let formatted = |decimals: usize| [one, other].map(|length| format!("{length:.decimals$}"));
+    (4..15).map(formatted).find(|[one, other]| one != other).unwrap_or_else(|| formatted(15))
 }
 
 impl Layout {
-    /// A layout from three centres in metres. It is not checked: see [`Layout::validate`].
+    /// Creates a layout from three centres in metres. It is not checked: see [`Layout::validate`].
     pub const fn new(balls: [DVec2; BALLS]) -> Self {
         Self { balls }
     }
 
-    /// The opening position: red on the far spot, and of the cue ball, ball 0, and the opponent's, ball 1, one on the near spot
-    /// and the other `d` beside it, as the table's [`Opening`] has it; where the player may choose, the cue ball on the left.
+    /// Returns the opening position. Red is on the far spot. One of the cue ball (ball 0) and the opponent's ball (ball 1) is on the near
+    /// spot, the other at a distance `d` next to it, according to the table's [`Opening`]. If the player may choose the side, the cue ball
+    /// is on the left.
     pub fn opening(table: &Table) -> Self {
         Self::opening_on(table, Side::Left)
     }
 
-    /// The same with the cue ball on the side that the player has chosen; where there is no choice it makes no difference.
+    /// Returns the opening position with the cue ball on `side`, which has no effect if the table's opening leaves no choice.
     pub fn opening_on(table: &Table, side: Side) -> Self {
         let spot = 0.25 * table.length;
         let (near, red) = (DVec2::new(-spot, 0.0), DVec2::new(spot, 0.0));
-        // Who looks along the table has the upper long rail on the left.
+        // For a player who looks along the table, the upper long rail is on the left.
         let beside = |side| match side {
             Side::Left => near + DVec2::new(0.0, table.opening_offset),
             Side::Right => near - DVec2::new(0.0, table.opening_offset),
@@ -132,13 +133,13 @@ impl Layout {
         }
     }
 
-    /// The side on which the cue ball stands if this is the opening position.
+    /// Returns the side of the cue ball if this is the opening position within [`TOUCHING_TOLERANCE`]; `None` otherwise.
     pub fn opening_side(&self, table: &Table) -> Option<Side> {
         self.opening_within(table, TOUCHING_TOLERANCE)
     }
 
-    /// Whether this is meant to be the opening position: nobody types places to the millimetre, and 2.5 diamonds are written where 2.51
-    /// are right.
+    /// Whether this is the opening position to within a quarter of a ball radius: people do not type positions to the millimetre, and write
+    /// 2.5 diamonds for 2.51.
     pub fn is_opening(&self, table: &Table) -> bool {
         self.opening_within(table, 0.25 * table.radius).is_some()
     }
@@ -151,16 +152,16 @@ impl Layout {
         [Side::Left, Side::Right].into_iter().find(is_there)
     }
 
-    /// The same balls for the other player: the cue ball and the opponent's change places in the order, not on the table.
+    /// Returns the layout for the other player: the indices of the two cue balls are exchanged, and no ball moves.
     #[must_use]
     pub const fn for_the_opponent(&self) -> Self {
         let [cue_ball, other, red] = self.balls;
         Self::new([other, cue_ball, red])
     }
 
-    /// The layout after balls have left the table, as UMB rules have it in three-cushion: the red ball comes on the far spot,
-    /// the cue ball of who plays next, ball 1, on the near spot, the other on the middle of the table; where another ball is in
-    /// the way, on the spot of that ball.
+    /// Returns the layout after balls have left the table and are spotted by the UMB rules of three-cushion. The red ball goes on the far
+    /// spot, ball 1 (the cue ball of the next player) on the near spot, and ball 0 on the middle of the table. If another ball blocks that
+    /// spot, the ball goes on the blocking ball's own spot.
     #[must_use]
     pub fn with_spotted(&self, length: f64, radius: f64, off_table: [bool; BALLS]) -> Self {
         let spots = [0.0, -0.25 * length, 0.25 * length].map(|x| DVec2::new(x, 0.0));
@@ -169,8 +170,8 @@ impl Layout {
             let mask = |spot: usize| {
                 (0..BALLS).find(|&other| !waiting[other] && layout.balls[other].distance(spots[spot]) < 2.0 * radius)
             };
-            // Where the spots are four radii apart or more, as on every real table, two balls cannot be in the way of all three;
-            // on a smaller one the ball comes on its own, whatever lies there.
+            // If the spots are at least four radii apart, as on every real table, two balls cannot block all three. On a smaller table the
+            // ball goes on its own spot, even if that is blocked.
             let places = [ball, mask(ball).unwrap_or(ball), 0, 1, 2];
             let place = places.into_iter().find(|&spot| mask(spot).is_none()).unwrap_or(ball);
             layout.balls[ball] = spots[place];
@@ -179,7 +180,7 @@ impl Layout {
         layout
     }
 
-    /// A layout drawn uniformly from all that are possible on `table`.
+    /// Draws a layout uniformly from all layouts that are possible on `table`.
     pub fn random(table: &Table, rng: &mut (impl Rng + ?Sized)) -> Self {
         let reach = table.reach();
         loop {
@@ -192,7 +193,7 @@ impl Layout {
         }
     }
 
-    /// Checks that all balls lie on the table and none overlap, by more than [`TOUCHING_TOLERANCE`].
+    /// Checks that all balls lie on the table and that no balls overlap, each within [`TOUCHING_TOLERANCE`].
     ///
     /// # Errors
     /// The first problem found.
@@ -217,9 +218,9 @@ impl Layout {
         Ok(())
     }
 
-    /// Reads `"x,y x,y x,y"` in metres, or in diamonds where a number ends in `d`: those count from the lower left
-    /// corner of the playing area, 8 along the length and 4 along the width. A ball that would be nearer to a cushion than its
-    /// radius touches it.
+    /// Parses `"x,y x,y x,y"` in metres, or in diamonds if a number ends in `d`. Diamonds count from the lower left corner of the playing
+    /// area: 8 along the length and 4 along the width. A ball that would be nearer to a cushion than its radius touches the cushion
+    /// instead.
     ///
     /// # Errors
     /// [`LayoutError::Text`]; the positions are not checked against the table.
@@ -234,21 +235,21 @@ impl Layout {
     }
 }
 
-/// Reads one position, `"x,y"`, as [`Layout::parse`] does.
+/// Parses one position `"x,y"` as [`Layout::parse`] does.
 fn place(word: &str, table: &Table) -> Option<DVec2> {
     let [x, y] = coordinates(word)?[..] else { return None };
     between(x, y, table)
 }
 
-/// A number as it is typed for where a ball lies, and whether it counts diamonds.
+/// A number of a typed position, and whether its unit is the diamond.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Coordinate {
     pub number: f64,
     pub in_diamonds: bool,
 }
 
-/// The numbers of a word, with commas between them. A comma is one of a number where nothing else can be meant: a `d` ends each number
-/// of diamonds, and of four parts two are whole.
+/// Parses the comma-separated numbers of a word. A comma is a decimal comma only if the text has no other meaning: with diamonds, `d` ends
+/// each number; without them, four parts are two numbers with decimal commas.
 pub(super) fn coordinates(word: &str) -> Option<Vec<Coordinate>> {
     let parts: Vec<&str> = word.trim_matches(',').split(',').collect();
     let in_diamonds = parts.iter().any(|part| part.ends_with('d'));
@@ -261,7 +262,7 @@ pub(super) fn coordinates(word: &str) -> Option<Vec<Coordinate>> {
     numbers.iter().map(|text| Some(Coordinate { number: typed_number(text)?, in_diamonds })).collect()
 }
 
-/// The place that two coordinates mean, m from the middle; `None` where one of them counts diamonds and the other does not.
+/// Returns the position of two coordinates, m from the middle; `None` if only one of them is in diamonds.
 pub(super) fn between(x: Coordinate, y: Coordinate, table: &Table) -> Option<DVec2> {
     if x.in_diamonds != y.in_diamonds {
         return None;
@@ -272,7 +273,7 @@ pub(super) fn between(x: Coordinate, y: Coordinate, table: &Table) -> Option<DVe
     }
     let (half, reach) = (0.5 * DVec2::new(table.length, table.width), table.reach());
     let at = numbers * table.diamond() - half;
-    // On a rail's diamonds, or nearer to them than its radius, a ball touches the cushion.
+    // A ball nearer to the rail's diamonds than its radius, or on them, touches the cushion.
     let touching = |at: f64, half: f64, reach: f64| if at.abs() <= half { at.clamp(-reach, reach) } else { at };
     Some(DVec2::new(touching(at.x, half.x, reach.x), touching(at.y, half.y, reach.y)))
 }
@@ -306,7 +307,7 @@ mod tests {
         assert_eq!(only.balls[0], DVec2::new(-spot, 0.0));
         assert_eq!(Layout::opening_on(&thesis, Side::Right), only);
         assert_eq!(only.opening_side(&umb), None);
-        // As it is typed, to tenths of diamonds; a position that is much like it is another.
+        // As players type it, to tenths of diamonds. A position that is only similar is not the opening.
         let typed = |words| Layout::parse(words, &umb).unwrap().is_opening(&umb);
         assert!(typed("2d,2.5d 2d,2d 6d,2d") && !typed("2d,2.4d 2d,2d 6d,2d"));
         let moved = |by: f64| {
@@ -360,14 +361,14 @@ mod tests {
     }
 
     #[test]
-    fn what_left_the_table_comes_on_its_spot_or_on_that_of_the_ball_in_its_way() {
+    fn a_ball_off_the_table_goes_on_its_spot_or_on_that_of_the_blocking_ball() {
         let (length, radius) = (2.84, 0.03075);
         let [middle, near, far] = [0.0, -0.71, 0.71].map(|x| DVec2::new(x, 0.0));
         let (away, outside) = (DVec2::new(1.0, 0.5), DVec2::new(1.6, 0.0));
         let spotted = |balls, off| Layout::new(balls).with_spotted(length, radius, off).balls;
         assert_eq!(spotted([away, outside, middle], [false, true, false]), [away, near, middle]);
         assert_eq!(spotted([away, near, outside], [false, false, true]), [away, near, far]);
-        // The red ball's spot is masked by the cue ball of who has played: it comes on that ball's.
+        // The cue ball of the last player blocks the red ball's spot, so red goes on that ball's spot.
         let masks = far + DVec2::new(0.05, 0.0);
         assert_eq!(spotted([masks, away, outside], [false, false, true]), [masks, away, middle]);
         assert_eq!(spotted([outside, outside, far], [true, true, false]), [middle, near, far]);

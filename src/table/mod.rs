@@ -1,4 +1,4 @@
-//! What is played on: the table's parameters and the layout of its three balls.
+//! The table's parameters and the layout of its three balls.
 
 mod cue_ball;
 mod doubt;

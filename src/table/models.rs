@@ -1,23 +1,23 @@
-//! Models of the table's parts that go beyond the thesis: rails at the height of their nose, friction and restitution
-//! that depend on speed. A part that a table's file does not name is the thesis' own.
+//! Models that go beyond the thesis: rails with the nose at its real height, and friction and restitution that depend on speed. If a
+//! table's file does not name a model for a part, the thesis' model applies.
 
 use serde::{Deserialize, Serialize};
 
 use super::Rail;
 
-/// Where a ball meets a rail, and by what law.
+/// Impact model of the rails: contact height and friction law.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RailModel {
-    /// At the height of the ball's centre, with Coulomb friction up to no slip (thesis equations 22 and 23).
+    /// Contact at the height of the ball's centre, with Coulomb friction up to the no-slip limit (thesis equations 22 and 23).
     #[default]
     Equator,
-    /// At the nose's height, with Coulomb friction up to no slip (Han 2005's geometry).
+    /// Contact at the nose's height, with Coulomb friction up to the no-slip limit (geometry of Han 2005).
     Nose,
-    /// At the nose's height, with friction that passes smoothly from slipping to sticking.
+    /// Contact at the nose's height, with friction that changes smoothly from slip to stick.
     Smooth,
-    /// At the nose's height, integrated over the impulse with the cloth's friction at the same time (Mathavan 2010): some
-    /// twenty times as slow as the others.
+    /// Contact at the nose's height, integrated over the impulse together with the cloth's friction (Mathavan 2010). About twenty times
+    /// slower than the other models.
     Mathavan,
 }
 
@@ -25,35 +25,35 @@ pub enum RailModel {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rails {
-    /// The law of the impact.
+    /// The impact model.
     #[serde(default)]
     pub model: RailModel,
-    /// Height of the nose over the cloth, m; the ball's radius where it is left out.
+    /// Height of the nose above the cloth, m; `None` for the ball's radius.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<f64>,
-    /// How much of the slip the `smooth` model takes at most, as a multiple of what sticking takes: 1 stops the contact, 2
-    /// throws it back as fast.
+    /// Largest share of the slip velocity that the `smooth` model removes, in units of what sticking removes: 1 stops the slip, 2 reverses
+    /// it at the same speed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kappa: Option<f64>,
-    /// Restitution that falls with the speed of the impact.
+    /// Decrease of the restitution with impact speed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fade: Option<Fade>,
-    /// What the left rail has of its own.
+    /// Constants of the left rail that differ from the table's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left: Option<OneRail>,
-    /// What the right rail has of its own.
+    /// Constants of the right rail that differ from the table's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub right: Option<OneRail>,
-    /// What the bottom rail has of its own.
+    /// Constants of the bottom rail that differ from the table's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bottom: Option<OneRail>,
-    /// What the top rail has of its own.
+    /// Constants of the top rail that differ from the table's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub top: Option<OneRail>,
 }
 
 impl Rails {
-    /// What a rail has of its own.
+    /// Returns the constants that `rail` overrides.
     pub fn own(&self, rail: Rail) -> OneRail {
         let own = match rail {
             Rail::Left => self.left,
@@ -64,7 +64,7 @@ impl Rails {
         own.unwrap_or_default()
     }
 
-    /// The place of what a rail has of its own.
+    /// Returns the field with the overrides of `rail`.
     pub const fn own_mut(&mut self, rail: Rail) -> &mut Option<OneRail> {
         match rail {
             Rail::Left => &mut self.left,
@@ -74,13 +74,13 @@ impl Rails {
         }
     }
 
-    /// As they are for who stands at the other end: each in the place of the one across.
+    /// Returns the rails as a player at the other end sees them: opposite rails are exchanged.
     pub(super) const fn turned(self) -> Self {
         Self { left: self.right, right: self.left, bottom: self.top, top: self.bottom, ..self }
     }
 }
 
-/// What one rail has of its own; what is left out is the table's.
+/// Constants of a single rail; `None` for the value that applies to all rails.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OneRail {
@@ -95,48 +95,47 @@ pub struct OneRail {
     pub height: Option<f64>,
 }
 
-/// A restitution that falls with the normal speed of the impact: constant up to a speed, then by a slope, never below a
-/// least value.
+/// A restitution that decreases with the normal speed of the impact: constant up to `from`, then linear, and never below `least`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fade {
     /// Speed up to which the restitution is constant, m/s.
     pub from: f64,
-    /// What it loses with each m/s above, s/m.
+    /// Decrease per m/s above `from`, s/m.
     pub slope: f64,
-    /// The least that is left of it.
+    /// Lower bound of the restitution.
     pub least: f64,
 }
 
 impl Fade {
-    /// The restitution at an impact with normal speed `speed`, m/s, of a part whose slow restitution is `slow`.
+    /// Returns the restitution at a normal impact speed of `speed`, m/s, if it is `slow` at low speed.
     #[inline]
     pub fn at(&self, slow: f64, speed: f64) -> f64 {
         (slow - self.slope * (speed - self.from).max(0.0)).max(self.least.min(slow))
     }
 }
 
-/// Ball-ball friction that falls with the contact's slip: `least + rise exp(-fade slip)` (Alciatore, TP A.14).
+/// Ball-ball friction that decreases with the slip speed: `least + rise exp(-fade slip)` (Alciatore, TP A.14).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SlipFriction {
-    /// Coefficient at fast slip.
+    /// Coefficient at high slip speed.
     pub least: f64,
-    /// What slow slip adds.
+    /// Additional friction at zero slip.
     pub rise: f64,
-    /// How fast that fades with the slip, s/m.
+    /// Decay rate of `rise` with the slip speed, s/m.
     pub fade: f64,
 }
 
 impl SlipFriction {
-    /// The coefficient at a slip of `slip` m/s.
+    /// Returns the coefficient at a slip speed of `slip`, m/s.
     #[inline]
     pub fn at(&self, slip: f64) -> f64 {
         self.least + self.rise * libm::exp(-self.fade * slip)
     }
 }
 
-/// Whether a number may be left out of a file.
+/// Whether a number equals its default, zero, so that a file can omit it.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
 pub(crate) fn is_zero(value: &f64) -> bool {
     *value == 0.0

@@ -1,18 +1,18 @@
-//! How a game opens: which ball stands on the near spot, and which sides the other may stand at.
+//! Opening rules of a game: which ball stands on the near spot, and on which side of it the other ball may stand.
 
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// How the balls are placed for the first shot of a game, and what it has to meet.
+/// Positions of the balls for the first shot of a game, and the ball that this shot must hit first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Opening {
-    /// The cue ball stands on the near spot, the opponent's beside it (thesis Figure 8).
+    /// The cue ball stands on the near spot, the opponent's ball next to it (thesis Figure 8).
     #[default]
     Thesis,
-    /// The opponent's ball stands on the near spot and the cue ball beside it, left or right as the player likes; in
-    /// three-cushion the first shot has to meet the red ball first (UMB rules).
+    /// The opponent's ball stands on the near spot. The cue ball stands next to it, on the left or right as the player chooses. In
+    /// three-cushion the first shot must hit the red ball first (UMB rules).
     Umb,
 }
 
@@ -23,7 +23,7 @@ impl Opening {
     }
 }
 
-/// The side of the opponent's ball at which the cue ball stands, as the player sees it who looks along the table.
+/// The side of the opponent's ball on which the cue ball stands, for a player who looks along the table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Side {
     /// Left.
@@ -33,13 +33,13 @@ pub enum Side {
     Right,
 }
 
-/// A word that is no side.
+/// Error for a word that is not a side.
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error("there is no side \"{0}\"; use left or right")]
 pub struct UnknownSide(String);
 
 impl Side {
-    /// Name on the command line and in sentences.
+    /// Returns the name used on the command line and in sentences.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Left => "left",
@@ -47,7 +47,7 @@ impl Side {
         }
     }
 
-    /// The other one.
+    /// Returns the opposite side.
     #[must_use]
     pub const fn other(self) -> Self {
         match self {

@@ -1,4 +1,4 @@
-//! The table as data: geometry, balls, cloth, cushions and cue, read from TOML.
+//! Parameters of a table (geometry, balls, cloth, cushions and cue), read from TOML.
 
 use std::{path::Path, sync::LazyLock};
 
@@ -14,25 +14,25 @@ use crate::{printing::number, storage::toml_flaw};
 /// Names of the bundled tables, the default first.
 pub const PRESETS: [&str; 3] = ["match", "textbook", "thesis"];
 
-/// Longest side of a table, m: no billiard table is half as long.
+/// Longest accepted side of a table, m; more than twice the length of any billiard table.
 const LONGEST: f64 = 10.0;
 
-/// The bundled tables whose equations are those of the thesis alone: numerics are judged on them.
+/// Bundled tables that use the thesis' equations only: the numerical accuracy is judged on them.
 pub const JUDGED: [&str; 2] = ["textbook", "thesis"];
 
-// The files of [`PRESETS`].
+// Contents of the preset files in [`PRESETS`].
 const MATCH: &str = include_str!("match.toml");
 const TEXTBOOK: &str = include_str!("textbook.toml");
 const THESIS: &str = include_str!("thesis.toml");
 
 /// A table with its balls, cloth, cushions and cue, in SI units.
 ///
-/// The TOML keys are the letters of the thesis (its Table 1); `mu_b` may be left out, which means that a ball-ball
-/// contact never slips (thesis equation 17).
+/// The TOML keys are the symbols of the thesis (its Table 1). `mu_b` can be omitted: a ball-ball contact then never slips (thesis equation
+/// 17).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, remote = "Self")]
 pub struct Table {
-    /// The name that `--table` and the JSON field `preset` take.
+    /// Name of the table, as used by `--table` and in the JSON field `preset`.
     pub name: String,
     /// Length `L` of the playing area along x, between the cushion noses, m.
     #[serde(rename = "L")]
@@ -52,7 +52,7 @@ pub struct Table {
     /// Coefficient of sliding friction between ball and cloth.
     #[serde(rename = "mu_s")]
     pub sliding_friction: f64,
-    /// Coefficient of rolling friction, as it stands in thesis equation (6) with its factor 5/7.
+    /// Coefficient of rolling friction, as defined by thesis equation (6) with its factor 5/7.
     #[serde(rename = "mu_r")]
     pub rolling_friction: f64,
     /// Coefficient of spinning friction (thesis equation 8).
@@ -61,7 +61,7 @@ pub struct Table {
     /// Coefficient of restitution between two balls, 0 to 1.
     #[serde(rename = "e_ball")]
     pub ball_restitution: f64,
-    /// Coefficient of friction between two balls; `None` means that the contact never slips (thesis equation 17).
+    /// Coefficient of friction between two balls; `None` if the contact never slips (thesis equation 17).
     #[serde(rename = "mu_b", default, skip_serializing_if = "Option::is_none")]
     pub ball_friction: Option<f64>,
     /// Coefficient of restitution between ball and cushion, 0 to 1.
@@ -75,38 +75,37 @@ pub struct Table {
     pub gravity: f64,
     /// Largest `a² + b²` (in units of R²) at which the tip does not slip off the ball.
     pub miscue_limit: f64,
-    /// Distance `d` of the cue ball and the opponent's in the opening position, m.
+    /// Distance `d` between the cue ball and the opponent's ball in the opening position, m.
     #[serde(rename = "d")]
     pub opening_offset: f64,
     /// Growth of a rolling ball's deceleration with its speed, 1/s: `a = 5/7 mu_r g + c1 v`.
     #[serde(rename = "c1", default, skip_serializing_if = "is_zero")]
     pub rolling_growth: f64,
-    /// How the restitution between balls falls with the speed of the impact.
+    /// Decrease of the ball-ball restitution with impact speed.
     #[serde(rename = "e_ball_fade", default, skip_serializing_if = "Option::is_none")]
     pub ball_fade: Option<Fade>,
-    /// Friction between balls that falls with the slip; it takes the place of `mu_b` in impacts.
+    /// Ball-ball friction that decreases with slip speed; replaces `mu_b` in impacts.
     #[serde(rename = "mu_b_slip", default, skip_serializing_if = "Option::is_none")]
     pub ball_slip_friction: Option<SlipFriction>,
-    /// Effective mass of the cue's end, kg, whose sideways inertia makes a ball squirt; without it balls go where the cue
-    /// points.
+    /// Effective mass of the cue's end, kg. Its lateral inertia makes a ball squirt; `None` for no squirt.
     #[serde(rename = "m_end", default, skip_serializing_if = "Option::is_none")]
     pub cue_end_mass: Option<f64>,
-    /// Acceleration of a ball on a table that is not level, m/s² along x and y.
+    /// Acceleration of a free body on a table that is not level, m/s² along x and y.
     #[serde(default, skip_serializing_if = "is_level")]
     pub tilt: DVec2,
-    /// How a game opens: `thesis` or `umb`.
+    /// Opening rules of a game: `thesis` or `umb`.
     #[serde(default, skip_serializing_if = "Opening::is_default")]
     pub opening: Opening,
-    /// The sizes that decide how low the cue can be held; without this section every elevation can be played.
+    /// Sizes that limit how low the cue can be held; `None` if every elevation can be played.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub room: Option<Room>,
-    /// How balls leave the cloth and come down again; without this section they stay on it.
+    /// Constants of balls that leave the cloth and land on it; `None` if all balls stay on it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flight: Option<Flight>,
-    /// The rails' model; without this section balls meet them at the height of their centre.
+    /// Model of the rails; by default balls meet them at the height of their centre.
     #[serde(default, skip_serializing_if = "is_thesis_rail")]
     pub rail: Rails,
-    /// How well the constants are known, where the table's file says so; [`TableDoubt::of`] knows it of every table.
+    /// Uncertainty of the constants, if the table's file states it; [`TableDoubt::of`] returns it for every table.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub doubt: Option<TableDoubt>,
 }
@@ -122,7 +121,7 @@ fn is_thesis_rail(rail: &Rails) -> bool {
 /// Why a table cannot be used.
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum TableError {
-    /// Neither a preset nor a file.
+    /// The name is neither that of a preset nor that of a file.
     #[error(
         "there is no table \"{0}\"; use \"match\", \"textbook\", \"thesis\", one of your own by its name, or the path of a TOML file"
     )]
@@ -142,23 +141,23 @@ pub enum TableError {
         /// What would be accepted.
         accepted: &'static str,
     },
-    /// Its doubt cannot be.
+    /// The `[doubt]` section is invalid.
     #[error("the table \"{table}\": {error}")]
     Doubt {
         /// The table's name.
         table: String,
-        /// What is wrong with it.
+        /// The problem found.
         error: DoubtError,
     },
 }
 
 impl Table {
-    /// One of the bundled tables ([`PRESETS`]).
+    /// Returns one of the bundled tables ([`PRESETS`]).
     ///
     /// # Errors
     /// [`TableError::Unknown`] for any other name.
     pub fn preset(name: &str) -> Result<Self, TableError> {
-        // Read once: an exercise's table is asked for at every attempt.
+        // Parsed once, because every attempt of an exercise needs its table.
         static BUNDLED: LazyLock<[Table; PRESETS.len()]> = LazyLock::new(|| {
             [MATCH, TEXTBOOK, THESIS]
                 .map(|text| Table::from_toml(text).expect("a bundled table is valid: a test reads them all"))
@@ -167,11 +166,11 @@ impl Table {
         bundled.cloned().ok_or_else(|| TableError::Unknown(name.to_owned()))
     }
 
-    /// The table that the file at `path` describes. One that bears a bundled table's name and is another is called after its file: the
-    /// name alone tells players, and what is kept, which table it is.
+    /// Reads the table from the `text` of the file at `path`. If it has a bundled table's name but different values, it is named after its
+    /// file, because players and saved records identify a table by its name alone.
     ///
     /// # Errors
-    /// As [`Table::from_toml`], and [`TableError::Value`] for sides that are exchanged or were measured in centimetres.
+    /// As [`Table::from_toml`]; [`TableError::Value`] also for sides that are exchanged or given in centimetres.
     pub fn from_file(path: &Path, text: &str) -> Result<Self, TableError> {
         let table = Self::from_toml(text)?;
         let flaw = if table.length > LONGEST {
@@ -190,7 +189,7 @@ impl Table {
         Ok(Self { name: if is_bundled { format!("own {stem}") } else { stem.into_owned() }, ..table })
     }
 
-    /// Reads a table from TOML text and checks every value.
+    /// Parses a table from TOML text and checks every value.
     ///
     /// # Errors
     /// [`TableError::Syntax`], [`TableError::Value`] or [`TableError::Doubt`].
@@ -204,24 +203,29 @@ impl Table {
         type Check = (&'static str, f64, fn(f64) -> bool, &'static str);
         let positive: fn(f64) -> bool = |x| x > 0.0 && x.is_finite();
         let friction: fn(f64) -> bool = |x| (0.0..=1e3).contains(&x);
-        // Without friction on the cloth a shot would never end.
+        // Without friction on the cloth, a shot would never end.
         let cloth: fn(f64) -> bool = |x| (1e-4..=1e3).contains(&x);
         let restitution: fn(f64) -> bool = |x| (0.0..=1.0).contains(&x);
         let checks: [Check; 14] = [
-            // Below, a layout's allowance for rounding would be more than a ball.
+            // Below this radius, [`super::TOUCHING_TOLERANCE`] would no longer be small against a ball.
             ("R", self.radius, |r| (1e-4..f64::INFINITY).contains(&r), "0.0001 m or more; a carom ball has 0.03075"),
-            // From a light ball of a toy table to more than any ball of stone, and from a stick to an iron bar.
+            // Ball: from a light toy ball to more than any stone ball. Cue: from a stick to an iron bar.
             ("m", self.ball_mass, |m| (0.001..=1.0).contains(&m), "0.001 to 1 kg; a carom ball has 0.21"),
             ("M", self.cue_mass, |m| (0.05..=5.0).contains(&m), "0.05 to 5 kg; a carom cue has 0.5"),
-            // From asteroids to four times Jupiter; beyond, balls hardly part or hardly ever stop.
+            // From asteroids to four times Jupiter. Outside this range, balls hardly separate or hardly ever stop.
             ("g", self.gravity, |g| (0.1..=100.0).contains(&g), "0.1 to 100 m/s²; the Earth has 9.81"),
             ("L", self.length, positive, "a positive number of metres"),
             ("l", self.width, positive, "a positive number of metres"),
             ("mu_s", self.sliding_friction, cloth, "0.0001 to 1000"),
             ("mu_r", self.rolling_friction, cloth, "0.0001 to 1000"),
             ("mu_sp", self.spinning_friction, friction, "0 to 1000"),
-            ("mu_rail", self.rail_friction, flaws::rubs, flaws::RUBS),
-            ("mu_b", self.ball_friction.unwrap_or(0.0), flaws::rubs, "0 to below 1, or no mu_b at all for no slip"),
+            ("mu_rail", self.rail_friction, flaws::is_accepted_friction, flaws::ACCEPTED_FRICTION),
+            (
+                "mu_b",
+                self.ball_friction.unwrap_or(0.0),
+                flaws::is_accepted_friction,
+                "0 to below 1, or no mu_b at all for no slip",
+            ),
             ("e_ball", self.ball_restitution, restitution, "0 to 1"),
             ("e_rail", self.rail_restitution, restitution, "0 to 1"),
             ("miscue_limit", self.miscue_limit, |x| x > 0.0 && x <= 1.0, "above 0 and at most 1"),
@@ -235,7 +239,7 @@ impl Table {
         if let Some((key, value, accepted)) = flaws::first(&self) {
             return refuse(key, value, accepted);
         }
-        // Three balls must find room side by side, or no layout exists.
+        // Three balls must fit side by side, or no layout exists.
         for (key, side) in [("L", self.length), ("l", self.width)] {
             if side < 6.0 * self.radius {
                 return refuse(key, side, "at least six ball radii");
@@ -255,53 +259,52 @@ impl Table {
         Ok(self)
     }
 
-    /// Largest |x| of a ball's centre: `L/2 - R`, m.
+    /// Returns the largest |x| of a ball's centre: `L/2 - R`, m.
     pub fn half_length(&self) -> f64 {
         0.5 * self.length - self.radius
     }
 
-    /// Largest |y| of a ball's centre: `l/2 - R`, m.
+    /// Returns the largest |y| of a ball's centre: `l/2 - R`, m.
     pub fn half_width(&self) -> f64 {
         0.5 * self.width - self.radius
     }
 
-    /// Corner of the rectangle that ball centres may reach, m.
+    /// Returns the corner of the rectangle that ball centres can reach, m.
     pub fn reach(&self) -> DVec2 {
         DVec2::new(self.half_length(), self.half_width())
     }
 
-    /// Whether balls of the same size lie at the same places of a bed of the same size.
+    /// Whether both tables have the same playing area and ball size, so that a layout of one fits the other.
     pub fn has_size_of(&self, other: &Self) -> bool {
         (self.length, self.width, self.radius) == (other.length, other.width, other.radius)
     }
 
-    /// The largest restitution of two balls and of any rail.
+    /// Returns the largest restitution between two balls or at any rail.
     pub fn largest_restitution(&self) -> f64 {
         let rails = Rail::ALL.map(|rail| self.rail.own(rail).e.unwrap_or(self.rail_restitution));
         rails.into_iter().fold(self.ball_restitution, f64::max)
     }
 
-    /// The table as it is for who stands at its other end.
+    /// Returns the table as a player at its other end sees it.
     #[must_use]
     pub fn turned(&self) -> Self {
         Self { tilt: -self.tilt, rail: self.rail.turned(), ..self.clone() }
     }
 
-    /// Distance between two neighbouring sights ("diamonds"), one eighth of the length, m.
+    /// Returns the distance between two neighbouring diamonds (sights), one eighth of the length, m.
     pub fn diamond(&self) -> f64 {
         self.length / 8.0
     }
 }
 
-/// What is derived, of which serde's own traits are made here, since what is read has to be checked as well.
+/// With `remote = "Self"` serde derives inherent functions. The traits are implemented here, because reading must also validate.
 impl Serialize for Table {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         Self::serialize(self, serializer)
     }
 }
 
-/// Wherever a table is read, from a run, a policy or the last session: with values that the equations do not allow a shot
-/// might never end.
+/// Validates a table wherever it is read, be it from a run, a policy or the last session: with invalid values a shot might never end.
 impl<'de> Deserialize<'de> for Table {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Self::deserialize(deserializer)?.validated().map_err(D::Error::custom)
@@ -309,7 +312,7 @@ impl<'de> Deserialize<'de> for Table {
 }
 
 impl Default for Table {
-    /// The `match` table: the one a player stands at.
+    /// The `match` table, which models the table that players use.
     fn default() -> Self {
         Self::preset(PRESETS[0]).expect("the first of the bundled tables is one of them")
     }
@@ -340,7 +343,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_table_is_refused_with_its_line() {
+    fn invalid_toml_is_refused_with_its_line() {
         let message = Table::from_toml(&TEXTBOOK.replace("mu_s = 0.2", "mu_s = \"slow\"")).unwrap_err().to_string();
         let words = "line 9, mu_s: invalid type: string \"slow\", expected a number";
         assert!(message.contains(words), "{message}");
@@ -397,7 +400,7 @@ mod tests {
             let message = with(from, to).unwrap_err();
             assert!(message.contains(says), "{message}");
         }
-        // The Moon, Jupiter; pool and snooker balls; a child's cue.
+        // Gravity of the Moon and Jupiter; pool and snooker balls; a child's cue.
         for (from, to) in [
             (gravity, "\ng = 1.62"),
             (gravity, "\ng = 24.8"),

@@ -1,20 +1,20 @@
-//! Positions as they are typed: one ball or several, by colour or not.
+//! Parser for typed positions of one or more balls, with or without colours.
 
 use super::{
     CueBall, Layout, LayoutError, Table,
     layout::{Coordinate, between, coordinates},
 };
 
-/// Why what was typed cannot be taken.
+/// Why the typed text is refused.
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum PositionsError {
-    /// A word is neither a position nor a ball.
+    /// A word is neither a position nor the name of a ball.
     #[error(
-        "\"{0}\" is no position; write x,y in diamonds from the lower left corner like 2d,0.5d, or in metres from the middle, \
-         with a colour before it or not"
+        "\"{0}\" is not a position; write x,y in diamonds from the lower left corner like 2d,0.5d, or in metres from the middle, \
+         optionally after a colour"
     )]
     Word(String),
-    /// A ball is named and nothing follows.
+    /// A ball is named, but no position follows.
     #[error("where is {0}? write {0} and x,y after it, like \"{0} 2d,0.5d\"")]
     Missing(&'static str),
     /// Nothing was typed.
@@ -22,18 +22,18 @@ pub enum PositionsError {
         "where is the ball? write one place like 2d,0.5d, for the selected ball, or three: cue ball, the other, red"
     )]
     Empty,
-    /// A ball is named twice.
+    /// A ball has two positions.
     #[error("{0} is put in two places; name each ball once")]
     Twice(&'static str),
-    /// Two positions for no ball in particular.
+    /// Several positions without colours, but not three.
     #[error(
         "{0} places without a colour; write one like 2d,0.5d, for the selected ball, or three: cue ball, the other, red"
     )]
     Count(usize),
-    /// Some have a colour and some have none.
+    /// Some positions have a colour and others have none.
     #[error("some positions have a colour and some have none; write one before each, or before none")]
     Mixed,
-    /// A ball was put outside the table in diamonds.
+    /// A position in diamonds lies outside the table.
     #[error(
         "{name} at {x:.2}d,{y:.2}d is outside the table; accepted are {least:.2}d to {along:.2}d, and {least:.2}d to {up:.2}d; \
          nearer to a rail the ball touches it"
@@ -41,29 +41,33 @@ pub enum PositionsError {
     Outside {
         /// The ball's name.
         name: &'static str,
-        /// Its place along the table, diamonds.
+        /// Coordinate along the table, diamonds.
         x: f64,
-        /// Its place across it, diamonds.
+        /// Coordinate across the table, diamonds.
         y: f64,
-        /// The least of both coordinates, diamonds.
+        /// Smallest accepted value of both coordinates, diamonds.
         least: f64,
-        /// The largest along the table, diamonds.
+        /// Largest accepted value along the table, diamonds.
         along: f64,
-        /// The largest across it, diamonds.
+        /// Largest accepted value across the table, diamonds.
         up: f64,
     },
-    /// The balls cannot lie so.
+    /// The layout is not possible.
     #[error(transparent)]
     Layout(#[from] LayoutError),
 }
 
 impl Layout {
-    /// The balls as `text` puts them: `2d,0.5d` the ball `selected`, `2d,0.5d 6d,2d 4d,3.5d` the cue ball, the other and red,
-    /// `red 4d,3.5d` the one of that colour for who plays with `cue_ball`. All others stay. Commas between the numbers may be missing,
-    /// and those in them be points; where no number has a `d` and the balls could not lie so in metres, but in diamonds, those are meant.
+    /// Returns the layout with the positions in `text`:
+    /// - `2d,0.5d` moves the ball `selected`;
+    /// - `2d,0.5d 6d,2d 4d,3.5d` moves the cue ball, the opponent's ball and the red ball;
+    /// - `red 4d,3.5d` moves the ball of that colour for a player with `cue_ball`.
+    ///
+    /// All other balls stay. Commas between the numbers may be missing, and decimal commas are accepted. If no number has a `d`, and the
+    /// layout is possible in diamonds but not in metres, the numbers are diamonds.
     ///
     /// # Errors
-    /// [`PositionsError`], also where the balls could not lie so on `table`.
+    /// [`PositionsError`], also if the layout is not possible on `table`.
     pub fn with_positions(
         &self,
         text: &str,
@@ -74,7 +78,7 @@ impl Layout {
         let names = cue_ball.names();
         let words: Vec<&str> = text.split([' ', '\t', '\n', '\r', ';']).filter(|word| !word.is_empty()).collect();
         let unknown = |word: &str| PositionsError::Word(word.to_owned());
-        // Each ball's numbers, those without a colour first.
+        // The numbers of each ball; the first entry has those without a colour.
         let mut typed: Vec<(Option<usize>, Vec<Coordinate>)> = vec![(None, Vec::new())];
         for word in &words {
             match names.iter().position(|name| is_called(name, word)) {
@@ -132,7 +136,7 @@ impl Layout {
     }
 }
 
-/// Whether `word` is the name of a ball or its first letter, in capitals or not, with a colon or not.
+/// Whether `word` is the name of a ball or its first letter, in upper or lower case, with or without a colon.
 fn is_called(name: &str, word: &str) -> bool {
     let word = word.trim_end_matches([':', '=']);
     word.eq_ignore_ascii_case(name) || word.eq_ignore_ascii_case(&name[..1])
@@ -184,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_taken_is_named_with_what_would_be() {
+    fn invalid_positions_are_named_with_accepted_ones() {
         for (text, part) in [
             ("", "where is the ball? write one place"),
             ("red 2d,1d RED: 3d,1d", "red is put in two places"),

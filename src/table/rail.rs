@@ -1,4 +1,4 @@
-//! The four cushions by name.
+//! The four cushions, their names and normals.
 
 use glam::DVec2;
 use serde::Serialize;
@@ -21,7 +21,7 @@ impl Rail {
     /// All four, in a fixed order.
     pub const ALL: [Self; 4] = [Self::Left, Self::Right, Self::Bottom, Self::Top];
 
-    /// The name used in JSON and on the screen.
+    /// Returns the name used in JSON and on the screen.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Left => "left",
@@ -31,7 +31,7 @@ impl Rail {
         }
     }
 
-    /// Unit vector from the cushion into the table.
+    /// Returns the unit vector from the cushion into the table.
     pub const fn normal(self) -> DVec2 {
         match self {
             Self::Left => DVec2::X,
@@ -41,14 +41,14 @@ impl Rail {
         }
     }
 
-    /// The image of a place in this cushion, as in a mirror: aim at it to hit that place off the cushion, if the rebound were a mirror's.
-    /// `reach` is how far a ball's centre gets from the table's, m.
+    /// Returns the mirror image of `place` in this cushion. A ball aimed at the image hits `place` off the cushion, if the rebound is a
+    /// perfect reflection. `reach` is the corner of the rectangle that ball centres can reach, m.
     pub fn image(self, reach: DVec2, place: DVec2) -> DVec2 {
         let n = self.normal();
         place - 2.0 * n.dot(place) * n - 2.0 * n.abs().dot(reach) * n
     }
 
-    /// The cushion whose normal into the table is `n`, one of the four.
+    /// Returns the cushion whose normal into the table is `n`, which must be one of the four normals.
     pub fn with_normal(n: DVec2) -> Self {
         Self::ALL.into_iter().find(|rail| rail.normal() == n).unwrap_or(Self::Left)
     }

@@ -1,19 +1,18 @@
-//! The sizes of cue and rail that decide how low the cue can be held.
+//! Sizes of the cue and the rails, which limit how low the cue can be held.
 
 use serde::{Deserialize, Serialize};
 
-/// Sizes of the cue and of the rails that it has to pass over: the TOML section `[room]`. What is left out is as on a
-/// regulation table.
+/// Sizes of the cue and of the rails that it passes over: the TOML section `[room]`. Omitted sizes are those of a regulation table.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Room {
     /// Width of the cue at its tip, m.
     pub tip: f64,
-    /// By how much the cue grows wider along its length, m a metre.
+    /// Increase of the cue's width along its length, m per m.
     pub taper: f64,
     /// Length of the cue, m.
     pub length: f64,
-    /// Height of the nose over the cloth, m; the top of the rail is level with it.
+    /// Height of the nose above the cloth, m; the top of the rail is at the same height.
     pub nose: f64,
     /// Width of the rail from the nose to its outer edge, m.
     pub rail: f64,
@@ -27,7 +26,7 @@ impl Default for Room {
 }
 
 impl Room {
-    /// The first size that cannot be, with its key and what would be accepted, for balls of `radius`, m.
+    /// Returns the first invalid size for balls of `radius`, m, with its key and the accepted range.
     pub(super) fn flaw(&self, radius: f64) -> Option<(&'static str, f64, &'static str)> {
         let checks = [
             ("room.tip", self.tip, self.tip > 0.0 && self.tip <= 2.0 * radius, "above 0 and at most a ball's diameter"),
@@ -50,7 +49,7 @@ mod tests {
     use super::*;
     use crate::table::{Table, TableError};
 
-    /// The default table with a section `[room]`.
+    /// Returns the default table with an additional section `[room]`.
     fn table(room: &str) -> Result<Table, TableError> {
         let table = Table { room: None, ..Table::default() };
         Table::from_toml(&format!("{}\n{room}", toml::to_string(&table).unwrap()))

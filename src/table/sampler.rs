@@ -1,4 +1,4 @@
-//! Tables drawn from what is known of one.
+//! Random tables drawn from the uncertainty of a table's constants.
 
 use super::{
     Table, TableDoubt,
@@ -7,16 +7,16 @@ use super::{
 };
 use crate::statistics::quantile;
 
-/// Draws tables from a table and its doubt.
+/// Draws random tables around a table, according to its uncertainty.
 #[derive(Debug)]
 pub struct TableSampler {
-    /// The table's own law of the rails, then the others.
+    /// The table's own rail model, then the alternatives.
     laws: Vec<Around>,
-    /// The standard normal numbers above which the second law is meant, the third, and so on.
+    /// Thresholds for a standard normal number: above the first the second rail model is chosen, above the second the third, and so on.
     bounds: Vec<f64>,
 }
 
-/// Tables with one law of the rails.
+/// A distribution of tables that share one rail model.
 #[derive(Debug)]
 struct Around {
     table: Table,
@@ -25,8 +25,8 @@ struct Around {
 }
 
 impl TableSampler {
-    /// Tables around `table`, with `factor` times the standard deviations of `doubt`, and as often with another law of the rails as that
-    /// is likely, less often where the factor is less than 1. `None` where there is nothing to draw.
+    /// Creates a sampler around `table`, with `factor` times the standard deviations of `doubt`. An alternative rail model is drawn with
+    /// its weight, times `factor` if that is less than 1. Returns `None` if there is nothing to draw.
     pub fn new(table: &Table, doubt: &TableDoubt, factor: f64) -> Option<Self> {
         if factor <= 0.0 {
             return None;
@@ -36,7 +36,7 @@ impl TableSampler {
         let mut bounds = Vec::new();
         let mut share = 1.0 - factor.min(1.0) * doubt.laws.iter().map(|law| law.weight).sum::<f64>();
         for law in &doubt.laws {
-            let (table, doubt) = doubt.under(law, &table);
+            let (table, doubt) = doubt.with_model(law, &table);
             laws.push(Around::new(&table, &doubt, factor)?);
             bounds.push(quantile(share));
             share += factor.min(1.0) * law.weight;
@@ -44,9 +44,9 @@ impl TableSampler {
         (laws.len() > 1 || !laws[0].constants.is_empty()).then_some(Self { laws, bounds })
     }
 
-    /// One table, from standard normal numbers.
+    /// Draws one table from standard normal numbers.
     pub fn draw(&self, mut normal: impl FnMut() -> f64) -> Table {
-        // Where there is one law, no number says which.
+        // With a single rail model, no number is drawn for the choice, so that all numbers serve the constants.
         let which = if self.bounds.is_empty() {
             0
         } else {
@@ -66,7 +66,7 @@ impl Around {
             .filter_map(|constant| (constant.get)(table).map(|value| (constant, value)))
             .collect();
         let names: Vec<&str> = constants.iter().map(|(constant, _)| constant.name).collect();
-        // Part of a positive definite matrix is one, too.
+        // A principal submatrix of a positive definite matrix is positive definite, too.
         let mut lines = doubt.factor(&names).ok()?;
         for entry in lines.iter_mut().flatten() {
             *entry *= factor;
@@ -108,7 +108,7 @@ mod tests {
         let doubt = TableDoubt { laws: Vec::new(), ..TableDoubt::of(&table) };
         let sampler = TableSampler::new(&table, &doubt, 1.0).unwrap();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
-        // The sum of twelve uniform numbers is nearly normal.
+        // The sum of twelve uniform numbers is approximately normal.
         let mut normal = || (0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.0;
         let drawn: Vec<Table> = (0..4000).map(|_| sampler.draw(&mut normal)).collect();
         let column = |name: &str| -> Vec<f64> {
@@ -144,7 +144,7 @@ mod tests {
             let sampler = TableSampler::new(&table, &doubt, factor).unwrap();
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(6);
             let mut normal = || (0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.0;
-            // The first number of each says which law is meant: all from the lowest to the highest.
+            // The first number of each draw selects the rail model: evenly spaced quantiles from the lowest to the highest.
             let of = |share: f64| {
                 let mut first = Some(quantile(share));
                 sampler.draw(|| first.take().unwrap_or_else(&mut normal))
@@ -174,7 +174,7 @@ mod tests {
         for table in others.iter().step_by(100) {
             assert_eq!(Table::from_toml(&toml::to_string(table).unwrap()).unwrap(), *table);
         }
-        // Half of the doubt holds the other law half as likely.
+        // At half the uncertainty, the alternative model is half as likely.
         let half = drawn(0.5).iter().filter(|table| table.rail.model == RailModel::Mathavan).count();
         assert_eq!(half, 600);
     }

@@ -1,4 +1,4 @@
-//! Which contacts push and which frictions hold: what is constant from one change of it to the next.
+//! The active set: contacts that push and modes of the frictions, which stay constant between two transitions.
 
 use std::ops::Deref;
 
@@ -6,17 +6,17 @@ use glam::DVec2;
 
 use super::{
     Contact,
-    problem::{Place, coefficient},
+    problem::{ForceKind, coefficient},
 };
 use crate::{
     physics::{BallState, slip},
     table::{BALLS, Table},
 };
 
-/// Most contacts that three balls can have: with each other and with two cushions each.
+/// Largest number of contacts of three balls: with each other, and with two cushions each.
 pub const MAX_CONTACTS: usize = 9;
 
-/// Contacts in a fixed order.
+/// A list of contacts in a fixed order.
 #[derive(Clone, Copy, Debug)]
 pub struct Contacts {
     list: [Contact; MAX_CONTACTS],
@@ -24,10 +24,10 @@ pub struct Contacts {
 }
 
 impl Contacts {
-    /// None at all.
+    /// The empty list.
     pub const NONE: Self = Self { list: [Contact::with_cushion(0, DVec2::ZERO); MAX_CONTACTS], count: 0 };
 
-    /// Adds one, as long as there is room: three balls cannot have more.
+    /// Appends a contact. Ignored if the list is full: three balls cannot have more contacts.
     pub fn push(&mut self, contact: Contact) {
         if self.count < MAX_CONTACTS {
             self.list[self.count] = contact;
@@ -35,7 +35,7 @@ impl Contacts {
         }
     }
 
-    /// Keeps only the contacts asked for.
+    /// Keeps only the contacts for which `wanted` returns true.
     pub fn retain(&mut self, mut wanted: impl FnMut(usize, &Contact) -> bool) {
         let before = self.count;
         self.count = 0;
@@ -47,7 +47,7 @@ impl Contacts {
         }
     }
 
-    /// Whether a ball takes part in any.
+    /// Whether `ball` takes part in any contact.
     pub fn hold(&self, ball: usize) -> bool {
         self.iter().any(|contact| contact.has(ball))
     }
@@ -61,29 +61,29 @@ impl Deref for Contacts {
     }
 }
 
-/// What a friction does.
+/// Mode of a friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Friction {
-    /// It holds.
+    /// Stick.
     Sticks,
-    /// It is at its limit and lets a slip begin, so slowly that it acts against the rate of the slip rather than the slip
-    /// itself, whose direction would turn in no time.
+    /// The friction is at its limit and slip begins, but so slowly that the friction opposes the rate of the slip. The direction of the
+    /// slip itself would turn too fast.
     Yields,
-    /// It acts at its limit against the slip, to which this is added, m/s: what begins to slip has a direction before it
-    /// has a speed. Of a spin it is the sign.
+    /// Slip: the friction acts at its limit against the slip plus this offset, m/s, because slip has a direction before it has a speed. For
+    /// a spin, the offset is the sign.
     Slips(DVec2),
-    /// Of the resistance to rolling: as much of it acts as the cloth's friction can hold a ball against without letting it slide, and
-    /// sliding would end at once, for a ball that slides has no such resistance (Filippov 1988).
+    /// Filippov sliding mode of the rolling resistance: it acts only as far as the cloth's friction can hold the ball without sliding.
+    /// Sliding would end at once, because a sliding ball has no rolling resistance (Filippov 1988).
     Eases,
 }
 
 impl Friction {
-    /// Slipping already if faster than `none`, m/s.
+    /// Returns slip if it is faster than `none`, m/s, otherwise stick.
     fn of(slip: DVec2, none: f64) -> Self {
         if slip.length() > none { Self::Slips(DVec2::ZERO) } else { Self::Sticks }
     }
 
-    /// The unit vector against which the friction acts; `None` where it holds.
+    /// Returns the unit vector against which the friction acts; `None` if it sticks.
     pub(super) fn direction(self, slip: DVec2) -> Option<DVec2> {
         match self {
             Self::Sticks | Self::Yields => None,
@@ -92,27 +92,27 @@ impl Friction {
         }
     }
 
-    /// Whether it lets a slip begin.
+    /// Whether a slip begins in this mode.
     pub(super) fn begins(self) -> bool {
         !matches!(self, Self::Sticks | Self::Eases | Self::Slips(DVec2::ZERO))
     }
 }
 
-/// What every friction does in one active set.
+/// The modes of all frictions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ActiveSet {
-    /// The cloth's friction on each ball against slipping.
+    /// Friction of the cloth against the slip of each ball.
     pub cloth: [Friction; BALLS],
-    /// The cloth's resistance against each ball's rolling; it counts where the ball does not slip.
+    /// Rolling resistance of the cloth on each ball; only used if the ball does not slip.
     pub roll: [Friction; BALLS],
-    /// The cloth's friction against each ball's spin about the vertical.
+    /// Friction of the cloth against each ball's spin about the vertical.
     pub spin: [Friction; BALLS],
-    /// The friction in each contact.
+    /// Friction in each contact.
     pub contact: [Friction; MAX_CONTACTS],
 }
 
 impl ActiveSet {
-    /// Everything slips, where it does in no known direction.
+    /// Every friction slips, without a known initial direction.
     pub const SLIPPING: Self = Self {
         cloth: [Friction::Slips(DVec2::ZERO); BALLS],
         roll: [Friction::Slips(DVec2::ZERO); BALLS],
@@ -120,13 +120,13 @@ impl ActiveSet {
         contact: [Friction::Slips(DVec2::ZERO); MAX_CONTACTS],
     };
 
-    /// What the state `balls` shows, if slips and speeds below `none`, m/s, are zero. Balls without a coefficient of
-    /// friction yield where they slip.
+    /// Returns the active set of the state `balls`, with slips and speeds below `none`, m/s, taken as zero. Slipping contacts without a
+    /// coefficient of friction yield.
     pub fn of(table: &Table, balls: &[BallState; BALLS], contacts: &[Contact], none: f64) -> Self {
         let radius = table.radius;
         let mut friction = [Friction::Sticks; MAX_CONTACTS];
         for (friction, contact) in friction.iter_mut().zip(contacts) {
-            // What has no friction cannot stick.
+            // A contact without friction cannot stick.
             let none = if coefficient(table, contact) > 0.0 { none } else { -1.0 };
             *friction = Friction::of(contact.slip(radius, balls), none);
             if contact.never_slips(table) && *friction != Friction::Sticks {
@@ -146,7 +146,7 @@ impl ActiveSet {
         }
     }
 
-    /// The same with slips where this set or the `other` yields: nothing there is to stop.
+    /// Returns this set with slip wherever this set or the `other` yields, so that no speed is stopped there.
     #[must_use]
     pub fn slipping_where(mut self, yields: &Self) -> Self {
         let each = |mine: &mut [Friction], theirs: &[Friction]| {
@@ -162,31 +162,31 @@ impl ActiveSet {
         self
     }
 
-    /// Whether nothing begins to slip: no friction yields, and no slip has only a direction.
+    /// Whether no slip begins: no friction yields, and no slip has a direction only.
     pub fn lasts(&self) -> bool {
         !self.cloth.iter().chain(&self.roll).chain(&self.contact).any(|friction| friction.begins())
     }
 
-    /// Whether a ball slips, rolls or spins that by another set is held.
+    /// Whether a ball slips, rolls or spins that is held in the set `held`.
     pub fn lets_go(&self, held: &Self) -> bool {
         let pairs = [(&self.cloth, &held.cloth), (&self.roll, &held.roll), (&self.spin, &held.spin)];
         let lets_go = |(now, before): (&Friction, &Friction)| *before == Friction::Sticks && *now != Friction::Sticks;
         pairs.into_iter().any(|(now, before)| now.iter().zip(before).any(lets_go))
     }
 
-    /// The first ball whose resistance to rolling eases, if there is one.
+    /// Returns the first ball whose rolling resistance is in Filippov mode, if any.
     pub(super) fn eased(&self) -> Option<usize> {
         self.roll.iter().position(|friction| *friction == Friction::Eases)
     }
 
-    /// The friction of a place; none where the place is that of a normal force.
-    pub(super) const fn friction_mut(&mut self, place: Place) -> Option<&mut Friction> {
-        match place {
-            Place::Normal(_) => None,
-            Place::Cloth(ball) => Some(&mut self.cloth[ball]),
-            Place::Roll(ball) => Some(&mut self.roll[ball]),
-            Place::Spin(ball) => Some(&mut self.spin[ball]),
-            Place::Contact(index) => Some(&mut self.contact[index]),
+    /// Returns the friction of an unknown; `None` for a normal force.
+    pub(super) const fn friction_mut(&mut self, kind: ForceKind) -> Option<&mut Friction> {
+        match kind {
+            ForceKind::Normal(_) => None,
+            ForceKind::Cloth(ball) => Some(&mut self.cloth[ball]),
+            ForceKind::Roll(ball) => Some(&mut self.roll[ball]),
+            ForceKind::Spin(ball) => Some(&mut self.spin[ball]),
+            ForceKind::Contact(index) => Some(&mut self.contact[index]),
         }
     }
 

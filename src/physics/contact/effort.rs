@@ -1,23 +1,23 @@
-//! Work of a shot's contacts and impacts: what its guards count.
+//! Counter of the computational work of contacts and impacts, which limits a shot.
 
 use std::cell::Cell;
 
-/// Work in multiplications of numbers, about: the same for the same shot on every machine, and near to proportional to its time.
+/// Approximate number of multiplications: deterministic for a shot on every machine, and nearly proportional to its computing time.
 #[derive(Clone, Debug, Default)]
 pub struct Effort(Cell<u64>);
 
 impl Effort {
-    /// So much more has been done.
+    /// Adds to the count.
     pub fn add(&self, multiplications: u64) {
         self.0.set(self.0.get() + multiplications);
     }
 
-    /// What another one has counted is counted here from now on.
+    /// Moves the count of `other` to this counter.
     pub fn absorb(&self, other: &Self) {
         self.add(other.0.take());
     }
 
-    /// What has been done so far.
+    /// Returns the count so far.
     pub fn spent(&self) -> u64 {
         self.0.get()
     }

@@ -5,24 +5,24 @@ use glam::{DVec2, DVec3};
 use super::{
     ActiveSet, Contact, Contacts, Effort, Friction, MAX_CONTACTS, Scene,
     margin::{rates, with_margin},
-    problem::{GYRATION, Limit, NO_SIZES, Place, Problem, Row, Sizes, Unknown, coefficient},
+    problem::{ForceKind, GYRATION, Limit, NO_SIZES, Problem, Row, Sizes, Unknown, coefficient},
     solve::{Side, Solution, solve, solve_near},
 };
 use crate::table::{BALLS, Table};
 
-/// What begins to slip more slowly than this share of g holds: in a second it would come to 1e-9 m/s.
+/// A slip that begins with less than this share of g is treated as sticking: in a second it would reach 1e-9 m/s.
 pub(super) const DEPARTING: f64 = 1e-10;
 
-/// The speed that gives a direction to what begins to slip, m/s: on `match` ninety times what counts as no slip, so that rounding does not
-/// turn it. What gains a third of its friction's acceleration outgrows it in 2e-8 s and 1e-16 m on a cloth of `mu_s = 0.2`, and in a
-/// few hundredths of a millisecond and 1e-13 m on one of 0.0001.
+/// Speed that defines the direction of a beginning slip, m/s. On `match` it is ninety times the zero-slip tolerance, so that rounding does
+/// not turn the direction. A slip that accelerates by a third of its friction's acceleration exceeds it after 2e-8 s and 1e-16 m on a cloth
+/// of `mu_s = 0.2`, and after a few hundredths of a millisecond and 1e-13 m on one of 0.0001.
 const STARTING: f64 = 1e-8;
 
-/// A slip that begins with less than this share of its friction's acceleration begins slowly: its direction would follow the
-/// friction's so fast that no step could be long.
+/// A slip begins slowly if its acceleration is less than this share of its friction's. Its direction would then follow the friction's so
+/// fast that integration steps would be tiny.
 const SLOW_START: f64 = 0.3;
 
-/// Accelerations of all balls, and the forces of contacts and of frictions that hold.
+/// Accelerations of all balls, and forces of contacts and sticking frictions.
 #[derive(Clone, Copy, Debug)]
 pub struct Forces {
     /// Acceleration, m/s².
@@ -31,35 +31,36 @@ pub struct Forces {
     pub angular: [DVec3; BALLS],
     /// Normal force per ball mass of each contact, m/s².
     pub normal: [f64; MAX_CONTACTS],
-    /// By how much all laws hold, m/s²: negative where the active set that was asked for has ended.
+    /// Smallest margin by which the laws hold, m/s²; negative if the requested active set has ended.
     pub slack: f64,
-    /// Whether all laws hold to rounding where forces have been sought.
+    /// Whether the solver satisfied all laws to rounding, if it was used.
     pub converged: bool,
-    /// Whether they are one of many that do the same, as the balls are held more often than needed.
+    /// Whether the forces are one of many equivalent solutions, because the balls are over-constrained.
     pub(super) redundant: bool,
     /// Friction per ball mass in each contact, along `t = z×n` and along z, m/s².
     pub(super) friction: [DVec2; MAX_CONTACTS],
-    /// The cloth's forces per ball mass where they hold a ball, against slip, against rolling and against spin, m/s².
+    /// Forces per ball mass with which the cloth holds a ball: against slip, against rolling and against spin, m/s².
     pub(super) cloth: [DVec2; BALLS],
     pub(super) roll: [DVec2; BALLS],
     pub(super) spin: [f64; BALLS],
 }
 
-/// The active set that holds in a state.
+/// The active set that is valid in a state.
 #[derive(Clone, Debug)]
 pub struct Resolved {
-    /// The contacts that push.
+    /// Contacts that push.
     pub contacts: Contacts,
-    /// What their frictions do.
+    /// Modes of their frictions.
     pub set: ActiveSet,
-    /// The forces.
+    /// Accelerations and forces.
     pub forces: Forces,
-    /// Whether frictions hold together more than is needed, so that [`Forces::slack`] does not tell for how long.
+    /// Whether a friction at its limit still sticks, because several share the load. [`Forces::slack`] then does not predict how long the
+    /// set lasts.
     pub shared: bool,
-    /// What the frictions do if those that have yielded hold again: slips that end, or slide on against their friction.
+    /// The set in which yielding frictions stick again, or slip on against their friction; `None` if no yielding friction can.
     pub sticking: Option<ActiveSet>,
-    /// Whether each of the contacts that were asked about never slips, and cannot rest: what holds its slip parts the
-    /// balls, and what parts brings them back.
+    /// For each requested contact, whether it never slips and cannot rest: the force that prevents its slip separates the balls, which then
+    /// come back.
     pub paradox: [bool; MAX_CONTACTS],
 }
 
@@ -70,16 +71,16 @@ impl Resolved {
     }
 }
 
-/// How a solution is sought, from a guess on.
+/// A solver of the problem that starts from a guess.
 type Seek = fn(&Problem, &Sizes, &Effort) -> Solution;
 
 impl Scene<'_> {
-    /// The problem and its solution. Balls that never slip grip without limit, unless no forces obey all laws then.
+    /// Returns the problem and its solution. The friction of balls that never slip has no limit, unless no forces obey all laws then.
     pub(super) fn solved(self, similar: Option<&Forces>, seek: Seek, effort: &Effort) -> (Problem, Solution) {
         let Self { table, contacts, .. } = self;
         let mut problem = Problem::new(self);
         let mut solution = seek(&problem, &similar.map_or(NO_SIZES, |similar| similar.sizes(&problem)), effort);
-        let reaches_its_limit = |(unknown, side): (&Unknown, &Side)| matches!((unknown.place, side), (Place::Contact(index), Side::Limited(_)) if contacts[index].never_slips(table));
+        let reaches_its_limit = |(unknown, side): (&Unknown, &Side)| matches!((unknown.kind, side), (ForceKind::Contact(index), Side::Limited(_)) if contacts[index].never_slips(table));
         if problem.unknowns.iter().zip(&solution.sides).any(reaches_its_limit) {
             problem.grip(contacts);
             let gripped = solve_near(&problem, &solution.sizes, effort);
@@ -90,7 +91,7 @@ impl Scene<'_> {
         (problem, solution)
     }
 
-    /// What a solution of the problem tells. `None` where nothing pushes by more than `slack`, m/s².
+    /// Evaluates a solution of the problem. `None` if no normal force exceeds `slack`, m/s², and no contact is a paradox.
     pub(super) fn read_off(
         self,
         slack: f64,
@@ -113,11 +114,11 @@ impl Scene<'_> {
         let never_slips = |index: usize| contacts[index].never_slips(table);
         for (index, (unknown, side)) in problem.unknowns.iter().zip(&solution.sides).enumerate() {
             if *side == Side::Holds {
-                // Balls that never slip stop at once, others slide on against their friction.
-                let stops = matches!(unknown.place, Place::Contact(index) if never_slips(index));
+                // Balls that never slip stop at once, others slip on against their friction.
+                let stops = matches!(unknown.kind, ForceKind::Contact(index) if never_slips(index));
                 let ends = if stops { Friction::Sticks } else { Friction::Slips(DVec2::ZERO) };
                 resolved.sticking =
-                    sticking_at(&resolved.sticking.unwrap_or(*set), unknown.place, ends).or(resolved.sticking);
+                    sticking_at(&resolved.sticking.unwrap_or(*set), unknown.kind, ends).or(resolved.sticking);
             }
             let Side::Limited(force) = *side else { continue };
             let rate = DVec2::from_array(rates(problem, solution, index)).length();
@@ -130,11 +131,11 @@ impl Scene<'_> {
                 _ if rate < SLOW_START * size => Friction::Yields,
                 _ => Friction::Slips(-STARTING * force),
             };
-            match unknown.place {
+            match unknown.kind {
                 _ if holds => {}
-                Place::Contact(index) if never_slips(index) => resolved.paradox[index] = true,
-                place => {
-                    if let Some(friction) = resolved.set.friction_mut(place) {
+                ForceKind::Contact(index) if never_slips(index) => resolved.paradox[index] = true,
+                kind => {
+                    if let Some(friction) = resolved.set.friction_mut(kind) {
                         *friction = starts;
                     }
                 }
@@ -156,10 +157,10 @@ impl Scene<'_> {
         Some(resolved)
     }
 
-    /// The forces by the solver, from `similar` ones on: where a friction yields, or what is held does not tell them, what holds is sought
-    /// anew in every state. A long search is not worth its time where there are mostly no forces: in steps that fail, as where the state
-    /// before has none.
-    pub fn sought(self, similar: &Forces, is_short: bool, effort: &Effort) -> Forces {
+    /// Returns the forces from the complementarity solver, starting at `similar`. It determines in every state which laws hold, for sets in
+    /// which a friction yields or whose linear system has no solution. `is_short` limits the search, for steps that fail. Nor is a long
+    /// search worthwhile after a state without a solution: there are mostly no forces.
+    pub fn search_forces(self, similar: &Forces, is_short: bool, effort: &Effort) -> Forces {
         let Self { table, set, .. } = self;
         let seek = if similar.converged && !is_short { solve } else { solve_near };
         let (problem, solution) = self.solved(Some(similar), seek, effort);
@@ -167,13 +168,14 @@ impl Scene<'_> {
         let mut forces = Forces::of(table.radius, &problem, &solution, &accelerations);
         forces.slack = self.spin_slack();
         for (unknown, side) in problem.unknowns.iter().zip(&solution.sides) {
-            let friction = match unknown.place {
-                Place::Normal(_) | Place::Spin(_) => Friction::Sticks,
-                Place::Cloth(ball) => set.cloth[ball],
-                Place::Roll(ball) => set.roll[ball],
-                Place::Contact(index) => set.contact[index],
+            let friction = match unknown.kind {
+                ForceKind::Normal(_) | ForceKind::Spin(_) => Friction::Sticks,
+                ForceKind::Cloth(ball) => set.cloth[ball],
+                ForceKind::Roll(ball) => set.roll[ball],
+                ForceKind::Contact(index) => set.contact[index],
             };
-            // Any law that changes sides ends the active set: as fast as its rate grows, or its force falls below the limit.
+            // The active set ends when any law changes its side. The margin is the growth rate, or the distance of the force from its
+            // limit.
             let rows = &problem.rates[unknown.first..][..unknown.count];
             let slack = match side {
                 Side::Holds if friction == Friction::Yields => -slack_of(unknown, &solution.sizes),
@@ -187,7 +189,7 @@ impl Scene<'_> {
         forces
     }
 
-    /// A spin that has turned round has ended before.
+    /// Returns the margin of the signs of the spins: a spin that has changed its sign has already ended.
     fn spin_slack(self) -> f64 {
         self.set.spin.iter().zip(self.balls).fold(f64::INFINITY, |slack, (spin, ball)| match spin {
             Friction::Slips(sign) if sign.x != 0.0 => slack.min(self.table.radius * ball.spin.z * sign.x),
@@ -196,10 +198,10 @@ impl Scene<'_> {
     }
 }
 
-/// The set in which a friction that yields does something else; none where it does not yield.
-fn sticking_at(set: &ActiveSet, place: Place, does: Friction) -> Option<ActiveSet> {
+/// Returns the set in which the yielding friction of an unknown has the mode `does`; `None` if it does not yield.
+fn sticking_at(set: &ActiveSet, kind: ForceKind, does: Friction) -> Option<ActiveSet> {
     let mut set = *set;
-    let friction = set.friction_mut(place)?;
+    let friction = set.friction_mut(kind)?;
     if *friction != Friction::Yields {
         return None;
     }
@@ -207,12 +209,12 @@ fn sticking_at(set: &ActiveSet, place: Place, does: Friction) -> Option<ActiveSe
     Some(set)
 }
 
-/// By how much a law holds of a force that was found by supposing which laws do.
+/// Returns the margin by which the law of a force holds, if the force was computed for an assumed active set.
 fn slack_of(unknown: &Unknown, sizes: &[f64]) -> f64 {
     let own = &sizes[unknown.first..][..unknown.count];
     let size = own.iter().fold(0.0_f64, |length, x| libm::hypot(length, *x));
-    match (unknown.place, unknown.limit) {
-        (Place::Normal(_), _) => own[0],
+    match (unknown.kind, unknown.limit) {
+        (ForceKind::Normal(_), _) => own[0],
         (_, Limit::Fixed(limit)) => limit - size,
         (_, Limit::Coulomb(mu, contact)) => mu * sizes[contact] - size,
     }
@@ -243,34 +245,34 @@ impl Forces {
         for unknown in &problem.unknowns {
             let one = sizes[unknown.first];
             let both = || DVec2::new(one, sizes[unknown.first + 1]);
-            match unknown.place {
-                Place::Normal(index) => forces.normal[index] = one,
-                Place::Contact(index) => forces.friction[index] = both(),
-                Place::Cloth(ball) => forces.cloth[ball] = both(),
-                Place::Roll(ball) => forces.roll[ball] = both(),
-                Place::Spin(ball) => forces.spin[ball] = one,
+            match unknown.kind {
+                ForceKind::Normal(index) => forces.normal[index] = one,
+                ForceKind::Contact(index) => forces.friction[index] = both(),
+                ForceKind::Cloth(ball) => forces.cloth[ball] = both(),
+                ForceKind::Roll(ball) => forces.roll[ball] = both(),
+                ForceKind::Spin(ball) => forces.spin[ball] = one,
             }
         }
         forces
     }
 
-    /// The problem's unknowns if the forces were these.
+    /// Returns the problem's unknowns that correspond to these forces.
     fn sizes(&self, problem: &Problem) -> Sizes {
         let mut sizes = NO_SIZES;
         for unknown in &problem.unknowns {
-            let own = match unknown.place {
-                Place::Normal(index) => [self.normal[index], 0.0],
-                Place::Spin(ball) => [self.spin[ball], 0.0],
-                Place::Contact(index) => self.friction[index].to_array(),
-                Place::Cloth(ball) => self.cloth[ball].to_array(),
-                Place::Roll(ball) => self.roll[ball].to_array(),
+            let own = match unknown.kind {
+                ForceKind::Normal(index) => [self.normal[index], 0.0],
+                ForceKind::Spin(ball) => [self.spin[ball], 0.0],
+                ForceKind::Contact(index) => self.friction[index].to_array(),
+                ForceKind::Cloth(ball) => self.cloth[ball].to_array(),
+                ForceKind::Roll(ball) => self.roll[ball].to_array(),
             };
             sizes[unknown.first..][..unknown.count].copy_from_slice(&own[..unknown.count]);
         }
         sizes
     }
 
-    /// The same forces for other contacts; those that are new have none.
+    /// Returns the same forces for other contacts; new contacts have zero force.
     #[must_use]
     pub fn of_contacts(&self, own: &[Contact], contacts: &[Contact]) -> Self {
         let mut forces = Self { normal: [0.0; MAX_CONTACTS], friction: [DVec2::ZERO; MAX_CONTACTS], ..*self };
@@ -282,12 +284,12 @@ impl Forces {
         forces
     }
 
-    /// The largest friction in a contact per ball mass, m/s².
+    /// Returns the limit of the friction in a contact per ball mass, m/s².
     pub fn friction_limit(&self, table: &Table, contacts: &Contacts, index: usize) -> f64 {
         coefficient(table, &contacts[index]) * self.normal[index]
     }
 
-    /// The largest difference of accelerations, m/s²; `radius` in metres turns angular into linear ones.
+    /// Returns the largest difference of accelerations, m/s²; `radius` in metres converts angular into linear ones.
     pub fn distance(&self, other: &Self, radius: f64) -> f64 {
         (0..BALLS).fold(0.0, |largest, ball| {
             let linear = self.linear[ball].distance(other.linear[ball]);
@@ -302,7 +304,7 @@ mod tests {
     use super::*;
     use crate::physics::{BallState, slip};
 
-    /// The first of these balls at the right cushion of `thesis`, with this velocity and spin.
+    /// The first of these balls is at the right cushion of `thesis`, with this velocity and spin.
     struct AtCushion {
         table: Table,
         balls: [BallState; BALLS],
@@ -325,7 +327,7 @@ mod tests {
         }
     }
 
-    /// Topspin towards the cushion, and some speed along it.
+    /// A ball with topspin towards the cushion and some speed along it.
     fn pressed() -> (AtCushion, Resolved) {
         let ball = AtCushion::new(DVec2::new(0.0, 0.7), DVec3::new(3.0, 80.0, -5.0));
         let resolved = ball.scene().resolve(1e-11, None, &Effort::default()).unwrap();
@@ -339,26 +341,26 @@ mod tests {
         let pressed = table.sliding_friction * table.gravity * -u.x;
         assert!((forces.normal[0] - pressed).abs() < 1e-13);
         assert!(forces.linear[0].x.abs() < 1e-13);
-        // The ball slips along +y on the cushion: the friction opposes it and has at most Coulomb's size.
+        // The ball slips along +y on the cushion: the friction opposes the slip and has at most Coulomb's magnitude.
         let friction = forces.linear[0].y + table.sliding_friction * table.gravity * u.y;
         assert!(friction.abs() <= table.rail_friction * pressed + 1e-13 && friction < 0.0);
     }
 
     #[test]
-    fn what_is_held_agrees_with_the_solver() {
+    fn the_linear_system_agrees_with_the_solver() {
         let (ball, resolved) = pressed();
         let held = Scene { set: &resolved.set, ..ball.scene() }.forces(None).unwrap();
         assert!(resolved.forces.converged && held.distance(&resolved.forces, ball.table.radius) < 1e-12);
     }
 
-    /// Nor is the search for such forces free of charge.
+    /// The unsuccessful search is counted as effort, too.
     #[test]
     fn a_cushion_never_pulls() {
         let (ball, effort) = (AtCushion::new(DVec2::ZERO, DVec3::new(0.0, -80.0, 0.0)), Effort::default());
         assert!(ball.scene().resolve(1e-11, None, &effort).is_none() && effort.spent() > 0);
     }
 
-    /// What keeps a rolling ball from opening the contact also keeps it from slipping upwards there: the matrix is singular.
+    /// The constraint that keeps a rolling ball on the contact also prevents its vertical slip there: the matrix is singular.
     #[test]
     fn forces_that_are_not_unique_are_found() {
         let radius = Table::preset("thesis").unwrap().radius;

@@ -1,8 +1,8 @@
-//! Forces where it is known which contacts push and which frictions hold: what is held has a rate of zero, which makes a
-//! small linear system in the contacts' forces. What the cloth holds is taken out beforehand: a ball that rolls or stands
-//! answers to a force with less motion than one that slides.
+//! Forces of a known active set: every rate that a contact or friction holds is zero, which gives a small linear system for the contact
+//! forces. The holding forces of the cloth are eliminated beforehand: a rolling or standing ball responds to a force with less motion than
+//! a sliding one.
 
-/// Evaluates an expression with `ROOM` as the smallest compiled size (1, 2, 3 or all) that holds the contacts.
+/// Evaluates an expression with `ROOM` as the smallest compiled size (1, 2, 3 or the maximum) that fits the contacts.
 macro_rules! in_room {
     ($contacts:expr, $room:ident => $value:expr) => {
         match $contacts.len() {
@@ -38,46 +38,47 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// A system with pivots below this share of the largest has no unique solution.
+/// A system whose smallest pivot is below this is treated as singular; the entries of a force system are 1 to 10.
 const SINGULAR: f64 = 1e-6;
 
-/// Rounds of refinement that take the effect of [`PROXIMITY`] out again.
+/// Largest number of iterative refinements, which remove the effect of [`PROXIMITY`].
 const MAX_REFINEMENTS: usize = 8;
 
-/// A residual of which a round of refinement leaves so much or more is no effect of [`PROXIMITY`]: not everything can be held.
+/// If a refinement leaves this share of the residual or more, the residual is not an effect of [`PROXIMITY`]: the constraints are
+/// inconsistent.
 const INCONSISTENT: f64 = 0.95;
 
-/// Residuals below this share of the largest number are rounding.
+/// Residuals below this share of the largest number are rounding errors.
 const ROUNDING: f64 = 4096.0 * f64::EPSILON;
 
-/// The linear system of one active set in one state, with room for so many contacts: it is solved some thirty times in a step of an
-/// integration, mostly for one contact or two, and room for all of them would be filled and moved each time.
+/// Linear system of one active set in one state, with a compile-time capacity for contacts. It is solved about thirty times per integration
+/// step, mostly for one or two contacts, and arrays of full capacity would be filled and moved each time.
 struct Held<const ROOM: usize> {
     joints: [Joint; ROOM],
     contacts: usize,
     sticking: [Sticking; BALLS],
     members: [bool; BALLS],
-    /// Each contact's unknowns.
+    /// The unknowns of each contact.
     sizes: [Triple; ROOM],
-    /// Whether they are known not to be unique: something is held more often than needed.
+    /// Whether the unknowns are known to be non-unique: the balls are over-constrained.
     redundant: bool,
-    /// The rate at which a contact opens, m/s², where the bends of the courses part what is held more often than needed; else zero.
+    /// Opening rate of a contact, m/s², if the curvature of the trajectories separates over-constrained contacts; otherwise zero.
     inconsistent: f64,
 }
 
-/// How the balls move under each unknown of each contact alone.
+/// Motion of the balls under each unknown of each contact alone.
 type Responses<const ROOM: usize> = [[Response; 3]; ROOM];
 
-/// Room for a square matrix with a row for each unknown: its entries are the first ones.
+/// Capacity for a square matrix with a row for each unknown: its entries are stored first.
 type Matrix<const ROOM: usize> = [[[[f64; 3]; 3]; ROOM]; ROOM];
 
-/// All entries that there is room for.
+/// Returns the whole storage of a matrix.
 fn entries<const ROOM: usize>(matrix: &mut Matrix<ROOM>) -> &mut [f64] {
     matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut()
 }
 
 impl<const ROOM: usize> Held<ROOM> {
-    /// The system of the contacts; `has_friction` says whether the normal force of one that slips brings its friction with it.
+    /// Creates the system of the contacts; `has_friction` decides whether the normal force of a slipping contact includes its friction.
     #[inline(always)]
     fn new(scene: Scene<'_>, has_friction: impl Fn(&Contact) -> bool) -> Self {
         let Scene { table, balls, contacts, set } = scene;
@@ -98,7 +99,7 @@ impl<const ROOM: usize> Held<ROOM> {
         }
     }
 
-    /// The same with the forces that come nearest to `similar` ones where they are not unique.
+    /// As [`Self::new`], starting at the `similar` forces, so that non-unique forces come out near them.
     #[inline(always)]
     fn near(scene: Scene<'_>, similar: Option<&Forces>) -> Self {
         let mut system = Self::new(scene, |_| true);
@@ -116,7 +117,7 @@ impl<const ROOM: usize> Held<ROOM> {
         &self.joints[..self.contacts]
     }
 
-    /// Numbers the unknowns. `SHAPE` tells the compiler how many there are of each contact, in two bits for each; with zero it is not told.
+    /// Numbers the unknowns. `SHAPE` gives the compiler the number of unknowns of each contact, two bits each; zero if it is unknown.
     #[inline(always)]
     fn number<const SHAPE: usize>(&mut self) {
         let mut at = 0;
@@ -129,13 +130,13 @@ impl<const ROOM: usize> Held<ROOM> {
         }
     }
 
-    /// How many unknowns there are.
+    /// Returns the number of unknowns.
     #[inline(always)]
     fn unknowns(&self) -> usize {
         self.joints.iter().map(|joint| joint.unknowns).sum()
     }
 
-    /// How the balls move under each unknown alone, where the cloth holds them, contact by contact.
+    /// Returns the motion of the balls under each unknown alone, after the cloth's holding forces, contact by contact.
     #[inline(always)]
     fn responses(&self) -> Responses<ROOM> {
         let mut responses = [[Response::NONE; 3]; ROOM];
@@ -150,7 +151,7 @@ impl<const ROOM: usize> Held<ROOM> {
         responses
     }
 
-    /// The rates of all unknowns by all unknowns, row by row, as a square matrix at the beginning of the room for it.
+    /// Returns the rates of all unknowns under all unknowns, row by row, as a square matrix at the start of the storage.
     #[inline(always)]
     fn matrix(&self, responses: &Responses<ROOM>) -> Matrix<ROOM> {
         let mut matrix = [[[[0.0; 3]; 3]; ROOM]; ROOM];
@@ -168,13 +169,13 @@ impl<const ROOM: usize> Held<ROOM> {
         matrix
     }
 
-    /// Finds the sizes for which all rates vanish if the balls would move like `free` without the contacts; `bends` says
-    /// whether the courses' bends count. Returns the movement that is left, also where bends tear apart what is held, and none where
-    /// anything else keeps the rates from vanishing together.
+    /// Computes the unknowns for which all rates vanish, if the balls would move like `free` without the contacts. `bends` selects whether
+    /// the curvature of the trajectories counts. Returns the remaining motion, even if curvature separates over-constrained contacts.
+    /// `None` if the rates cannot vanish together for any other reason.
     #[inline(always)]
     fn solve(&mut self, free: &Movement, bends: bool) -> Option<Movement> {
         let shape = self.joints().iter().rev().fold(0, |shape, joint| 4 * shape + joint.unknowns);
-        // Numbers that the compiler knows make most of the systems cheaper: of contacts that slip, and of those that stick.
+        // Compile-time counts make the most frequent systems cheaper: combinations of slipping and sticking contacts.
         match (ROOM, shape) {
             (1, 0b01) => self.solve_in_shape::<0b01>(free, bends),
             (1, 0b11) => self.solve_in_shape::<0b11>(free, bends),
@@ -185,7 +186,7 @@ impl<const ROOM: usize> Held<ROOM> {
         }
     }
 
-    /// The same where the compiler knows how many unknowns each contact has: see [`Held::number`].
+    /// As [`Self::solve`], with the number of unknowns per contact known at compile time: see [`Held::number`].
     #[inline(always)]
     fn solve_in_shape<const SHAPE: usize>(&mut self, free: &Movement, bends: bool) -> Option<Movement> {
         self.number::<SHAPE>();
@@ -202,7 +203,7 @@ impl<const ROOM: usize> Held<ROOM> {
         self.refine(&responses, free, bends)
     }
 
-    /// How the balls move before anything is known: under `free` accelerations, and a friction upwards that has been prescribed.
+    /// Returns the motion of the balls before the unknowns act: under `free` accelerations and a prescribed upward friction.
     #[inline(always)]
     fn without_unknowns(&self, free: &Movement) -> Movement {
         let mut moved = *free;
@@ -212,7 +213,7 @@ impl<const ROOM: usize> Held<ROOM> {
         self.held(&moved)
     }
 
-    /// Sets the sizes of the unknowns to zero.
+    /// Sets the unknowns to zero.
     #[inline(always)]
     fn clear(&mut self) {
         for (joint, sizes) in self.joints.iter().zip(&mut self.sizes) {
@@ -220,8 +221,8 @@ impl<const ROOM: usize> Held<ROOM> {
         }
     }
 
-    /// The right-hand side of the system: minus the rates that the unknowns have to cancel. `bends` says whether the courses' bends
-    /// count.
+    /// Returns the right-hand side of the system: minus the rates that the unknowns must cancel. `bends` selects whether the curvature of
+    /// the trajectories counts.
     #[inline(always)]
     fn right_side(&self, moved: &Movement, bends: bool) -> [[f64; 3]; ROOM] {
         let mut side = [[0.0; 3]; ROOM];
@@ -235,7 +236,7 @@ impl<const ROOM: usize> Held<ROOM> {
         side
     }
 
-    /// Adds changes of the sizes, and what they do to a movement.
+    /// Adds changes to the unknowns, and their effect to a motion.
     #[inline(always)]
     fn add(&mut self, changes: &[f64], responses: &Responses<ROOM>, moved: &mut Movement) {
         for ((joint, sizes), responses) in self.joints.iter().zip(&mut self.sizes).zip(responses) {
@@ -247,7 +248,7 @@ impl<const ROOM: usize> Held<ROOM> {
         }
     }
 
-    /// The same by iterative refinement, where some pivots are small or the sizes are not unique.
+    /// As [`Self::solve`] by iterative refinement, for small pivots or non-unique unknowns.
     #[inline(never)]
     fn refine(&mut self, responses: &Responses<ROOM>, free: &Movement, bends: bool) -> Option<Movement> {
         let count = self.unknowns();
@@ -287,7 +288,8 @@ impl<const ROOM: usize> Held<ROOM> {
                     scale = scale.max(sizes[unknown].abs()).max(bias.abs());
                 }
             }
-            // Once rounding is reached, more rounds would only stir it. What is next to nothing beside a spin may yet carry a ball on.
+            // At rounding level, further rounds only change noise. A residual that is tiny compared with a spin may still carry a ball
+            // away.
             let stays = round > 0 && (unique || residual >= 0.5 * smallest);
             if residual <= 16.0 * f64::EPSILON * scale || stays && residual <= ROUNDING * scale {
                 return Some(moved);
@@ -304,8 +306,8 @@ impl<const ROOM: usize> Held<ROOM> {
         None
     }
 
-    /// Takes the friction upwards out of the unknowns at a cushion that holds one of these balls, which rolls: the cloth holds the same.
-    /// Returns which contact that is.
+    /// Removes the upward friction from the unknowns at a cushion that holds one of these rolling balls, because the cloth constrains the
+    /// same motion. Returns the index of that contact.
     fn fix_redundant_friction(&mut self, is_meant: impl Fn(usize) -> bool) -> Option<usize> {
         let holds = |joint: &Joint| {
             let rolls = self.sticking[joint.first].cloth == Cloth::Rolls;
@@ -316,14 +318,14 @@ impl<const ROOM: usize> Held<ROOM> {
         Some(index)
     }
 
-    /// The force in a contact.
+    /// Returns the force in a contact.
     fn force(&self, index: usize) -> Triple {
         let [normal, along, up] = self.sizes[index];
         let slip_friction = self.joints[index].slip_friction;
         [normal, along + slip_friction.x * normal, up + slip_friction.y * normal]
     }
 
-    /// How the balls would move under the contacts' forces if the cloth held nothing.
+    /// Returns the motion of the balls under the contact forces if the cloth did not hold them.
     fn unheld(&self, free: &Movement) -> Movement {
         let mut unheld = *free;
         for (index, joint) in self.joints().iter().enumerate() {
@@ -336,7 +338,7 @@ impl<const ROOM: usize> Held<ROOM> {
         unheld
     }
 
-    /// What the cloth leaves of a movement of the contacts' balls.
+    /// Returns the motion of the contacts' balls after the cloth's holding forces.
     fn held(&self, movement: &Movement) -> Movement {
         let mut held = *movement;
         for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
@@ -348,13 +350,13 @@ impl<const ROOM: usize> Held<ROOM> {
 }
 
 impl Scene<'_> {
-    /// The forces where what pushes and holds is known: a smooth function of the state, also a little beyond the active set's end,
-    /// which [`Forces::slack`] tells. Where they are not unique they are those nearest to the `similar` ones.
+    /// Returns the forces of the active set: a smooth function of the state, also slightly beyond the set's end, which [`Forces::slack`]
+    /// indicates. Non-unique forces are those nearest to `similar`.
     pub fn forces(self, similar: Option<&Forces>) -> Option<Forces> {
         in_room!(self.contacts, ROOM => Some(Solved::<ROOM>::new(self, similar)?.forces(self)))
     }
 
-    /// The accelerations under these forces: linear ones in m/s², angular ones in rad/s².
+    /// Returns the accelerations of the active set, with forces near `similar`: linear in m/s², angular in rad/s².
     pub fn accelerations(self, similar: &Forces) -> Option<([DVec2; BALLS], [DVec3; BALLS])> {
         let moved = in_room!(self.contacts, ROOM => {
             let mut system = Held::<ROOM>::near(self, Some(similar));
@@ -362,7 +364,7 @@ impl Scene<'_> {
             if let Some(ball) = self.set.eased() {
                 Solved::easing(self, system, &free, ball)?.moved
             } else {
-                // However the forces that hold a ball are divided, it moves alike.
+                // The motion does not depend on how redundant holding forces are divided.
                 system.redundant = system.redundant && system.fix_redundant_friction(|_| true).is_none();
                 system.solve(&free, true)?
             }
@@ -370,7 +372,7 @@ impl Scene<'_> {
         Some((moved.linear, moved.angular.map(|angular| angular / self.table.radius)))
     }
 
-    /// How the `members` would move without their contacts.
+    /// Returns the accelerations of the `members` without their contacts.
     #[inline(always)]
     fn free(self, members: [bool; BALLS]) -> Movement {
         let Self { table, balls, set, .. } = self;
@@ -394,14 +396,14 @@ impl Scene<'_> {
     }
 }
 
-/// A system of forces and the accelerations that follow from it.
+/// A system of forces and the resulting accelerations.
 struct Solved<const ROOM: usize> {
     system: Held<ROOM>,
-    /// The accelerations without the contacts.
+    /// Accelerations without the contacts.
     free: Movement,
     moved: Movement,
-    /// By how much the share of a resistance to rolling that eases is from its ends, m/s²; infinite where none does.
-    within: f64,
+    /// Margin of the share of a rolling resistance in Filippov mode from its ends, m/s²; infinite if there is none.
+    share_margin: f64,
 }
 
 impl<const ROOM: usize> Solved<ROOM> {
@@ -412,17 +414,17 @@ impl<const ROOM: usize> Solved<ROOM> {
             return Self::easing(scene, system, &free, ball);
         }
         let moved = system.solve(&free, true)?;
-        Some(Self { system, free, moved, within: f64::INFINITY })
+        Some(Self { system, free, moved, share_margin: f64::INFINITY })
     }
 
-    /// All forces, and by how much their laws hold.
+    /// Returns all forces, and the margin by which their laws hold.
     fn forces(&self, scene: Scene<'_>) -> Forces {
         let Scene { table, balls, contacts, set } = scene;
-        let Self { system, free, moved, within } = self;
+        let Self { system, free, moved, share_margin } = self;
         let unheld = system.unheld(free);
         let [sliding, rolling, spinning] = frictions(table);
         let mut forces = Forces::NONE;
-        forces.slack = if system.inconsistent > 0.0 { -system.inconsistent } else { *within };
+        forces.slack = if system.inconsistent > 0.0 { -system.inconsistent } else { *share_margin };
         forces.redundant = system.redundant;
         let mut limit = |limit: f64, force: f64| forces.slack = forces.slack.min(limit - force);
         for ball in (0..BALLS).filter(|&ball| system.members[ball]) {
@@ -438,7 +440,7 @@ impl<const ROOM: usize> Solved<ROOM> {
             if sticking.spin {
                 limit(spinning, spin.abs());
             }
-            // A spin that has turned round has ended before.
+            // A spin that has changed its sign has already ended.
             if let Friction::Slips(sign) = set.spin[ball]
                 && sign.x != 0.0
             {
@@ -459,7 +461,7 @@ impl<const ROOM: usize> Solved<ROOM> {
     }
 }
 
-/// What the cloth's frictions of sliding, rolling and spinning can do to a ball, per mass, m/s².
+/// Returns the limits of the cloth's friction against sliding, rolling and spinning, per mass, m/s².
 fn frictions(table: &Table) -> [f64; 3] {
     [table.sliding_friction, table.rolling_friction, table.spinning_friction].map(|mu| mu * table.gravity)
 }

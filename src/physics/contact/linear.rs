@@ -1,15 +1,15 @@
-//! A small dense linear system, solved by elimination, with partial pivoting where it needs that. It works on the caller's memory: these systems
-//! are solved so often that moving them would cost more than solving them.
+//! Small dense linear systems, solved by Gaussian elimination, with partial pivoting if necessary. All functions work in place: these
+//! systems are solved so often that moving them would cost more than solving them.
 
-/// Added to the diagonal of a system of forces, whose entries are 1 to 10, where these are not unique: a ball that sticks to several
-/// things at once is held more often than needed. It picks the forces nearest to what they were; further steps take its effect out again.
+/// Regularization added to the diagonal of a force system, whose entries are 1 to 10, if the forces are not unique because balls are
+/// over-constrained. It selects the forces nearest to the previous ones; iterative refinement then removes its effect.
 pub const PROXIMITY: f64 = 1e-7;
 
-/// A pivot above this is large: the entries of a system of forces are 1 to 10.
+/// A pivot above this is large enough for elimination without row exchanges: the entries of a force system are 1 to 10.
 const LARGE_PIVOT: f64 = 0.05;
 
-/// Solves a system whose pivots on the diagonal are all large, so that rows need no exchange: what the compiler can unroll where it
-/// knows the size. `side` becomes the solution; false, and neither is of use, where a pivot is small.
+/// Solves a system whose diagonal pivots are all large, without row exchanges, so that the compiler can unroll it if it knows the size.
+/// `side` becomes the solution. Returns false if a pivot is small; `entries` and `side` are then invalid.
 #[inline(always)]
 pub fn eliminate(entries: &mut [f64], side: &mut [f64]) -> bool {
     let size = side.len();
@@ -37,9 +37,9 @@ pub fn eliminate(entries: &mut [f64], side: &mut [f64]) -> bool {
     true
 }
 
-/// Factorizes the square matrix with these rows, one after another: `L` below the diagonal, `U` on and above it; `pivots`
-/// become the rows that stood in each place when it was eliminated. Returns the smallest pivot's size, zero for a matrix that
-/// is singular to the last bit, which cannot be used.
+/// Computes the LU factorization of a square matrix, stored row by row: `L` below the diagonal, `U` on and above it. `pivots` receives the
+/// row that was exchanged in each elimination step. Returns the magnitude of the smallest pivot. Zero means an exactly singular matrix,
+/// whose factors cannot be used.
 #[inline(always)]
 pub fn factorize(entries: &mut [f64], pivots: &mut [usize]) -> f64 {
     let size = pivots.len();
@@ -70,7 +70,7 @@ pub fn factorize(entries: &mut [f64], pivots: &mut [usize]) -> f64 {
     least
 }
 
-/// Replaces the right-hand side by the solution of a system that has been factorized.
+/// Replaces the right-hand side by the solution of a factorized system.
 #[inline(always)]
 pub fn substitute(entries: &[f64], pivots: &[usize], side: &mut [f64]) {
     let size = pivots.len();

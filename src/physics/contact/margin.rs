@@ -1,30 +1,30 @@
-//! Forces that are not unique: a ball that stands in a corner and is pushed there is held by cushions and cloth together, and
-//! any share of the two obeys all laws.
+//! Non-unique forces: for example, a ball in a corner that is pushed there is held by cushions and cloth together, and every division
+//! between them obeys all laws.
 //!
-//! A solver may come upon the edge of what is possible: a friction at its limit that has nothing to hold, or a contact that pushes
-//! next to nothing, which the friction of another takes up. Forces that are followed from there leave the laws at once. So
-//! such a friction is allowed only part of its limit, and such a contact does not push, if the others can do the rest: the forces
-//! then last for a while.
+//! A solver may find a solution at the edge of the admissible set: a friction at its limit without any slip rate to resist, or a contact
+//! with a tiny normal force that the friction of another contact could replace. Following such a solution would violate a law at once. Such
+//! a friction is therefore restricted to a part of its limit, and such a contact to no force, if the other forces can compensate. The
+//! resulting forces remain valid for some time.
 
 use super::{
     Effort,
-    problem::{Limit, Place, Problem},
+    problem::{ForceKind, Limit, Problem},
     solve::{Side, Solution, solve_near},
 };
 
-/// Shares of their limits that frictions are allowed, the first with which all laws hold.
+/// Shares of their limits to which frictions are restricted; the first share with which all laws hold is used.
 const SHARES: [f64; 3] = [0.5, 0.9, 0.99];
 
-/// Pushes below this share of the largest force are next to nothing.
-const NEXT_TO_NOTHING: f64 = 1e-6;
+/// Normal forces below this share of the largest force are tiny.
+const TINY_PUSH: f64 = 1e-6;
 
-/// What may be left of such a push as a share of it, if the others take it up.
-const LEFT: f64 = 1e-3;
+/// Largest remaining opening acceleration, as a share of a tiny normal force that the others replace.
+const MAX_OPENING: f64 = 1e-3;
 
-/// Rounds in which further forces come to their edges, since others do less.
+/// Largest number of rounds; each round restricts the forces that have newly reached an edge.
 const ROUNDS: usize = 6;
 
-/// The rates that an unknown resists, m/s².
+/// Returns the rates that an unknown resists, m/s².
 pub fn rates(problem: &Problem, solution: &Solution, index: usize) -> [f64; 2] {
     let accelerations = problem.accelerations(&solution.sizes);
     let unknown = &problem.unknowns[index];
@@ -34,31 +34,31 @@ pub fn rates(problem: &Problem, solution: &Solution, index: usize) -> [f64; 2] {
     })
 }
 
-/// Whether there are several contacts; their normal forces come first. A single one's push nothing else takes up.
+/// Whether there are several contacts, whose normal forces come first. Nothing else can replace the normal force of a single contact.
 fn are_several(problem: &Problem) -> bool {
-    problem.unknowns.get(1).is_some_and(|unknown| matches!(unknown.place, Place::Normal(_)))
+    problem.unknowns.get(1).is_some_and(|unknown| matches!(unknown.kind, ForceKind::Normal(_)))
 }
 
-/// Whether an unknown is at an edge of what it may be though no rate is above `none`, m/s².
+/// Whether an unknown is at the edge of its admissible set although no rate is above `none`, m/s².
 fn is_at_edge(problem: &Problem, solution: &Solution, index: usize, none: f64) -> bool {
     let unknown = &problem.unknowns[index];
-    match (solution.sides[index], unknown.place) {
-        (Side::Holds, Place::Normal(_)) if are_several(problem) => {
+    match (solution.sides[index], unknown.kind) {
+        (Side::Holds, ForceKind::Normal(_)) if are_several(problem) => {
             let largest = solution.sizes.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-            solution.sizes[unknown.first] < NEXT_TO_NOTHING * largest
+            solution.sizes[unknown.first] < TINY_PUSH * largest
         }
         (Side::Limited(_), _) => rates(problem, solution, index).iter().all(|rate| rate.abs() <= none),
         _ => false,
     }
 }
 
-/// Forces away from the edges, where nothing slips faster than at the rate `none`, m/s²; `None` if none are at
-/// an edge, or no others obey all laws.
+/// Returns forces away from the edges, with all slip rates at most `none`, m/s². `None` if no force is at an edge, or no other forces obey
+/// all laws.
 pub fn with_margin(problem: &Problem, solution: &Solution, none: f64, effort: &Effort) -> Option<Solution> {
     let at_edge = |index: &usize| is_at_edge(problem, solution, *index, none);
-    // The normal forces come first: if the last is one, no friction's share matters.
+    // Normal forces come first: if the last unknown at an edge is one, the share of frictions has no effect.
     let last = (0..problem.unknowns.len()).rev().find(at_edge)?;
-    let shares = if matches!(problem.unknowns[last].place, Place::Normal(_)) { &SHARES[..1] } else { &SHARES };
+    let shares = if matches!(problem.unknowns[last].kind, ForceKind::Normal(_)) { &SHARES[..1] } else { &SHARES };
     shares.iter().find_map(|share| with_share(problem, solution, none, *share, effort))
 }
 
@@ -72,7 +72,7 @@ fn with_share(problem: &Problem, solution: &Solution, none: f64, share: f64, eff
                 (*spared, more) = (true, true);
                 let unknown = &mut eased.unknowns[index];
                 match &mut unknown.limit {
-                    limit if matches!(unknown.place, Place::Normal(_)) => *limit = Limit::Fixed(0.0),
+                    limit if matches!(unknown.kind, ForceKind::Normal(_)) => *limit = Limit::Fixed(0.0),
                     Limit::Fixed(limit) | Limit::Coulomb(limit, _) => *limit *= share,
                 }
             }
@@ -86,9 +86,9 @@ fn with_share(problem: &Problem, solution: &Solution, none: f64, share: f64, eff
             return Some(found);
         }
         found = solve_near(&eased, &found.sizes, effort);
-        let holds = |index: usize| match problem.unknowns[index].place {
-            Place::Normal(_) => {
-                rates(&eased, &found, index)[0] >= -LEFT * solution.sizes[problem.unknowns[index].first].abs()
+        let holds = |index: usize| match problem.unknowns[index].kind {
+            ForceKind::Normal(_) => {
+                rates(&eased, &found, index)[0] >= -MAX_OPENING * solution.sizes[problem.unknowns[index].first].abs()
             }
             _ => rates(&eased, &found, index).iter().all(|rate| rate.abs() <= none),
         };
@@ -108,7 +108,7 @@ mod tests {
         table::Table,
     };
 
-    /// A ball stands in a corner, and another one, which slips on it, pushes it there: cloth and cushions share the push.
+    /// A ball in a corner is pushed there by another ball that slips on it: cloth and cushions share the force.
     #[test]
     fn a_ball_that_is_pushed_into_a_corner_is_held_with_something_to_spare() {
         let table = Table::preset("textbook").unwrap();

@@ -1,9 +1,8 @@
-//! Resting contact: the forces on balls that are pressed against cushions or each other, the limit of infinitely many
-//! ever smaller bounces.
+//! Resting contact: forces on balls that are pressed against cushions or each other, the limit of infinitely many ever smaller bounces.
 //!
-//! Every force obeys one of two laws: a contact pushes just as hard as is needed to stay closed and never pulls; friction
-//! holds up to its limit and then slips. All of them together form a complementarity problem in at most a few dozen
-//! unknowns: [`Scene::resolve`] solves it, [`Scene::forces`] follows its solution while nothing changes sides.
+//! Every force obeys one of two laws. A normal force is just large enough to keep its contact closed, and never pulls. A friction sticks up
+//! to its limit and then slips. Together they form a complementarity problem with at most a few dozen unknowns. [`Scene::resolve`] solves
+//! it; [`Scene::forces`] follows its solution while the active set does not change.
 
 mod active_set;
 mod effort;
@@ -25,22 +24,22 @@ pub use forces::{Forces, Resolved};
 pub use held::stop_by_impulses;
 pub use linear::{factorize, substitute};
 
-/// Speed at which balls that never slip begin to bounce where no forces hold them together (Painlevé's paradox), in units of
-/// `√(g R)`. What would hold the slip parts them, and once they have parted, and nothing holds, they come back: each bounce is
-/// higher than the last, and takes their slip as every impact of theirs does (17). How high they have got after a time
-/// depends on the first bounce by its logarithm alone. Larger: what is added counts. Smaller: the bounces take longer to grow.
+/// First bounce speed, in units of `√(g R)`, of balls that never slip in a state without consistent contact forces (Painlevé's paradox).
+/// The force that would prevent slip separates the balls; once they are separated, nothing acts, and they come back. Each bounce is higher
+/// than the last and, like every impact of such balls (17), removes their slip. The height after a given time depends on the first bounce
+/// only through its logarithm. A larger value would add a relevant amount of energy; with a smaller one, the bounces take longer to grow.
 pub const FIRST_BOUNCE: f64 = 8e-10;
 
-/// Balls in contact in one state, and what their frictions do.
+/// Balls in contact in one state, with their friction modes.
 #[derive(Clone, Copy, Debug)]
 pub struct Scene<'a> {
-    /// Where they are.
+    /// Table with the constants of all forces.
     pub table: &'a Table,
-    /// Their state.
+    /// States of the balls.
     pub balls: &'a [BallState; BALLS],
-    /// Their contacts.
+    /// Contacts of the balls.
     pub contacts: &'a [Contact],
-    /// What the frictions of cloth and contacts do, as far as that is known.
+    /// Modes of the frictions of cloth and contacts, as far as known.
     pub set: &'a ActiveSet,
 }
 
@@ -63,17 +62,17 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// A ball on the cushion with this normal into the table.
+    /// Creates a contact of a ball with the cushion of this normal into the table.
     pub const fn with_cushion(ball: usize, normal: DVec2) -> Self {
         Self { first: ball, second: None, cushion_normal: normal }
     }
 
-    /// Two balls.
+    /// Creates a contact of two balls.
     pub const fn of_balls(first: usize, second: usize) -> Self {
         Self { first, second: Some(second), cushion_normal: DVec2::ZERO }
     }
 
-    /// Unit normal towards the first ball.
+    /// Returns the unit normal towards the first ball.
     pub fn normal(&self, balls: &[BallState; BALLS]) -> DVec2 {
         match self.second {
             None => self.cushion_normal,
@@ -81,7 +80,7 @@ impl Contact {
         }
     }
 
-    /// Whether this ball takes part.
+    /// Whether `ball` takes part in the contact.
     pub fn has(&self, ball: usize) -> bool {
         self.first == ball || self.second == Some(ball)
     }
@@ -91,18 +90,18 @@ impl Contact {
         other.has(self.first) || self.second.is_some_and(|second| other.has(second))
     }
 
-    /// Whether it is one of balls that never slip on each other, since they have no coefficient of friction (17).
+    /// Whether this is a contact of balls that never slip on each other, because they have no coefficient of friction (17).
     pub const fn never_slips(&self, table: &Table) -> bool {
         table.ball_friction.is_none() && self.second.is_some()
     }
 
-    /// Speed at which the contact opens, m/s.
+    /// Returns the speed at which the contact opens, m/s.
     pub fn opening_speed(&self, balls: &[BallState; BALLS]) -> f64 {
         self.relative_velocity(balls).dot(self.normal(balls))
     }
 
-    /// Velocity of the first ball's surface over the other at the contact, along `t = z×n` and along z, m/s (thesis
-    /// equation 21).
+    /// Returns the velocity of the first ball's surface relative to the other surface at the contact, along `t = z×n` and along z, m/s
+    /// (thesis equation 21).
     pub fn slip(&self, radius: f64, balls: &[BallState; BALLS]) -> DVec2 {
         self.normal_and_slip(radius, balls).1
     }
@@ -111,18 +110,18 @@ impl Contact {
         balls[self.first].velocity - self.second.map_or(DVec2::ZERO, |second| balls[second].velocity)
     }
 
-    /// What the rates of opening, of the slip along `t = z×n` and of that along z have besides the accelerations' part, m/s²: two
-    /// balls' courses around each other bend. The normal is `n`.
+    /// Returns the part of the rates of opening, slip along `t = z×n` and slip along z that does not depend on the accelerations, m/s²: the
+    /// contact frame of two balls rotates. The normal is `n`.
     fn bends(&self, radius: f64, balls: &[BallState; BALLS], n: DVec2) -> [f64; 3] {
         let Some(second) = self.second else { return [0.0; 3] };
         let diameter = 2.0 * radius;
         let across = self.relative_velocity(balls).dot(n.perp());
-        // The slip's z part changes because t turns, its t part because n does (to which v·n = 0 adds nothing).
+        // The slip along z changes because t rotates, the slip along t because n does (where v·n = 0 contributes nothing).
         let spin = balls[self.first].spin + balls[second].spin;
         [across * across / diameter, 0.0, -radius * (across / diameter) * spin.truncate().dot(n)]
     }
 
-    /// The normal, and the slip along `t = z×n` and along z, m/s.
+    /// Returns the normal, and the slip along `t = z×n` and along z, m/s.
     #[inline(always)]
     fn normal_and_slip(&self, radius: f64, balls: &[BallState; BALLS]) -> (DVec2, DVec2) {
         let n = self.normal(balls);

@@ -1,8 +1,8 @@
-//! The equations of balls in contact: which accelerations follow from which forces, and which law each force obeys.
+//! Equations of balls in contact: accelerations as functions of the forces, and the law of each force.
 //!
-//! Velocities and spins of all balls are one vector in which the kinetic energy is half the square of the length: `v` and
-//! `√(2/5) R w` of each ball. A force along some direction then accelerates along the same row of numbers that tells the
-//! rate at which the slip along that direction changes.
+//! The generalized velocity of all balls is scaled so that the kinetic energy per ball mass is half its squared norm: `v` and `√(2/5) R w`
+//! of each ball. The mass matrix is then the identity, and the acceleration by a force along some direction is the same row that gives the
+//! rate of change of the slip along that direction.
 
 use glam::{DVec2, DVec3};
 
@@ -12,22 +12,22 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// Most scalar unknowns: a normal and two frictions a contact, five frictions of the cloth a ball.
+/// Largest number of scalar unknowns: one normal and two friction forces per contact, five friction forces of the cloth per ball.
 pub const MOST_UNKNOWNS: usize = 3 * MAX_CONTACTS + 5 * BALLS;
 
-/// Sizes of all unknowns; those that a problem does not have are zero.
+/// Values of all unknowns; zero beyond those that a problem has.
 pub type Sizes = [f64; MOST_UNKNOWNS];
 
-/// None at all.
+/// All unknowns zero.
 pub const NO_SIZES: Sizes = [0.0; MOST_UNKNOWNS];
 
-/// Numbers that tell a ball's velocity and spin.
+/// Generalized velocity components per ball.
 pub const PER_BALL: usize = 5;
 
-/// `√(2/5)`: radius of gyration over the ball's radius.
+/// `√(2/5)`: radius of gyration divided by the ball's radius.
 pub const GYRATION: f64 = 0.632_455_532_033_675_9;
 
-/// Velocities, accelerations or directions of all balls: `v` in m/s and `√(2/5) R w` in m/s, and so on.
+/// Generalized velocities, accelerations or directions of all balls: `v` in m/s and `√(2/5) R w` in m/s, and so on.
 #[derive(Clone, Copy, Debug)]
 pub struct Row(pub [f64; PER_BALL * BALLS]);
 
@@ -44,7 +44,7 @@ impl Row {
         }
     }
 
-    /// Adds a velocity and a spin times the radius to one ball.
+    /// Adds a velocity, and a spin times the radius, to one ball.
     fn with(mut self, ball: usize, linear: DVec2, angular: DVec3) -> Self {
         let part = &mut self.0[PER_BALL * ball..][..PER_BALL];
         part[0] += linear.x;
@@ -55,18 +55,18 @@ impl Row {
         self
     }
 
-    /// A ball's part: velocity, and spin times `√(2/5) R`.
+    /// Returns a ball's components: velocity, and spin times `√(2/5) R`.
     pub fn of_ball(&self, ball: usize) -> (DVec2, DVec3) {
         let part = &self.0[PER_BALL * ball..][..PER_BALL];
         (DVec2::new(part[0], part[1]), DVec3::new(part[2], part[3], part[4]))
     }
 
-    /// Slip on the cloth along x or y, `u = v + R z×w` (thesis equation 1).
+    /// Returns the row of the slip on the cloth along x or y, `u = v + R z×w` (thesis equation 1).
     fn cloth(ball: usize, axis: DVec2) -> Self {
         Self::ZERO.with(ball, axis, -axis.perp().extend(0.0))
     }
 
-    /// The three rows of a contact: opening, slip along `t = z×n`, slip along z.
+    /// Returns the three rows of a contact: opening, slip along `t = z×n`, slip along z.
     pub fn contact(contact: &Contact, n: DVec2) -> [Self; 3] {
         let t = n.perp();
         let mut rows = [
@@ -83,66 +83,68 @@ impl Row {
     }
 }
 
-/// Friction with which forces are sought for balls that have no coefficient, since their impacts never slip (17): large, and
-/// with forces in every state. Where they reach it, [`Problem::grip`] takes the limit away.
+/// Coefficient of friction for the solver if balls have none, because their impacts never slip (17): large, but finite, so that forces
+/// exist in every state. If a force reaches this limit, [`Problem::grip`] removes it.
 const NO_SLIP: f64 = 1e3;
 
-/// What rolling resists, per mass, m/s²: the force on the centre of a ball that rolls, which slows it down by five sevenths of itself.
+/// Returns the rolling resistance per mass, m/s²: the force on the centre of a rolling ball, which decelerates it by five sevenths of its
+/// value.
 ///
-/// It is that of a ball which begins to roll freely here: where the two differ, balls whose contact opens by the one close again by the
+/// It equals that of a ball that starts to roll freely in this state. If the two differed, balls whose contact opens under one would close
+/// again under the other, immediately and without end.
 /// other, at once and without end.
 pub fn rolling_resistance(table: &Table, ball: &BallState) -> f64 {
     let rolling = Rolling::of(table);
     table.rolling_friction * table.gravity + 1.4 * (rolling.deceleration(ball.velocity.length()) - rolling.least)
 }
 
-/// Coulomb's coefficient in a contact.
+/// Returns the Coulomb coefficient of a contact.
 pub fn coefficient(table: &Table, contact: &Contact) -> f64 {
     if contact.second.is_some() { table.ball_friction.unwrap_or(NO_SLIP) } else { table.rail_friction }
 }
 
-/// How large a friction can be.
+/// Upper bound of a friction force.
 #[derive(Clone, Copy, Debug)]
 pub enum Limit {
-    /// Per mass, m/s².
+    /// Constant bound per mass, m/s².
     Fixed(f64),
-    /// Coulomb's coefficient, and the contact whose normal force counts.
+    /// Coulomb coefficient, and the contact whose normal force it multiplies.
     Coulomb(f64, usize),
 }
 
-/// What an unknown force stands for.
+/// Kind of an unknown force.
 #[derive(Clone, Copy, Debug)]
-pub enum Place {
+pub enum ForceKind {
     /// The normal force of a contact.
     Normal(usize),
-    /// A friction that holds: the cloth's against slip, against rolling, against spin, or a contact's.
+    /// A sticking friction: of the cloth against slip, rolling or spin, or of a contact.
     Cloth(usize),
     Roll(usize),
     Spin(usize),
     Contact(usize),
 }
 
-/// An unknown force, or two of a friction in a plane: rows `first..first + count` of the problem.
+/// An unknown force, or the two components of a friction: rows `first..first + count` of the problem.
 #[derive(Clone, Copy, Debug)]
 pub struct Unknown {
-    pub place: Place,
+    pub kind: ForceKind,
     pub first: usize,
     pub count: usize,
-    /// The friction's limit; a normal force has none.
+    /// Bound of the friction; infinite for a normal force.
     pub limit: Limit,
 }
 
-/// Everything that acts on the balls in one state.
+/// All forces on the balls in one state.
 #[derive(Clone, Debug)]
 pub struct Problem {
     pub unknowns: Vec<Unknown>,
-    /// For every scalar unknown the row of the rate that it keeps at zero.
+    /// For each scalar unknown, the row of the rate that it keeps at zero.
     pub rates: Vec<Row>,
-    /// What that rate has besides the accelerations' part, m/s²: two balls' courses around each other bend.
+    /// Part of that rate that does not depend on the accelerations, m/s²: the contact frame of two balls rotates.
     pub bias: Vec<f64>,
-    /// The row of what the force does, which is the rate's own but for a normal force with Coulomb's friction.
+    /// Generalized direction of each force: equal to the row in `rates`, except for a normal force with its Coulomb friction.
     pub forces: Vec<Row>,
-    /// Accelerations by the forces that are known.
+    /// Accelerations by the known forces.
     pub known: Row,
 }
 
@@ -163,7 +165,7 @@ impl Problem {
             let [opening, along, up] = Row::contact(contact, n);
             let [centripetal, _, turning] = contact.bends(table.radius, balls, n);
             let mu = coefficient(table, contact);
-            problem.push(Place::Normal(index), Limit::Fixed(f64::INFINITY), &[opening], [centripetal, 0.0]);
+            problem.push(ForceKind::Normal(index), Limit::Fixed(f64::INFINITY), &[opening], [centripetal, 0.0]);
             if let Some(against) = set.contact[index].direction(slip) {
                 let force = &mut problem.forces[index];
                 force.add(-mu * against.x, &along);
@@ -173,7 +175,7 @@ impl Problem {
             }
         }
         for (index, mu, rows, turning) in frictions {
-            problem.push(Place::Contact(index), Limit::Coulomb(mu, index), &rows, [0.0, turning]);
+            problem.push(ForceKind::Contact(index), Limit::Coulomb(mu, index), &rows, [0.0, turning]);
         }
         for (ball, state) in balls.iter().enumerate() {
             if scene.holds(ball) {
@@ -183,7 +185,7 @@ impl Problem {
         problem
     }
 
-    /// The cloth's forces on a ball: known where it slips, rolls or spins, unknown where they hold.
+    /// Adds the cloth's forces on a ball: known if it slips, rolls or spins, unknown if they hold it.
     fn lay_on_cloth(&mut self, table: &Table, ball: usize, state: &BallState, set: &ActiveSet) {
         let gravity = table.gravity;
         let sliding = table.sliding_friction * gravity;
@@ -194,14 +196,14 @@ impl Problem {
             self.known.add(-sliding * against.x, &slips[0]);
             self.known.add(-sliding * against.y, &slips[1]);
         } else {
-            self.push(Place::Cloth(ball), Limit::Fixed(sliding), &slips, [0.0; 2]);
+            self.push(ForceKind::Cloth(ball), Limit::Fixed(sliding), &slips, [0.0; 2]);
             if set.cloth[ball] == Friction::Yields {
-                // It slides, if ever so slowly: nothing resists its rolling.
+                // The ball slides, however slowly: it has no rolling resistance.
             } else if let Some(against) = set.roll[ball].direction(state.velocity) {
                 self.known = self.known.with(ball, -resistance * against, DVec3::ZERO);
             } else {
                 let still = [DVec2::X, DVec2::Y].map(|axis| Row::ZERO.with(ball, axis, DVec3::ZERO));
-                self.push(Place::Roll(ball), Limit::Fixed(resistance), &still, [0.0; 2]);
+                self.push(ForceKind::Roll(ball), Limit::Fixed(resistance), &still, [0.0; 2]);
             }
         }
         let about_vertical = Row::ZERO.with(ball, DVec2::ZERO, DVec3::Z);
@@ -209,25 +211,25 @@ impl Problem {
         match set.spin[ball] {
             Friction::Slips(sign) => self.known.add(-spinning * sign.x, &about_vertical),
             Friction::Sticks | Friction::Yields | Friction::Eases => {
-                self.push(Place::Spin(ball), Limit::Fixed(spinning), &[about_vertical], [0.0; 2]);
+                self.push(ForceKind::Spin(ball), Limit::Fixed(spinning), &[about_vertical], [0.0; 2]);
             }
         }
     }
 
-    fn push(&mut self, place: Place, limit: Limit, rows: &[Row], bias: [f64; 2]) {
-        self.unknowns.push(Unknown { place, first: self.rates.len(), count: rows.len(), limit });
+    fn push(&mut self, kind: ForceKind, limit: Limit, rows: &[Row], bias: [f64; 2]) {
+        self.unknowns.push(Unknown { kind, first: self.rates.len(), count: rows.len(), limit });
         self.rates.extend_from_slice(rows);
         self.forces.extend_from_slice(rows);
         self.bias.extend_from_slice(&bias[..rows.len()]);
     }
 
-    /// Takes a share of its resistance to rolling from a ball in this state.
+    /// Removes a share of the rolling resistance from a ball in this state.
     pub fn ease(&mut self, table: &Table, ball: usize, state: &BallState, share: f64) {
         let resistance = rolling_resistance(table, state) * state.velocity.normalize_or_zero();
         self.known = self.known.with(ball, share * resistance, DVec3::ZERO);
     }
 
-    /// Takes away the limit of frictions between balls.
+    /// Removes the limit of the frictions between balls.
     pub fn grip(&mut self, contacts: &[Contact]) {
         for unknown in &mut self.unknowns {
             if let Limit::Coulomb(mu, contact) = &mut unknown.limit
@@ -238,7 +240,7 @@ impl Problem {
         }
     }
 
-    /// Accelerations under forces of these sizes, m/s².
+    /// Returns the accelerations under forces of these values, m/s².
     pub fn accelerations(&self, sizes: &[f64]) -> Row {
         let mut sum = self.known;
         for (size, row) in sizes.iter().zip(&self.forces) {

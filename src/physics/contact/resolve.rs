@@ -1,9 +1,9 @@
-//! Which contacts push and which frictions hold.
+//! Determines which contacts push and which frictions stick.
 //!
-//! The complementarity problem tells, but for one thing: while a ball rolls, the cloth's friction holds it against its resistance to
-//! rolling, too; while it slides it has none. Where friction cannot hold a ball with the whole resistance and could without, neither can
-//! be, for a slip would end as soon as it began. The ball then rolls with as much of the resistance as friction can hold (Filippov,
-//! "Differential Equations with Discontinuous Righthand Sides", 1988).
+//! The complementarity problem determines this with one exception: the rolling resistance. While a ball rolls, the cloth's friction holds
+//! it against this resistance, too; a sliding ball has none. If friction cannot hold a ball with the whole resistance but could without it,
+//! neither mode is consistent, because a slip would end as soon as it begins. The ball then rolls with as much of the resistance as
+//! friction can hold (a sliding mode in the sense of Filippov, "Differential Equations with Discontinuous Righthand Sides", 1988).
 
 use glam::DVec2;
 
@@ -11,29 +11,29 @@ use super::{
     Effort, Forces, Friction, Scene,
     forces::{DEPARTING, Resolved},
     margin::rates,
-    problem::{Place, Problem},
+    problem::{ForceKind, Problem},
     solve::{Side, Solution, solve, solve_near},
 };
 use crate::table::{BALLS, Table};
 
-/// Halvings of the range in which the share lies that eases. They tell which contacts hold there; the share itself follows from their
-/// forces.
+/// Bisection steps for the share of the resistance that is removed. They only determine which contacts hold; the share itself follows from
+/// the forces.
 const HALVINGS: usize = 20;
 
-/// What is held may be so much above its limit, as a share of g: a thousand roundings.
+/// Largest accepted excess of a holding force over its limit, as a share of g: a thousand roundings.
 const ROUNDING: f64 = 1e-12;
 
 impl Scene<'_> {
-    /// Finds which of the contacts push and which frictions hold, and the forces; the active set tells what slips already. `None`
-    /// where nothing pushes by more than `slack`, m/s². Where forces are not unique they are near to the `similar` ones.
+    /// Determines the contacts that push, the frictions that stick, and the forces; the present active set defines what already slips.
+    /// `None` if no normal force exceeds `slack`, m/s². If forces are not unique, those near `similar` are chosen.
     pub fn resolve(self, slack: f64, similar: Option<&Forces>, effort: &Effort) -> Option<Resolved> {
         let (mut problem, mut solution) = self.solved(similar, solve, effort);
         self.easing(slack, &mut problem, &mut solution, effort)
             .or_else(|| self.read_off(slack, &problem, &solution, effort))
     }
 
-    /// What holds where a ball's resistance eases; none where none does. From a ball that slides even without its resistance the problem
-    /// and its solution lose it.
+    /// Returns the active set in which a ball's rolling resistance is in Filippov mode; `None` if there is no such ball. Removes the
+    /// resistance from the problem and its solution for each ball that slides even without it.
     fn easing(self, slack: f64, problem: &mut Problem, solution: &mut Solution, effort: &Effort) -> Option<Resolved> {
         let Self { table, balls, set, .. } = self;
         let rolls = |ball: usize| set.cloth[ball] == Friction::Sticks && matches!(set.roll[ball], Friction::Slips(_));
@@ -52,7 +52,7 @@ impl Scene<'_> {
                 (*problem, *solution) = rolling;
                 continue;
             }
-            // What pushes and holds without the resistance mostly does so with part of it, too.
+            // Contacts that push and stick without the resistance mostly do so with part of it, too.
             if let Some(resolved) = self.eased(ball, slack, &rolling.0, &rolling.1, effort) {
                 return Some(resolved);
             }
@@ -61,7 +61,7 @@ impl Scene<'_> {
                 let share = 0.5 * (sliding + most);
                 let tried = without(share, &rolling.1);
                 if !tried.1.converged {
-                    // Nor would those on either side of it.
+                    // Shares on either side would not converge either.
                     break;
                 }
                 if begins_to_slide(table, &tried.0, &tried.1, ball) {
@@ -77,8 +77,7 @@ impl Scene<'_> {
         None
     }
 
-    /// A solution in which the friction cannot hold a ball against its whole rolling resistance: the ball rolls on with as much of it as the
-    /// friction holds.
+    /// Returns the active set in which the ball rolls with as much resistance as the friction can hold.
     fn eased(
         self,
         ball: usize,
@@ -89,7 +88,7 @@ impl Scene<'_> {
     ) -> Option<Resolved> {
         let mut resolved = self.read_off(slack, problem, solution, effort)?;
         resolved.set.roll[ball] = Friction::Eases;
-        // With more of the resistance what begins to slip without it may hold.
+        // A slip that begins without the resistance may stick with part of it.
         let begins = resolved.set.contact.iter_mut().filter(|friction| friction.begins());
         begins.for_each(|begins| *begins = Friction::Sticks);
         let scene = Scene { contacts: &resolved.contacts, set: &resolved.set, ..self };
@@ -99,10 +98,10 @@ impl Scene<'_> {
     }
 }
 
-/// Whether the cloth cannot hold a ball that has rolled.
+/// Whether the cloth can no longer hold a ball that rolled.
 fn begins_to_slide(table: &Table, problem: &Problem, solution: &Solution, ball: usize) -> bool {
     problem.unknowns.iter().zip(&solution.sides).enumerate().any(|(index, (unknown, side))| {
-        matches!((unknown.place, side), (Place::Cloth(place), Side::Limited(_)) if place == ball)
+        matches!((unknown.kind, side), (ForceKind::Cloth(held), Side::Limited(_)) if held == ball)
             && DVec2::from_array(rates(problem, solution, index)).length() > DEPARTING * table.gravity
     })
 }
@@ -116,8 +115,8 @@ mod tests {
         table::Table,
     };
 
-    /// A ball rolls along the lower cushion, against which another one presses it, whose velocity, spin and place as seen from the first
-    /// ball are those of `second`.
+    /// A ball that rolls along the lower cushion and is pressed against it by another ball. `second` has the velocity and spin of the other
+    /// ball, and its position relative to the first.
     fn pressed(table: &Table, speed: f64, about_vertical: f64, second: [DVec3; 3]) -> ([BallState; 3], [Contact; 2]) {
         let position = DVec2::new(0.0, -table.half_width());
         let spin = DVec3::new(0.0, speed / table.radius, about_vertical);
@@ -132,7 +131,7 @@ mod tests {
         ([rolls, presses, BallState::at_rest(DVec2::new(0.9, 0.4))], contacts)
     }
 
-    /// `thesis` with a tenth more resistance to rolling.
+    /// `thesis` with ten per cent more rolling resistance.
     fn rough() -> Table {
         let table = Table::preset("thesis").unwrap();
         Table { rolling_friction: 1.1 * table.rolling_friction, ..table }
@@ -144,8 +143,8 @@ mod tests {
         scene.resolve(1e-11, None, &Effort::default()).expect("they press each other")
     }
 
-    /// The first ball keeps rolling, the cloth does all it can, and no law is broken. With the whole resistance one would be, and with
-    /// next to none the ball would roll with all of it.
+    /// Asserts that the first ball continues to roll with the cloth's friction at its limit, and that no law is violated. With the whole
+    /// resistance one would be; with a thousandth of it the ball would roll with all of it.
     fn rolls_with_part_of_its_resistance(table: &Table, pressed: &([BallState; 3], [Contact; 2])) -> Forces {
         let Resolved { set, forces: eased, shared, .. } = resolved(table, pressed);
         assert_eq!((set.cloth[0], set.roll[0], shared), (Friction::Sticks, Friction::Eases, false));
@@ -172,7 +171,7 @@ mod tests {
         rolls_with_part_of_its_resistance(&table, &pressed(&table, -0.127_815, 1.426_753, second));
     }
 
-    /// Here the ball does not slip on the cushion either: its friction upwards and the cloth's hold the ball together.
+    /// Here the ball does not slip on the cushion either: the cushion's upward friction and the cloth's hold the ball together.
     #[test]
     fn cloth_and_cushion_together_hold_as_much_of_the_resistance_as_they_can() {
         let table = rough();

@@ -1,90 +1,90 @@
-//! The one solver of the complementarity problem: semismooth Newton steps on the laws' projections (Alart and Curnier
-//! 1991), with projected Gauss-Seidel sweeps (Jourdan, Alart and Jean 1998) where they do not get on.
+//! The only solver of the complementarity problem: semismooth Newton steps on the projection form of the laws (Alart and Curnier 1991),
+//! with projected Gauss-Seidel sweeps (Jourdan, Alart and Jean 1998) when Newton makes no progress.
 //!
-//! Each law says that a force is the projection, on to what it may be, of itself less a multiple of the rate that it
-//! resists: a normal force on to what pushes, a friction on to its disk. The residual is the largest difference of the two
-//! sides; it is zero where every law holds, and the solution tells whether it came to that.
+//! Each law states that a force equals its projection onto its admissible set after a multiple of the resisted rate is subtracted: for a
+//! normal force the set is the half-line of pushes, for a friction its disk. The error is the Euclidean norm of the differences of the two
+//! sides. It is zero if every law holds; the solution states whether that was reached.
 
 use glam::DVec2;
 
 use super::{
     Effort,
     linear::{PROXIMITY, factorize, substitute},
-    problem::{Limit, MOST_UNKNOWNS, NO_SIZES, PER_BALL, Place, Problem, Sizes, Unknown},
+    problem::{ForceKind, Limit, MOST_UNKNOWNS, NO_SIZES, PER_BALL, Problem, Sizes, Unknown},
 };
 use crate::table::BALLS;
 
-/// Forces per mass by which laws may be broken, as a share of the largest force or acceleration: some hundred roundings.
+/// Accepted violation of the laws, as a share of the largest force or acceleration per mass: some hundred roundings.
 const ROUNDING: f64 = 256.0 * f64::EPSILON;
 
-/// Newton steps before sweeps are tried. From a near active set it takes two or three, from anywhere about eight.
+/// Newton steps before sweeps are tried. From a nearby active set two or three are enough, from an arbitrary one about eight.
 const NEWTON_STEPS: usize = 24;
 
-/// A step that takes the error below this share of itself is as good as any.
+/// A step that reduces the error below this share is accepted at once.
 const ENOUGH: f64 = 0.1;
 
-/// A step that takes it below this share only is tried at double length, too: so does a whole step at a double root.
+/// A step that reduces the error only below this share is also tried at double length: at a double root, a whole step behaves like this.
 const DOUBLED: f64 = 0.5;
 
-/// Halvings of a Newton step that are tried.
+/// Bound on the halvings of a Newton step.
 const MOST_HALVINGS: i32 = 14;
 
-/// Whole Newton steps that are tried at last, and what they add to the diagonal: where a friction turns along the circle of its limit to a
-/// double root, what it leaves in the laws on the way makes damped steps short.
+/// Number of undamped Newton steps as a last resort, and their regularization of the diagonal. If a friction rotates along its limit circle
+/// towards a double root, the residual along the way would make damped steps short.
 const WHOLE_STEPS: usize = 48;
 const NEXT_TO_NO_PROXIMITY: f64 = 1e-13;
 
-/// Rounds of sweeps and Newton steps; the sweeps double from one to the next.
+/// Rounds of sweeps and Newton steps; the number of sweeps doubles in each round.
 const ATTEMPTS: u32 = 7;
 const FIRST_SWEEPS: u32 = 8;
 
-/// Errors below this share of the largest force that a round has not halved are left as they are: such forces are at the edge of what
-/// may hold them, and no round finds better ones.
+/// If the error is below this share of the largest force and a round has not halved it, the search stops: such forces are at the edge of
+/// their admissible sets, and no round finds better ones.
 const NEARLY: f64 = 1e-7;
 
-/// What a search takes beside its steps, in multiplications: its problem is put together and copied.
+/// Cost of a search in addition to its steps, in multiplications: its problem is assembled and copied.
 const SEARCH: u64 = 2000;
 
-/// Multiplications for one entry of its matrix: the product of two rows of all velocities and spins.
+/// Multiplications per matrix entry: the product of two rows of all generalized velocities.
 const ENTRY: usize = PER_BALL * BALLS;
 
-/// What a law asks at present.
+/// Active branch of a law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Side {
-    /// It holds its rate at zero.
+    /// The force keeps its rate at zero.
     Holds,
-    /// It acts at its limit, in this direction.
+    /// The force is at its limit, in this direction.
     Limited(DVec2),
     /// A contact that does not push, or its friction.
     Absent,
 }
 
-/// Forces that obey the laws.
+/// Result of the solver.
 #[derive(Clone, Debug)]
 pub struct Solution {
-    /// Size of each scalar unknown, m/s².
+    /// Value of each scalar unknown, m/s².
     pub sizes: Sizes,
-    /// What each unknown's law asks.
+    /// Active branch of each unknown's law.
     pub sides: Sides,
     /// Whether every law holds to rounding.
     pub converged: bool,
 }
 
-/// The forces of a search that break the laws least so far.
+/// Forces with the smallest error of a search so far.
 struct Best {
     error: f64,
     sizes: Sizes,
 }
 
-/// What each unknown's law asks.
+/// Active branch of each unknown's law.
 pub type Sides = [Side; MOST_UNKNOWNS];
 
-/// Forces and frictions that obey all laws, sought from `guess` on.
+/// Searches forces and frictions that obey all laws, starting from `guess`.
 pub fn solve(problem: &Problem, guess: &Sizes, effort: &Effort) -> Solution {
     solve_in(problem, guess, ATTEMPTS, effort)
 }
 
-/// The same if they are near to the `guess`.
+/// As [`solve`], for a solution near `guess`: one round only.
 pub fn solve_near(problem: &Problem, guess: &Sizes, effort: &Effort) -> Solution {
     solve_in(problem, guess, 1, effort)
 }
@@ -119,13 +119,13 @@ fn solve_in(problem: &Problem, guess: &Sizes, attempts: u32, effort: &Effort) ->
     Solution { sizes: end.sizes, sides: end.sides, converged: false }
 }
 
-/// Where a step leads.
+/// An iterate of the search.
 struct Point {
     sizes: Sizes,
-    /// Forces less their projections.
+    /// Forces minus their projections.
     residual: Sizes,
     sides: Sides,
-    /// The residual's length: how far the laws are from holding.
+    /// Euclidean norm of the residual: how far the laws are from being satisfied.
     error: f64,
 }
 
@@ -134,7 +134,7 @@ impl Point {
         Self { sizes: NO_SIZES, residual: NO_SIZES, sides: [Side::Absent; MOST_UNKNOWNS], error: f64::INFINITY };
 }
 
-/// The problem as numbers: rates are `matrix · sizes + bias`.
+/// The problem in matrix form: the rates are `matrix · sizes + bias`.
 struct System<'a> {
     problem: &'a Problem,
     effort: &'a Effort,
@@ -155,7 +155,7 @@ impl<'a> System<'a> {
         system
     }
 
-    /// Newton steps from `sizes` on, with so many halvings at most; keeps the `best` of all forces.
+    /// Takes at most `steps` Newton steps from `sizes`, with fewer than `most_halvings` halvings each; updates the `best` forces.
     fn newton(
         &self,
         sizes: &Sizes,
@@ -164,7 +164,7 @@ impl<'a> System<'a> {
         most_halvings: i32,
         proximity: f64,
     ) -> Option<Solution> {
-        // Points are large: they change places rather than being moved.
+        // Points are large: references to them are swapped instead of moving them.
         let mut points = [Point::NOWHERE; 3];
         let [here, next, spare] = &mut points;
         let (mut here, mut next, mut spare) = (here, next, spare);
@@ -184,8 +184,8 @@ impl<'a> System<'a> {
         None
     }
 
-    /// Takes the whole step where it brings the laws nearer to hold, else the share of it that does so most: the first of the two points
-    /// that it returns. At a double root the whole step leaves a quarter of the error, and the doubled one hardly any (Rall 1966).
+    /// Takes the whole step if it reduces the error, otherwise the damped step that reduces it most. Returns the new point first. At a
+    /// double root, the whole step leaves a quarter of the error and the doubled step hardly any (Rall 1966).
     fn step<'p>(
         &self,
         here: &Point,
@@ -213,10 +213,10 @@ impl<'a> System<'a> {
         (best, other)
     }
 
-    /// Puts a point where the sizes are these.
+    /// Evaluates a point with the given values.
     fn put(&self, point: &mut Point, size: impl Fn(usize) -> f64) {
-        for (index, place) in point.sizes[..self.count].iter_mut().enumerate() {
-            *place = size(index);
+        for (index, value) in point.sizes[..self.count].iter_mut().enumerate() {
+            *value = size(index);
         }
         self.residual(&point.sizes, &mut point.residual, &mut point.sides);
         point.error = point.residual[..self.count].iter().fold(0.0, |sum, x| sum + x * x).sqrt();
@@ -230,7 +230,7 @@ impl<'a> System<'a> {
         self.bias[index] + self.row(index).iter().zip(sizes).map(|(w, x)| w * x).sum::<f64>()
     }
 
-    /// The largest of all forces and accelerations, m/s², whose rounding the residual has.
+    /// Returns the largest of all forces and accelerations, m/s², which determines the rounding of the residual.
     fn scale(&self, sizes: &Sizes) -> f64 {
         self.bias[..self.count]
             .iter()
@@ -238,23 +238,24 @@ impl<'a> System<'a> {
             .fold(f64::MIN_POSITIVE, |largest, x| largest.max(x.abs()))
     }
 
-    /// How strongly an unknown's rates answer to its force: the same for both rows of a friction, which keeps its direction.
+    /// Returns the diagonal response of an unknown's rates to its force: the same for both components of a friction, which preserves its
+    /// direction.
     fn response(&self, unknown: &Unknown) -> f64 {
         let rows = unknown.first..unknown.first + unknown.count;
         rows.map(|index| self.row(index)[index]).fold(f64::MIN_POSITIVE, f64::max)
     }
 
-    /// The force of which a law takes the projection: `z = f - rate/w` with the response `w`.
+    /// Returns the force whose projection the law requires: `z = f - rate/w` with the response `w`.
     fn wanted(&self, sizes: &Sizes, index: usize, response: f64) -> f64 {
         sizes[index] - self.rate(index, sizes) / response
     }
 
-    /// How a law answers to its rates: the projected force, and which side it is on.
+    /// Returns the projected force of a law, and its active branch.
     fn project(&self, unknown: &Unknown, sizes: &Sizes) -> (DVec2, Side) {
         let first = unknown.first;
         let response = self.response(unknown);
         let wanted = |index: usize| self.wanted(sizes, index, response);
-        if let Place::Normal(_) = unknown.place {
+        if let ForceKind::Normal(_) = unknown.kind {
             let force = wanted(first);
             let pushes = force > 0.0 && !matches!(unknown.limit, Limit::Fixed(0.0));
             return if pushes { (DVec2::new(force, 0.0), Side::Holds) } else { (DVec2::ZERO, Side::Absent) };
@@ -275,7 +276,7 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Forces less their projections, and the side of each law.
+    /// Computes forces minus their projections, and the branch of each law.
     fn residual(&self, sizes: &Sizes, residual: &mut Sizes, sides: &mut Sides) {
         self.effort.add((self.count * self.count) as u64);
         for (unknown, side) in self.problem.unknowns.iter().zip(sides) {
@@ -287,7 +288,7 @@ impl<'a> System<'a> {
         }
     }
 
-    /// A Newton step; `None` where its system is singular.
+    /// Computes a Newton step; `None` if its system is singular.
     fn newton_step(&self, point: &Point, jacobian: &mut Vec<f64>, proximity: f64) -> Option<Sizes> {
         let Point { sizes, residual, sides, .. } = point;
         let n = self.count;
@@ -324,8 +325,8 @@ impl<'a> System<'a> {
         change.iter().all(|x| x.is_finite()).then_some(change)
     }
 
-    /// A row of the derivative of `f - L z/|z|` with `z = f - rate/w`: the limit grows with its normal force, and the
-    /// direction turns with `z`.
+    /// Fills a row of the derivative of `f - L z/|z|` with `z = f - rate/w`: the limit grows with its normal force, and the direction turns
+    /// with `z`.
     fn limited(&self, unknown: &Unknown, axis: usize, direction: DVec2, sizes: &Sizes, entries: &mut [f64]) {
         let n = self.count;
         let response = self.response(unknown);
@@ -353,7 +354,7 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Satisfies one law after another with the others held.
+    /// Satisfies one law after another with the other forces fixed.
     fn sweep(&self, sizes: &mut Sizes) {
         self.effort.add((self.count * self.count) as u64);
         for unknown in &self.problem.unknowns {

@@ -1,4 +1,4 @@
-//! The cue's room against a cue of many points.
+//! Tests of the cue's clearance against a cue that is sampled as many points.
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,7 +12,7 @@ fn table() -> Table {
     Table { room: Some(Room::default()), ..Table::default() }
 }
 
-/// A layout in which the cue ball lies at a rail as often as not, and another ball near it as often as not.
+/// Returns a layout. With probability 1/2 each, the cue ball is at a rail and another ball is near it.
 fn layout(table: &Table, rng: &mut impl Rng) -> Layout {
     loop {
         let mut layout = Layout::random(table, rng);
@@ -42,7 +42,7 @@ fn stroke(table: &Table, rng: &mut impl Rng) -> CueInputs {
     CueInputs { a: radius * cos, b: radius * sin, theta: 0.0, phi: rng.random_range(-PI..PI), speed: 2.0 }
 }
 
-/// A stroke with another ball or a rail behind the cue ball: in a random direction there is mostly nothing.
+/// Returns a stroke that has another ball behind the cue ball in half of the cases: a random direction rarely has an obstacle.
 fn towards_trouble(table: &Table, layout: &Layout, rng: &mut impl Rng) -> CueInputs {
     let cue = stroke(table, rng);
     if rng.random() {
@@ -52,7 +52,7 @@ fn towards_trouble(table: &Table, layout: &Layout, rng: &mut impl Rng) -> CueInp
     CueInputs { phi: away.to_angle() + rng.random_range(-0.3..0.3), ..cue }
 }
 
-/// Whether a point of the cue is in a rail or a ball, by looking at many of them: the definition, written down again.
+/// Whether a point of the cue is inside a rail or a ball: brute-force sampling of the definition, for comparison.
 pub fn collides(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     let Some(room) = table.room else { return false };
     let (sin, cos) = cue.theta.sin_cos();
@@ -65,12 +65,12 @@ pub fn collides(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     let half = 0.5 * DVec2::new(table.length, table.width);
     let steps = 700;
     (0..=steps).any(|step| {
-        // Closer together near the tip, where obstacles are as near as the cue is thin.
+        // Denser near the tip, where the distance of obstacles is comparable to the cue's thickness.
         let s = room.length * (f64::from(step) / f64::from(steps)).powi(2);
         let radius = 0.5 * (room.tip + room.taper * s);
         (0..48).any(|turn| {
             let (across, along) = (TAU * f64::from(turn) / 48.0).sin_cos();
-            // The end is a disc, the rest a surface.
+            // The end is a disc, the rest is a surface.
             let rings = if step == 0 { 6 } else { 1 };
             (0..rings).any(|ring| {
                 let radius = radius * f64::from(rings - ring) / f64::from(rings);
@@ -108,7 +108,7 @@ fn from_the_least_elevation_on_no_point_of_the_cue_is_in_a_rail_or_a_ball_and_be
             assert!(!collides(&table, &layout, &at(&cue, theta)), "{least:?} at {theta}: {layout:?} {cue:?}");
             assert!(has_room(&table, &layout, &at(&cue, theta)), "{least:?} at {theta}: {layout:?} {cue:?}");
         }
-        // Points lie as far apart as a fiftieth of a steep elevation is seen.
+        // The spacing of the points resolves 2 % of the elevation.
         let lower = 0.98 * least.theta - 0.1_f64.to_radians();
         if lower > 0.0 {
             raised += 1;
@@ -116,8 +116,8 @@ fn from_the_least_elevation_on_no_point_of_the_cue_is_in_a_rail_or_a_ball_and_be
             bounds += i32::from(!collides(&table, &layout, &at(&cue, lower)));
         }
     }
-    // Those are cues that would slip in beside a ball, under its middle, whose flat end is nearer to a nose than it is
-    // wide, or whose butt ends at a nose.
+    // Accepted differences are cues that would fit beside a ball below its centre, cues whose flat end is nearer to a nose than its width,
+    // and cues whose butt ends at a nose.
     println!(
         "{raised} raised, {bounds} by more than they must be; {refused} refused, {wrongly} that would do at some elevation"
     );
@@ -125,7 +125,8 @@ fn from_the_least_elevation_on_no_point_of_the_cue_is_in_a_rail_or_a_ball_and_be
     assert!(refused < 150 && 15 * wrongly < refused, "{refused} refused, {wrongly} that would do at some elevation");
 }
 
-/// The middle of a half of the default table, with a cue ball so far from the bottom rail that it is played away from.
+/// Returns a cue ball at the distance `gap` from the bottom rail, in the middle of a half of the default table, with the other balls far
+/// away.
 fn near_the_bottom(gap: f64) -> (Table, Layout) {
     let table = table();
     let cue_ball = DVec2::new(0.3, gap - table.half_width());
@@ -144,13 +145,14 @@ fn a_frozen_cue_ball_is_played_away_from_its_rail_with_a_raised_cue_and_from_the
     assert_eq!(least_elevation(&table, &frozen, &up(0.0)).unwrap_err().obstacle, Obstacle::Rail(Rail::Bottom));
     let low = least_elevation(&table, &frozen, &up(0.35)).unwrap();
     assert!(low.over == Some(Obstacle::Rail(Rail::Bottom)) && low.theta > 0.3, "{low:?}");
-    // From 12.25 mm above the middle on, a cue of 6 mm to either side passes 6.25 mm above it level, but for its taper.
+    // From 12.25 mm above the middle on, a level cue with a radius of 6 mm passes 6.25 mm above the nose; only its taper needs an
+    // elevation.
     assert!(least_elevation(&table, &frozen, &up(0.42)).unwrap().theta < 0.5_f64.to_radians());
     let (table, middle) = near_the_bottom(0.6);
     let least = least_elevation(&table, &middle, &up(0.0)).unwrap();
-    // 6.25 mm up and the cue's own 6 + 2.4 mm over 0.6 m.
+    // 6.25 mm up, plus the cue's own 6 mm and 2.4 mm of taper over 0.6 m.
     assert!((least.theta.tan() - 0.014_65 / 0.6).abs() < 1e-4, "{least:?}");
-    // Towards the rail there is nothing behind but a rail that the cue does not reach in its other direction.
+    // For a stroke along the rail, only the far rail is behind the cue, out of its reach.
     let along = least_elevation(&table, &frozen, &CueInputs { phi: PI, ..up(0.0) }).unwrap();
     assert!(along.theta < 1.0_f64.to_radians(), "{along:?}");
 }
@@ -163,7 +165,7 @@ fn a_cue_that_cannot_be_held_at_all_is_refused_and_a_table_without_limits_refuse
     let free = Table { room: None, ..table.clone() };
     assert_eq!(with_room(&free, &layout, &up(-0.2)), Ok(up(-0.2)));
     assert_eq!(least_elevation(&free, &layout, &up(-0.2)), Ok(LeastElevation { theta: 0.0, over: None }));
-    // A ball that touches from behind, the tip at the middle of the cue ball.
+    // A ball that touches the cue ball from behind, with the tip at the middle of the cue ball.
     let cue_ball = DVec2::new(0.0, 0.1);
     let behind = cue_ball - DVec2::new(0.0, 2.0 * table.radius);
     let layout = Layout::new([cue_ball, DVec2::new(-1.0, 0.5), behind]);
@@ -237,7 +239,7 @@ proptest! {
             prop_assert!(has_room(&table, &layout, &raised));
             prop_assert_eq!(with_room(&table, &layout, &raised), Ok(raised));
             let least = least_elevation(&table, &layout, &cue).unwrap();
-            // A tip low on the ball may have room level and, further up, none for a while.
+            // A low tip may have clearance when level and none at some steeper elevations.
             if has_room(&table, &layout, &cue) {
                 prop_assert_eq!(raised, cue);
             } else {

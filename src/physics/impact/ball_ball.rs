@@ -1,21 +1,21 @@
 //! Collision of two balls (thesis 2.2.2).
 
-use super::{super::SpatialState, BallState, contact_twist, direction, opening_in_space, raised};
+use super::{super::SpatialState, BallState, contact_twist, direction, separation_correction, separation_speed};
 use crate::table::{Fade, SlipFriction, Table};
 
-/// The law of two balls' impacts, as a table has it.
+/// Impact law of two balls on a table.
 #[derive(Clone, Copy, Debug)]
 pub struct BallImpact {
-    /// Restitution of a slow impact.
+    /// Restitution at low speed.
     pub restitution: f64,
-    /// Coefficient of friction; `None` for a contact that never slips.
+    /// Coefficient of friction; `None` if the contact never slips.
     pub friction: Option<f64>,
     fade: Option<Fade>,
     by_slip: Option<SlipFriction>,
 }
 
 impl BallImpact {
-    /// That of a table.
+    /// Returns the law of a table.
     pub fn of(table: &Table) -> Self {
         Self {
             restitution: table.ball_restitution,
@@ -25,16 +25,16 @@ impl BallImpact {
         }
     }
 
-    /// With this restitution, however fast the impact.
+    /// Returns the law with this restitution at any impact speed.
     #[must_use]
     pub fn with_restitution(self, restitution: f64) -> Self {
         Self { restitution, fade: None, ..self }
     }
 
-    /// Velocities and spins after a collision. Returns the normal impulse per mass `P/m`, m/s, which is zero or less for balls that do
-    /// not approach.
+    /// Applies a collision to velocities and spins. Returns the normal impulse per mass `P/m`, m/s, which is zero or negative for balls
+    /// that do not approach each other.
     ///
-    /// Equations (17) to (21), with equal and opposite impulses and Coulomb's law up to the no-slip limit 1/7.
+    /// Equations (17) to (21), with equal and opposite impulses and Coulomb friction up to the no-slip limit 1/7.
     #[inline(always)]
     pub fn resolve(&self, radius: f64, first: &mut BallState, second: &mut BallState) -> f64 {
         let n = (first.position - second.position).normalize();
@@ -45,10 +45,10 @@ impl BallImpact {
         }
         let t = n.perp();
         let spin = first.spin + second.spin;
-        // The contact's slip (21) along t and z; n×w has the components (-w_z, w·t) there.
+        // The contact's slip (21) along t and z; there, n×w has the components (-w_z, w·t).
         let slip_t = (first.velocity - second.velocity).dot(t) - radius * spin.z;
         let slip_z = radius * (spin.x * t.x + spin.y * t.y);
-        // No speed on a table comes near an overflow of its square, which `hypot` would guard against at some cost.
+        // No speed on a table is so large that its square overflows, against which `hypot` would guard at some cost.
         let slip = (slip_t * slip_t + slip_z * slip_z).sqrt();
         let friction = self.by_slip.map_or(self.friction, |law| Some(law.at(libm::hypot(slip_t, slip_z))));
         let factor = match friction {
@@ -64,8 +64,8 @@ impl BallImpact {
         normal
     }
 
-    /// The same for balls of which one at least is in the air: the line of centres has any direction. They part with the speed
-    /// `slowest` at least, m/s. Returns the speed with which they have approached, m/s, negative if they do not.
+    /// As [`Self::resolve`], if at least one ball is in the air: the line of centres can have any direction. The balls separate at least at
+    /// the speed `slowest`, m/s. Returns their approach speed, m/s, which is negative if they do not approach.
     pub fn resolve_in_space(
         &self,
         radius: f64,
@@ -74,19 +74,19 @@ impl BallImpact {
         second: &mut SpatialState,
     ) -> f64 {
         let n = direction(second.position, first.position);
-        let apart = first.velocity - second.velocity;
-        let approach = -apart.dot(n);
+        let relative = first.velocity - second.velocity;
+        let approach = -relative.dot(n);
         if approach < 0.0 {
             return approach;
         }
-        let across = apart + approach * n;
-        let opening = opening_in_space(approach, self.restitution_at(approach), slowest);
+        let across = relative + approach * n;
+        let opening = separation_speed(approach, self.restitution_at(approach), slowest);
         let normal = 0.5 * (approach + opening);
-        // Equation (21), of which the part along n is none.
+        // Equation (21), whose component along n is zero.
         let slip = across - radius * (first.spin + second.spin).cross(n);
         let factor = self.friction_factor(normal, slip.length());
         let after = across - 2.0 * factor * slip;
-        let change = normal * n - factor * slip + 0.5 * raised(opening, slowest, after, n);
+        let change = normal * n - factor * slip + 0.5 * separation_correction(opening, slowest, after, n);
         first.velocity += change;
         second.velocity -= change;
         let twist = (2.5 / radius * factor) * n.cross(slip);
@@ -99,7 +99,7 @@ impl BallImpact {
         self.fade.map_or(self.restitution, |fade| fade.at(self.restitution, approach))
     }
 
-    /// The friction's impulse over the slip, m/s, for a normal impulse: Coulomb's law up to the no-slip limit.
+    /// Returns the friction impulse per mass divided by the slip, for a normal impulse: Coulomb friction up to the no-slip limit.
     pub(super) fn friction_factor(&self, normal: f64, slip: f64) -> f64 {
         match self.by_slip.map_or(self.friction, |law| Some(law.at(slip))) {
             Some(mu) if 7.0 * mu * normal < slip => mu * normal / slip,

@@ -1,4 +1,4 @@
-//! Impacts: two balls, ball and cushion, and several of them at the same moment.
+//! Impacts: of two balls, of ball and cushion, and several at the same moment.
 
 mod ball_ball;
 mod cushion;
@@ -12,14 +12,14 @@ pub use ball_ball::BallImpact;
 pub use cushion::{Cushion, Cushions, ImpactImpulse};
 pub use simultaneous::{ImpactLaw, collide_together};
 
-/// The speed with which an impact in the air opens that closes with `approach`, m/s. One slower than `slowest` loses nothing: a
-/// ball that comes to lie on a nose or on another ball slides off it in bounces that would get lower without end.
-fn opening_in_space(approach: f64, restitution: f64, slowest: f64) -> f64 {
+/// Returns the separation speed of an impact in the air with the closing speed `approach`, m/s. Up to `slowest` no speed is lost: otherwise
+/// a ball that settles on a nose or on another ball would slide off in ever lower bounces, without end.
+fn separation_speed(approach: f64, restitution: f64, slowest: f64) -> f64 {
     (restitution * approach).max(approach.min(slowest))
 }
 
-/// The unit vector from one ball's centre to another's. Exactly upwards it leans a little to one side: nothing says to which side a ball
-/// leaves the top of another; that it does not stay there is all that is known.
+/// Returns the unit vector from one ball's centre to another's. If it is exactly vertical, it is tilted slightly to one side: a ball does
+/// not stay on top of another, and the side on which it leaves is arbitrary.
 fn direction(from: DVec3, to: DVec3) -> DVec3 {
     let mut n = (to - from).normalize();
     if n.truncate() == DVec2::ZERO {
@@ -28,9 +28,9 @@ fn direction(from: DVec3, to: DVec3) -> DVec3 {
     n
 }
 
-/// What changes the motion `across + opening n` after such an impact so that it opens with `slowest`, m/s: what that takes comes
-/// from the motion across, so that no energy is gained.
-fn raised(opening: f64, slowest: f64, across: DVec3, n: DVec3) -> DVec3 {
+/// Returns the change of the relative velocity `across + opening n` after such an impact that raises the separation speed to `slowest`,
+/// m/s. The energy comes from the tangential motion `across`, so that none is gained.
+fn separation_correction(opening: f64, slowest: f64, across: DVec3, n: DVec3) -> DVec3 {
     let missing = slowest * slowest - opening * opening;
     if missing <= 0.0 {
         return DVec3::ZERO;
@@ -42,7 +42,7 @@ fn raised(opening: f64, slowest: f64, across: DVec3, n: DVec3) -> DVec3 {
     (slowest - opening) * n - (1.0 - (left / had).sqrt()) * across
 }
 
-/// Change of spin `5/(2R) n×J` by a contact impulse per mass `J = along t + up z`; n×t = z and n×z = -t.
+/// Returns the change of spin `5/(2R) n×J` by a contact impulse per mass `J = along t + up z`; n×t = z and n×z = -t.
 #[inline]
 fn contact_twist(radius: f64, along: f64, up: f64, t: DVec2) -> DVec3 {
     let lever = 2.5 / radius;

@@ -1,19 +1,19 @@
-//! A ball in the air meets another that lies on the cloth: the cloth answers to what is pressed into it, or holds it from below.
+//! Impact of a ball in the air on a ball on the cloth, including the reaction of the cloth.
 //!
-//! In a hard blow the balls part first, and the cloth throws the lower one up again. In a soft one it stays, and with it what the
-//! upper ball had to rebound with: the two would press each other in ever shorter bounces, each of which takes the motion
-//! across, and a ball would never slide off another's top. There the cloth holds the lower ball during the impact: that one
-//! gives way along the table only, and the upper ball slides off in bounces that lose nothing.
+//! In a hard impact the balls separate first, and the cloth then throws the lower ball up again. In a soft impact the lower ball stays on
+//! the cloth, and the upper ball cannot rebound. The two would press on each other in ever shorter bounces, each of which removes
+//! tangential motion, so that a ball would never slide off the top of another. In a soft impact the cloth therefore supports the lower ball
+//! during the impact: this ball gives way only along the table, and the upper ball slides off in bounces without loss.
 
 use glam::DVec3;
 
-use super::{super::SpatialState, BallImpact, direction, opening_in_space};
+use super::{super::SpatialState, BallImpact, direction, separation_speed};
 use crate::physics::Cloth;
 
 impl BallImpact {
-    /// Velocities and spins after a collision of two balls of which one at least is in the air, with the answer of the `cloth`. In
-    /// a soft one they part with the speed `slowest`, m/s, as far as the energy suffices. Returns the speed with which they have
-    /// approached, m/s, negative if they do not.
+    /// Applies a collision of two balls, at least one of which is in the air, including the reaction of the `cloth`. After a soft impact
+    /// they separate at the speed `slowest`, m/s, as far as the energy suffices. Returns their approach speed, m/s, which is negative if
+    /// they do not approach.
     pub fn resolve_over_cloth(
         &self,
         radius: f64,
@@ -45,7 +45,7 @@ impl BallImpact {
         approach
     }
 
-    /// A collision in which the cloth holds the `lower` ball from below.
+    /// Applies a collision in which the cloth supports the `lower` ball.
     fn resolve_held(
         &self,
         radius: f64,
@@ -58,56 +58,56 @@ impl BallImpact {
         lower.velocity.z = 0.0;
         let along_table = n.with_z(0.0);
         let approach = (lower.velocity - upper.velocity).dot(n);
-        // What the balls and then the cloth give back, and nothing lost of a slow one.
+        // Restitution of the balls and then of the cloth; a slow impact loses nothing.
         let restitution = self.restitution_at(approach) * cloth.restitution;
-        let opening = opening_in_space(approach, restitution, slowest);
+        let opening = separation_speed(approach, restitution, slowest);
         let push = (approach + opening) / (1.0 + along_table.length_squared());
         upper.velocity += push * n;
         lower.velocity -= push * along_table;
-        let apart = upper.velocity - lower.velocity;
-        let slip = apart - apart.dot(n) * n - radius * (upper.spin + lower.spin).cross(n);
+        let relative = upper.velocity - lower.velocity;
+        let slip = relative - relative.dot(n) * n - radius * (upper.spin + lower.spin).cross(n);
         let factor = self.friction_factor(push, slip.length());
-        let rub = -factor * slip;
-        upper.velocity += rub;
-        lower.velocity -= rub.with_z(0.0);
+        let friction = -factor * slip;
+        upper.velocity += friction;
+        lower.velocity -= friction.with_z(0.0);
         let twist = (2.5 / radius * factor) * n.cross(slip);
         upper.spin += twist;
         lower.spin += twist;
-        cloth.rub(radius, (push * n.z + rub.z).max(0.0), lower);
+        cloth.apply_friction(radius, (push * n.z + friction.z).max(0.0), lower);
         part_slowly(slowest, n, upper, lower);
     }
 }
 
-/// What has hardly approached parts with the speed `slowest`, m/s, as far as the balls' sliding along each other has the energy for it.
+/// Makes balls that hardly separate do so at the speed `slowest`, m/s, as far as the energy of their relative sliding suffices.
 ///
-/// The impulse that slides is made orthogonal to the one that parts, by their effect on the kinetic energy: either changes one speed
-/// and leaves the other alone, and no energy is gained.
+/// The sliding impulse is made orthogonal to the separating one in the metric of the kinetic energy. Each then changes one speed and leaves
+/// the other unchanged, and no energy is gained.
 fn part_slowly(slowest: f64, n: DVec3, upper: &mut SpatialState, lower: &mut SpatialState) {
     let relative = upper.velocity - lower.velocity;
     let opening = relative.dot(n);
     if opening >= 0.5 * slowest {
         return;
     }
-    // What is next to nothing is made orthogonal to the normal a second time.
+    // Orthogonalized against the normal a second time, because rounding dominates if the vector is tiny.
     let across = relative - opening * n;
     let along = (across - across.dot(n) * n).normalize_or_zero();
-    // What an impulse per mass of 1 m/s changes the upper ball's velocity by, and the lower one's, which the cloth holds from below.
-    let apart = [n, -n.with_z(0.0)];
+    // Velocity change of the upper and the lower ball per impulse per mass of 1 m/s; the cloth supports the lower ball.
+    let separating = [n, -n.with_z(0.0)];
     let inverse_mass = |[one, other]: [DVec3; 2]| one.length_squared() + other.length_squared();
-    let shared = n.z * along.z / inverse_mass(apart);
-    let slide = [along + shared * apart[0], -along.with_z(0.0) + shared * apart[1]];
+    let shared = n.z * along.z / inverse_mass(separating);
+    let slide = [along + shared * separating[0], -along.with_z(0.0) + shared * separating[1]];
     let sliding = upper.velocity.dot(slide[0]) + lower.velocity.dot(slide[1]);
-    let [parts, slides] = [inverse_mass(apart), inverse_mass(slide)];
+    let [parts, slides] = [inverse_mass(separating), inverse_mass(slide)];
     if sliding * sliding == 0.0 {
         return;
     }
-    // Energies are compared as squares of the opening speed.
+    // Energies are compared as squares of the separation speed.
     let available = parts / slides * sliding * sliding;
     let needed = (slowest * slowest - opening * opening).min(available);
     let push = ((opening * opening + needed).sqrt() - opening) / parts;
     let brake = ((1.0 - needed / available).sqrt() - 1.0) * sliding / slides;
-    upper.velocity += push * apart[0] + brake * slide[0];
-    lower.velocity += push * apart[1] + brake * slide[1];
+    upper.velocity += push * separating[0] + brake * slide[0];
+    lower.velocity += push * separating[1] + brake * slide[1];
 }
 
 #[cfg(test)]
@@ -117,8 +117,8 @@ mod tests {
     use super::*;
     use crate::table::{Flight, PRESETS, Table};
 
-    /// Energy over mass before and after, and how fast the balls approach and part; not where friction has pressed the lower one into
-    /// the cloth, which has thrown it up again.
+    /// Returns the specific energies before and after, and the closing and separation speeds. The speeds are `None` if friction pressed the
+    /// lower ball into the cloth, which threw it up again.
     fn soft(
         table: &Table,
         angle: f64,
@@ -133,11 +133,12 @@ mod tests {
         let energy = |upper: &SpatialState, lower: &SpatialState| {
             [upper, lower].map(|ball| ball.specific_energy(table.radius, table.gravity)).iter().sum()
         };
-        let apart = |upper: &SpatialState, lower: &SpatialState| (upper.velocity - lower.velocity.with_z(0.0)).dot(n);
-        let (before, closing) = (energy(&upper, &lower), -apart(&upper, &lower));
+        let separation =
+            |upper: &SpatialState, lower: &SpatialState| (upper.velocity - lower.velocity.with_z(0.0)).dot(n);
+        let (before, closing) = (energy(&upper, &lower), -separation(&upper, &lower));
         law.resolve_over_cloth(table.radius, slowest, &cloth, &mut upper, &mut lower);
         let stays = lower.velocity.z <= slowest;
-        ([before, energy(&upper, &lower)], stays.then(|| [closing, apart(&upper, &lower)]))
+        ([before, energy(&upper, &lower)], stays.then(|| [closing, separation(&upper, &lower)]))
     }
 
     proptest! {
@@ -166,7 +167,8 @@ mod tests {
         }
     }
 
-    /// All that the upper ball has would not do to follow one that moves away as fast: they would meet again and again, without end.
+    /// The upper ball's own motion would not suffice to follow a ball that moves away as fast: the balls would collide again and again,
+    /// without end.
     #[test]
     fn balls_that_go_the_same_way_part_by_what_they_slide_along_each_other() {
         let (n, slowest) = (DVec3::new(0.6 * 1.2_f64.sin(), 0.8 * 1.2_f64.sin(), 1.2_f64.cos()), 2e-3);
@@ -181,7 +183,7 @@ mod tests {
         let opening = (upper.velocity - lower.velocity).dot(n);
         assert!((opening - slowest).abs() < 1e-12 && lower.velocity.z == 0.0, "{opening} {lower:?}");
         assert!((energy(&upper, &lower) - before).abs() < 1e-15, "{before}");
-        // Where they do not slide along each other there is nothing to take.
+        // If they do not slide along each other, there is no energy to take.
         let still = upper;
         part_slowly(slowest, n, &mut upper, &mut ball(still.velocity));
         assert_eq!(upper, still);

@@ -1,18 +1,21 @@
-//! Several impacts at the same moment: balls that touch, a ball that meets another and a cushion at once.
+//! Simultaneous impacts: balls that touch, and a ball that hits another ball and a cushion at once.
 //!
-//! The impacts run through touching balls in rounds, as in Smith, Kaufman, Vouga, Tamstorf and Grinspun, "Reflections on
-//! simultaneous impact" (2012). A round takes all contacts that close at that moment. One that shares no ball with another is
-//! a single impact. For each group that shares balls Moreau's law gives the normal impulses: `0 ≤ v⁺ + e v⁻ ⊥ P ≥ 0`. Since each of them
-//! closes, `v⁻ < 0`, the round takes the energy `½ Σ (1 - e) P |v⁻|` and never adds any; where all have the same `e`, that is the share
-//! `1 - e²` of the energy of their approach. Each contact's friction then follows from its slip before the round and its `P` by the law of
-//! a single impact; should they together add energy, they are scaled down until they do not. A contact whose impulse is zero, since the
-//! others relieve it, takes no part: what it leaves alone is a single impact. What closes behind a round belongs to the next one.
+//! Impacts propagate through touching balls in rounds, as in Smith, Kaufman, Vouga, Tamstorf and Grinspun, "Reflections on simultaneous
+//! impact" (2012). A round treats all contacts that close at that moment:
+//! - A contact that shares no ball with another is a single impact.
+//! - For each group of contacts that share balls, Moreau's law gives the normal impulses: `0 ≤ v⁺ + e v⁻ ⊥ P ≥ 0`. Since every contact
+//!   closes, `v⁻ < 0`, the round removes the energy `½ Σ (1 - e) P |v⁻|` and never adds any. If all contacts have the same `e`, that is the
+//!   share `1 - e²` of the energy of approach.
+//! - The friction of each contact follows from its slip before the round and its `P` by the law of a single impact. If the frictions
+//!   together would add energy, they are scaled down until they do not.
+//! - A contact with zero impulse, because others relieve it, takes no part. A contact that remains alone is a single impact.
 //!
-//! So the outcome is the limit of vanishing gaps where that limit is one: Newton's cradle passes a blow on to its last ball,
-//! as does a frozen pair that is struck from behind. Where it is not, as in a symmetric break, no order of numbering
-//! decides. Moreau's law over all contacts that touch, closing or not, would send a cradle's first ball back with a third
-//! of its speed. What speaks against the rounds: real balls share a blow for some 0.2 ms, so that frozen balls part a
-//! little otherwise.
+//! Contacts that close after a round belong to the next round.
+//!
+//! The outcome is therefore the limit of vanishing gaps, if that limit is unique: Newton's cradle passes a blow on to its last ball, and so
+//! does a frozen pair that is struck from behind. If it is not unique, as in a symmetric break, the result does not depend on the numbering
+//! of the balls. Moreau's law over all touching contacts, closing or not, would instead send a cradle's first ball back with a third of its
+//! speed. A limitation of the rounds: real balls share a blow for about 0.2 ms, so that frozen balls separate slightly differently.
 
 use glam::DVec2;
 
@@ -22,27 +25,28 @@ use crate::{
     table::{BALLS, Rail, Table},
 };
 
-/// Sweeps over the normal impulses: they converge like a power of at most 3/4 for three balls, in some hundred.
+/// Largest number of Gauss-Seidel sweeps for the normal impulses: for three balls they converge linearly with a factor of at most 3/4, in
+/// about a hundred.
 const MAX_SWEEPS: usize = 200;
 
-/// The laws of the impacts on a table. Where several contacts that share balls close at once, cushions are met at the height of the
-/// balls' centres, with the friction and restitution of slow impacts.
+/// Impact laws of a table. If several contacts that share balls close at once, cushion contacts are at the height of the balls' centres,
+/// with the friction and restitution of slow impacts.
 #[derive(Clone, Debug)]
 pub struct ImpactLaw {
-    /// That of two balls.
+    /// Law of two balls.
     pub balls: BallImpact,
-    /// Those of the four cushions.
+    /// Laws of the four cushions.
     pub cushions: Cushions,
 }
 
 impl ImpactLaw {
-    /// Those of a table.
+    /// Returns the laws of a table.
     pub fn of(table: &Table) -> Self {
         Self { balls: BallImpact::of(table), cushions: Cushions::of(table) }
     }
 
-    /// The same with one restitution for all impacts, however fast, and cushions at the height of the balls' centres: without any it is the
-    /// end of endless bounces, and with all of it the law of micro-collisions.
+    /// Returns the laws with one restitution for all impacts at any speed, and cushion contacts at the height of the balls' centres. Zero
+    /// is the limit of infinitely many bounces; one is the law of micro-collisions.
     #[must_use]
     pub fn with_restitution(&self, restitution: f64) -> Self {
         Self { balls: self.balls.with_restitution(restitution), cushions: self.cushions.with_restitution(restitution) }
@@ -52,14 +56,14 @@ impl ImpactLaw {
         self.cushions.at(Rail::with_normal(contact.cushion_normal))
     }
 
-    /// Restitution of a slow impact.
+    /// Returns the restitution of a slow impact.
     pub fn restitution(&self, contact: &Contact) -> f64 {
         if contact.second.is_some() { self.balls.restitution } else { self.cushion(contact).restitution }
     }
 }
 
-/// One round: all `contacts` collide, those that share balls together, any other as a single impact. Returns the impulse of each; the
-/// normal one is zero where the others relieve a contact of its own.
+/// Plays one round: all `contacts` collide, those that share balls together and all others as single impacts. Returns the impulse of each
+/// contact; the normal impulse is zero if other contacts relieve it.
 pub fn collide_together(
     radius: f64,
     law: &ImpactLaw,
@@ -69,7 +73,7 @@ pub fn collide_together(
     let mut impulses = [ImpactImpulse::default(); MAX_CONTACTS];
     let mut left = vec![(0..contacts.len()).collect()];
     while let Some(mut rest) = left.pop() {
-        let group = take_joined(contacts, &mut rest);
+        let group = take_group(contacts, &mut rest);
         if !rest.is_empty() {
             left.push(rest);
         }
@@ -81,11 +85,11 @@ pub fn collide_together(
         let normal = normal_impulses(law, balls, &joined);
         let pushing: Vec<usize> = group.iter().zip(normal).filter(|(_, push)| *push > 0.0).map(|(&i, _)| i).collect();
         if pushing.len() < group.len() {
-            // What the others relieve takes no part: one that is left alone by that has a single impact's law.
+            // Relieved contacts take no part. If that leaves a single contact, it follows the law of a single impact.
             left.extend((!pushing.is_empty()).then_some(pushing));
             continue;
         }
-        push_and_rub(radius, law, balls, &joined, &normal);
+        apply_impulses(radius, law, balls, &joined, &normal);
         for (index, normal) in group.into_iter().zip(normal) {
             impulses[index].normal = normal;
         }
@@ -93,8 +97,8 @@ pub fn collide_together(
     impulses
 }
 
-/// Takes the first of some contacts out of `rest`, and all that share balls with it, directly or by way of others.
-fn take_joined(contacts: &[Contact], rest: &mut Vec<usize>) -> Vec<usize> {
+/// Removes the first contact from `rest`, and all contacts that share balls with it, directly or through others. Returns them.
+fn take_group(contacts: &[Contact], rest: &mut Vec<usize>) -> Vec<usize> {
     let mut group: Vec<usize> = rest.drain(..rest.len().min(1)).collect();
     loop {
         let is_joined = |index: &usize| group.iter().any(|&other| contacts[other].shares_a_ball(&contacts[*index]));
@@ -107,8 +111,8 @@ fn take_joined(contacts: &[Contact], rest: &mut Vec<usize>) -> Vec<usize> {
     }
 }
 
-/// Gives the normal impulses at the height of the balls' centres, per mass, m/s, and the frictions that follow from them.
-fn push_and_rub(
+/// Applies the normal impulses at the height of the balls' centres, per mass, m/s, and the resulting friction impulses.
+fn apply_impulses(
     radius: f64,
     law: &ImpactLaw,
     balls: &mut [BallState; BALLS],
@@ -123,7 +127,7 @@ fn push_and_rub(
             balls[second].velocity -= *impulse * *n;
         }
     }
-    let rubbed = |share: f64| {
+    let with_friction = |share: f64| {
         let mut balls = *balls;
         for (index, contact) in contacts.iter().enumerate() {
             let (friction, holds) = if contact.second.is_some() {
@@ -148,19 +152,19 @@ fn push_and_rub(
         }
         balls
     };
-    // Not of those that take no part: beside the energy of a fast one, rounding would hide what slow ones gain.
+    // Only of the balls that take part: next to the energy of another fast ball, rounding would hide a gain by slow ones.
     let energy = |balls: &[BallState; BALLS]| {
         let members = (0..BALLS).filter(|&ball| contacts.iter().any(|contact| contact.has(ball)));
         members.map(|ball| balls[ball].specific_energy(radius)).sum::<f64>()
     };
-    let (before, half, whole) = (energy(balls), energy(&rubbed(0.5)), energy(&rubbed(1.0)));
-    // The energy is a square function of the share: it falls first, and comes back to what it was at this share.
+    let (before, half, whole) = (energy(balls), energy(&with_friction(0.5)), energy(&with_friction(1.0)));
+    // The energy is a quadratic function of the share: it decreases first, and returns to its initial value at the share computed here.
     let bend = 2.0 * (whole + before - 2.0 * half);
     let fall = whole - before - bend;
-    *balls = rubbed(if whole <= before { 1.0 } else { (-fall / bend).clamp(0.0, 1.0) });
+    *balls = with_friction(if whole <= before { 1.0 } else { (-fall / bend).clamp(0.0, 1.0) });
 }
 
-/// A single impact.
+/// Applies a single impact.
 fn collide_alone(radius: f64, law: &ImpactLaw, balls: &mut [BallState; BALLS], contact: &Contact) -> ImpactImpulse {
     match contact.second {
         None => law.cushion(contact).resolve(radius, contact.cushion_normal, &mut balls[contact.first]),
@@ -173,8 +177,8 @@ fn collide_alone(radius: f64, law: &ImpactLaw, balls: &mut [BallState; BALLS], c
     }
 }
 
-/// Moreau's law for the normal impulses per mass, m/s, by projected Gauss-Seidel sweeps: the matrix is symmetric and not negative, for
-/// which they converge from anywhere.
+/// Solves Moreau's law for the normal impulses per mass, m/s, by projected Gauss-Seidel sweeps. The matrix is symmetric and positive
+/// semidefinite, so that they converge from any start.
 fn normal_impulses(law: &ImpactLaw, balls: &[BallState; BALLS], contacts: &[Contact]) -> [f64; MAX_CONTACTS] {
     let mut impulses = [0.0; MAX_CONTACTS];
     let normals: Vec<DVec2> = contacts.iter().map(|contact| contact.normal(balls)).collect();
@@ -228,7 +232,7 @@ mod tests {
         ImpactLaw::of(&table)
     }
 
-    /// Rounds until nothing closes, as the engine plays them.
+    /// Plays rounds until no contact closes, as the engine does. Returns their number.
     fn collide(law: &ImpactLaw, balls: &mut [BallState; BALLS], contacts: &[Contact]) -> usize {
         for round in 0.. {
             let closing: Vec<Contact> =
@@ -281,13 +285,13 @@ mod tests {
         let (one, other) = (balls[1].velocity, balls[2].velocity);
         assert!((one * DVec2::new(1.0, -1.0)).distance(other) < 1e-15 && balls[0].velocity.y.abs() < 1e-15);
         assert_eq!([swapped[2].velocity, swapped[1].velocity], [one, other]);
-        // Moreau's law: both part at e times the speed at which they met.
+        // Moreau's law: both contacts separate at e times their closing speed.
         let parting = contacts[0].opening_speed(&balls);
         assert!((parting - 0.9 * 3.0 * 0.75_f64.sqrt()).abs() < 1e-14, "{parting}");
     }
 
     #[test]
-    fn what_shares_no_ball_collides_by_its_own_law_in_the_same_round() {
+    fn contacts_without_shared_balls_collide_by_their_own_laws_in_the_same_round() {
         let law = ImpactLaw::of(&Table::preset("match").unwrap());
         let mut balls = in_line(2.0);
         balls[2].velocity = DVec2::new(3.0, 1.0);
@@ -301,9 +305,9 @@ mod tests {
         assert!(balls[2].velocity.x < 0.0 && balls[1].velocity.x > 1.8);
     }
 
-    /// A ball that spins in a corner, and one that loses energy elsewhere at the same moment: its friction could gain as much.
+    /// A ball that spins in a corner while another ball loses energy elsewhere: its friction must not use that energy.
     #[test]
-    fn what_shares_no_ball_lends_no_energy() {
+    fn contacts_without_shared_balls_exchange_no_energy() {
         let law = with_friction(0.95, 0.2);
         let mut balls = in_line(0.0);
         balls[2].velocity = DVec2::new(1.51, -2.64);
@@ -322,10 +326,10 @@ mod tests {
         assert!(balls[2].specific_energy(RADIUS) <= before);
     }
 
-    /// One that creeps in a corner, whose friction would drive it on, while another is fast: so small an energy is lost in the rounding of
-    /// the sum.
+    /// A slow ball in a corner, whose friction would accelerate it, while another ball is fast: its tiny energy gain is lost in the
+    /// rounding of the sum.
     #[test]
-    fn what_takes_no_part_hides_no_gain() {
+    fn balls_that_take_no_part_hide_no_energy_gain() {
         let law = with_friction(1.0, 0.2).with_restitution(1.0);
         let mut balls = in_line(0.0);
         balls[2].velocity = DVec2::new(-4.1e-7, 2.8e-8);
@@ -339,9 +343,9 @@ mod tests {
         assert!(balls[2].specific_energy(RADIUS) <= before * (1.0 + 8.0 * f64::EPSILON));
     }
 
-    /// A ball that a blow drives away from another one, which comes up to it slowly: only two of the three meet.
+    /// A blow drives a ball away from another one that approaches it slowly: only two of the three balls collide.
     #[test]
-    fn what_is_relieved_leaves_the_others_their_own_law() {
+    fn a_relieved_contact_leaves_the_others_their_own_law() {
         let law = ImpactLaw::of(&Table::preset("match").unwrap());
         let mut balls = in_line(0.0);
         balls[2].velocity = DVec2::new(-3.0, 0.4);

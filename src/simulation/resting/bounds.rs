@@ -1,26 +1,26 @@
-//! How long a step of a resting contact may be: it has to be right, its course must be one that a polynomial follows, and what
-//! has begun to slip slowly must still be slow at its end.
+//! Limits on the length of a step of a resting contact: its error, the deviation of its trajectory from a polynomial, and the size of slips
+//! that have begun slowly.
 
 use glam::DVec2;
 
-use super::{MOST_STRAY, Resting, State, Trial};
+use super::{MAX_DEVIATION, Resting, State, Trial};
 use crate::{
     physics::{BallState, Forces, Friction, slip},
     table::{BALLS, Table},
 };
 
-/// A step is tried again if it is so much longer than one whose course strays by half of that: `2^(-1/6)`.
-const ROOM_TO_STRAY: f64 = 0.89;
+/// A step is repeated if the step length for half the accepted deviation is shorter than this share of it: `2^(-1/6)`.
+const DEVIATION_MARGIN: f64 = 0.89;
 
-/// A slip that has begun slowly may get so many times too fast for it within a step.
+/// Largest accepted excess of a slip that has begun slowly over its limit within a step.
 const MOST_YIELDED: f64 = 1.5;
 
-/// How often the way to a place within a step is halved where one step that leads there is not right.
+/// Largest number of halvings of the interval to a point within a step, if a single step to it is not accurate enough.
 const MOST_HALVINGS: u32 = 6;
 
 impl Resting {
-    /// What is reached after `span` from within a step that has been taken: as exact as the step, in several parts if need be. A shorter
-    /// way may be given up where the whole one converged, for the first errors of an extrapolation tell little.
+    /// Returns the state after `span`, from within a completed step, as accurately as the step itself, in several parts if necessary. A
+    /// shorter interval may fail although the whole one converged, because the first errors of an extrapolation are poor estimates.
     pub(super) fn reach(&self, table: &Table, from: &Trial, span: f64) -> Trial {
         self.reach_in_halves(table, from, span, MOST_HALVINGS)
     }
@@ -34,8 +34,8 @@ impl Resting {
         self.reach_in_halves(table, &middle, span, halvings - 1)
     }
 
-    /// The first half of a step if a law is broken in the `middle` that holds at both ends: a push that is next to none falls below it and
-    /// comes back.
+    /// Returns the first half of a step if a law holds at both ends but is broken in the `middle`: a tiny normal force becomes negative and
+    /// returns.
     pub(super) fn breaking_half(&self, table: &Table, begin: &Trial, whole: &Trial, middle: &Forces) -> Option<Trial> {
         let breaks = |forces: &Forces| forces.slack < -self.constants.tolerance.slack;
         if breaks(&whole.forces) || !(middle.converged && breaks(middle)) {
@@ -44,23 +44,22 @@ impl Resting {
         Some(self.reach(table, begin, 0.5 * (begin.span + whole.span))).filter(|half| breaks(&half.forces))
     }
 
-    /// Which step to try instead of one whose error is too large, whose course no polynomial follows, or in which a slip that has begun
-    /// slowly gets too fast. `course` is the longest step whose course is right.
+    /// Returns a shorter step if the error is too large, the trajectory is not close to a polynomial, or a slip that has begun slowly
+    /// becomes too fast. `course` is the longest step with an accurate trajectory.
     pub(super) fn shorter(&self, table: &Table, trial: &Trial, course: f64) -> Option<f64> {
         let tolerance = &self.constants.tolerance;
         if trial.step.error.is_nan() || trial.step.error > tolerance.step {
             return Some(trial.step.best_length.min(0.7 * trial.span));
         }
-        if course < ROOM_TO_STRAY * trial.span {
+        if course < DEVIATION_MARGIN * trial.span {
             return Some(course);
         }
         let yielded = self.yielded(table, &trial.step.end.balls) / tolerance.yielding;
         (yielded > MOST_YIELDED).then(|| (1.0 / yielded).max(0.1) * trial.span)
     }
 
-    /// The longest step whose course the polynomial as which it is handed on follows, by how far this one's strays half-way: a
-    /// twenty-fourth of what it misses of the acceleration there, times the square of the step, as the rest of a polynomial of degree five
-    /// tells.
+    /// Returns the longest step whose trajectory is represented by its polynomial, estimated from the deviation at half the time: h²/24
+    /// times the error of the polynomial's acceleration there, by the remainder term of a polynomial of degree five.
     pub(super) fn longest_course(&self, trial: &Trial, middle: &Forces) -> f64 {
         let h = trial.step.end.time;
         let missed = |ball: usize| {
@@ -70,11 +69,11 @@ impl Resting {
         };
         let members = (0..BALLS).filter(|&ball| self.members[ball]);
         let strays = h * h / 24.0 * members.map(missed).fold(f64::MIN_POSITIVE, f64::max);
-        // It grows with the sixth power of the step.
-        libm::pow(0.5 * MOST_STRAY / strays, 1.0 / 6.0) * trial.span
+        // The deviation grows with the sixth power of the step.
+        libm::pow(0.5 * MAX_DEVIATION / strays, 1.0 / 6.0) * trial.span
     }
 
-    /// The state half-way in time, by polynomials through both ends.
+    /// Returns the state at half the time, from polynomials through both ends.
     pub(super) fn half_way(&self, trial: &Trial) -> State {
         let h = trial.step.end.time;
         std::array::from_fn(|ball| {
@@ -91,7 +90,7 @@ impl Resting {
         })
     }
 
-    /// The largest slip whose friction acts against its rate, m/s.
+    /// Returns the largest slip whose friction opposes its rate, m/s.
     fn yielded(&self, table: &Table, balls: &State) -> f64 {
         let yields = |friction: Friction, slip: DVec2| if friction == Friction::Yields { slip.length() } else { 0.0 };
         let members = balls.iter().enumerate().filter(|(ball, _)| self.members[*ball]);

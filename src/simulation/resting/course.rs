@@ -1,8 +1,8 @@
-//! The courses of balls along one step of a resting contact, and their end in rest.
+//! Trajectories of balls during one step of a resting contact, and their end at rest.
 
 use glam::{DVec2, DVec3};
 
-use super::{MOST_STRAY, Resting};
+use super::{MAX_DEVIATION, Resting};
 use crate::{
     physics::BallState,
     simulation::{Constants, Tolerance, segment::Curve},
@@ -10,7 +10,7 @@ use crate::{
 };
 
 impl Resting {
-    /// Half the acceleration at the start of the step, and the rest of a ball's course as polynomials.
+    /// Returns half the acceleration at the start of the step, and the polynomials of the rest of a ball's trajectory.
     pub fn course(&self, ball: usize) -> (DVec2, Curve) {
         let h = self.step;
         let (p0, p1) = (&self.begin[ball], &self.end[ball]);
@@ -20,7 +20,8 @@ impl Resting {
         let square = h * h;
         let (cube, fourth) = (h * square, square * square);
         let by_velocities = 0.5 * h * (v0 + v1) + square / 12.0 * (a0 - a1);
-        let position = if h > self.constants.tolerance.shortest_quintic || moved.distance(by_velocities) > MOST_STRAY {
+        let position = if h > self.constants.tolerance.shortest_quintic || moved.distance(by_velocities) > MAX_DEVIATION
+        {
             [
                 (20.0 * moved - h * (8.0 * v1 + 12.0 * v0) - h * h * (3.0 * a0 - a1)) / (2.0 * cube),
                 (-30.0 * moved + h * (14.0 * v1 + 16.0 * v0) + h * h * (3.0 * a0 - 2.0 * a1)) / (2.0 * fourth),
@@ -36,8 +37,8 @@ impl Resting {
         (0.5 * a0, Curve { position, spin })
     }
 
-    /// Whether no member moves or rolls any more at the end of this step. One that only spins about its vertical counts as still: if it
-    /// presses, its contact begins anew.
+    /// Whether no member moves or rolls at the end of this step. A ball that only spins about the vertical counts as still: if it presses,
+    /// its contact restarts.
     pub fn is_still(&self) -> bool {
         let Constants { radius, tolerance: Tolerance { still, .. }, .. } = self.constants;
         let is_slow = |ball: &BallState| {
@@ -46,7 +47,7 @@ impl Resting {
         (0..BALLS).all(|ball| !self.members[ball] || is_slow(&self.end[ball]))
     }
 
-    /// Brings the members to rest at the end of this step.
+    /// Sets the members to rest at the end of this step.
     pub fn come_to_rest(&mut self) {
         for (ball, _) in self.end.iter_mut().zip(self.members).filter(|(_, member)| *member) {
             ball.velocity = DVec2::ZERO;

@@ -1,8 +1,8 @@
-//! Slips whose directions follow the forces far faster than anything else moves: steps of a resting contact are implicit in
+//! Stiffness: slips whose directions follow the forces much faster than anything else moves. Steps of a resting contact are implicit in
 //! them.
 //!
-//! Friction of size `f` on a ball turns a slip `u` against the forces within `|u|/f`. Where it all but holds the ball, the
-//! slip stays small for long, down to a thousandth of what an explicit step would have to resolve.
+//! Friction of magnitude `f` on a ball turns a slip `u` against the forces within `|u|/f`. If it nearly holds the ball, the slip stays
+//! small for long, and explicit steps would have to be up to a thousand times shorter.
 
 use glam::DVec2;
 
@@ -13,18 +13,18 @@ use crate::{
     table::Table,
 };
 
-/// Steps are implicit in all directions that follow the forces at least so often in them, as soon as one is stiff.
+/// If one direction is stiff, steps are implicit in all directions whose time constant fits into the step more often than this.
 const SOFT: f64 = 0.25;
 
-/// By what angle, in radians, a friction is turned to see what that changes.
+/// Angle by which a friction is turned for a difference quotient, rad.
 const TURN: f64 = 1e-4;
 
-/// A force changes a slip on the cloth by so many times what it changes the ball's speed, and a slip of two balls, each of
-/// which gets it, by twice as much.
+/// Change of a slip on the cloth by a force, in units of the change of the ball's speed; twice as much for the slip of two balls, both of
+/// which the force acts on.
 const RESPONSE: f64 = 3.5;
 
 impl Resting {
-    /// The slips that are stiff in a step of some `length`, in rescaled time; none if an explicit step does.
+    /// Returns the stiff slips of a step of `length` in rescaled time; `None` if an explicit step is sufficient.
     pub(super) fn stiff(&self, table: &Table, from: &Trial, length: f64) -> Option<Stiff> {
         let balls = &from.step.end.balls;
         let length = length * self.time_rate(table.radius, balls);
@@ -50,7 +50,7 @@ impl Resting {
         (stiffest > STIFF).then(|| Stiff(slips.into_iter().map(mode).collect()))
     }
 
-    /// How the slip at one place turns, and what a turn of its friction changes.
+    /// Returns the deviation of one slip's direction, and the effect of turning its friction.
     fn mode(&self, table: &Table, from: &Trial, place: Place, slip: DVec2) -> Mode {
         let balls = &from.step.end.balls;
         let across = slip.perp().normalize();

@@ -1,18 +1,17 @@
-//! Moments within a step: the one at which a law of its active set breaks, and the one at which another event ends the step
-//! early.
+//! Times within a step: when a law of its active set breaks, and when another event ends the step early.
 
 use super::{MAX_GUESSES, Resting, State, Trial};
 use crate::table::Table;
 
-/// After an interruption a step is tried that is so many times as long as the one that was interrupted.
+/// Ratio of the next trial step after an interruption to the interrupted step.
 const GROWTH_AFTER_INTERRUPTION: f64 = 4.0;
 
-/// At this share of its speed at the start the slip that scales time is spent: rescaled time goes on without end, and what is missing of
-/// the time is less than what rounding leaves of it.
+/// Share of its initial speed below which the slip that scales time counts as ended: rescaled time would continue to infinity, but the
+/// remaining time is below rounding.
 const SPENT: f64 = 1e-9;
 
 impl Resting {
-    /// Shortens a step at whose end a law of its active set is broken to just after the moment when that happened.
+    /// If a law of the active set is broken at the end of a step, shortens the step to just after the time of the break.
     pub(super) fn until_a_law_breaks(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
         if whole.forces.slack < -self.constants.tolerance.slack {
             let shorter = self.until_the_slack_ends(table, begin, whole);
@@ -23,7 +22,7 @@ impl Resting {
         self.while_it_holds(table, begin, whole)
     }
 
-    /// Finds the zero of the slack, by false position (Illinois) and by halves; each guess begins at the last place before.
+    /// Finds the zero of the slack by false position (Illinois) and bisection; each iteration starts at the last state before the zero.
     fn until_the_slack_ends(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
         let allowed = self.constants.tolerance.slack;
         let (mut before, mut after) = (*begin, *whole);
@@ -54,7 +53,7 @@ impl Resting {
         after
     }
 
-    /// The same where what is held is held more than once, so that only trying tells how long it holds.
+    /// As [`Self::until_the_slack_ends`] for over-constrained sets, whose end only a test of the laws can detect.
     fn while_it_holds(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
         let (mut before, mut after) = (*begin, *whole);
         while after.span - before.span > self.constants.tolerance.shortest_step.max(1e-9 * after.span) {
@@ -68,12 +67,12 @@ impl Resting {
         after
     }
 
-    /// State `time` seconds after the start of the step, by shorter steps of the same method.
+    /// Returns the state `time` seconds after the start of the step, by shorter steps of the same method.
     pub fn after(&self, table: &Table, time: f64) -> State {
         if time >= self.step { self.end } else { self.without_rounding(table, self.until(table, time).step.end.balls) }
     }
 
-    /// Ends the step `time` seconds after its start: its course is that of the shorter step.
+    /// Ends the step `time` seconds after its start: its trajectory becomes that of the shorter step.
     pub fn cut(&mut self, table: &Table, time: f64) {
         if time >= self.step {
             return;
@@ -84,16 +83,16 @@ impl Resting {
         (self.step, self.last) = (time, trial.forces);
         (self.end, self.goes_on) = (self.without_rounding(table, trial.step.end.balls), false);
         if time > 0.0 {
-            // What comes next is likely to be interrupted as soon.
+            // The next step will probably be interrupted after a similar time.
             self.next_step = GROWTH_AFTER_INTERRUPTION * time;
         }
     }
 
-    /// The step that ends after `time` seconds.
+    /// Returns the step that ends after `time` seconds.
     fn until(&self, table: &Table, time: f64) -> Trial {
         let mut trial = self.reach(table, &self.beginning(), time);
         if self.time_scale.is_some() {
-            // Newton's steps: how fast time runs is known.
+            // Newton iterations: the derivative of time is known.
             for _ in 0..MAX_GUESSES {
                 let late = time - trial.step.end.time;
                 if late.abs() <= 4.0 * f64::EPSILON * time {

@@ -1,8 +1,8 @@
-//! The forces where a ball's resistance to rolling eases: as much of it acts as the cloth can hold.
+//! Forces of a ball whose rolling resistance is in Filippov mode: it acts only as far as the cloth can hold the ball.
 //!
-//! All forces depend linearly on the share that is taken away, so that two solutions and a quadratic equation tell it. A ball that
-//! rolls along a cushion is kept from turning towards it by the cloth and by the cushion's friction upwards: how they divide that is one
-//! more unknown, and they hold most where both are at their limits.
+//! All forces are linear in the share of the resistance that is removed, so that two solutions and a quadratic equation give the share. A
+//! ball that rolls along a cushion is kept from turning towards it by the cloth and by the cushion's upward friction. Their division is one
+//! more unknown, and they hold most when both are at their limits.
 
 use glam::DVec2;
 
@@ -11,24 +11,24 @@ use super::{
 };
 use crate::{physics::contact::forces::DEPARTING, table::BALLS};
 
-/// Newton steps towards both limits; from the share that the cloth alone asks for it takes four or five.
+/// Bound on the Newton steps towards both limits; from the share for the cloth alone, four or five are enough.
 const MOST_STEPS: usize = 20;
 
-/// To this much the share is known, and the friction upwards as a share of the cloth's limit.
+/// Tolerance of the share, and of the upward friction as a share of the cloth's limit.
 const KNOWN: f64 = 1e-15;
 
-/// Forces in contacts and the movement that follows: linear in the share and in the friction upwards.
+/// Contact forces and the resulting motion, both linear in the share and in the upward friction.
 #[derive(Clone, Copy)]
 struct Solution<const ROOM: usize> {
     sizes: [Triple; ROOM],
     free: Movement,
     moved: Movement,
-    /// What the cloth holds against the slip of the ball whose resistance eases.
+    /// Force of the cloth against the slip of the ball in Filippov mode.
     cloth: DVec2,
 }
 
 impl<const ROOM: usize> Solution<ROOM> {
-    /// With a multiple of the way from one solution to another added.
+    /// Adds a multiple of the difference between two solutions.
     fn plus(mut self, factor: f64, from: &Self, to: &Self) -> Self {
         let sizes = from.sizes.as_flattened().iter().zip(to.sizes.as_flattened());
         for (sum, (from, to)) in self.sizes.as_flattened_mut().iter_mut().zip(sizes) {
@@ -42,7 +42,7 @@ impl<const ROOM: usize> Solution<ROOM> {
 }
 
 impl Movement {
-    /// Goes so many times the way from one movement to another.
+    /// Adds a multiple of the difference between two motions.
     fn follow(&mut self, factor: f64, from: &Self, to: &Self) {
         for ball in 0..BALLS {
             self.linear[ball] += factor * (to.linear[ball] - from.linear[ball]);
@@ -52,7 +52,7 @@ impl Movement {
 }
 
 impl<const ROOM: usize> Held<ROOM> {
-    /// Whether its forces are unique.
+    /// Whether the forces are unique.
     fn is_unique(&mut self) -> bool {
         self.number::<0>();
         let count = self.unknowns();
@@ -61,7 +61,7 @@ impl<const ROOM: usize> Held<ROOM> {
         factorize(&mut entries(&mut matrix)[..count * count], &mut pivots.as_flattened_mut()[..count]) > SINGULAR
     }
 
-    /// Forces and movement, and how the cloth holds the `ball`.
+    /// Returns forces and motion, including the force with which the cloth holds the `ball`.
     fn solution(&mut self, free: &Movement, ball: usize) -> Option<Solution<ROOM>> {
         let moved = self.solve(free, true)?;
         let unheld = self.unheld(free);
@@ -71,8 +71,8 @@ impl<const ROOM: usize> Held<ROOM> {
 }
 
 impl<const ROOM: usize> Solved<ROOM> {
-    /// The solution in which the `ball`'s resistance eases; the `free` movement has all of it. None where a force can be divided in
-    /// more ways than one cushion's.
+    /// Returns the solution with the `ball`'s resistance in Filippov mode; the `free` motion includes the whole resistance. `None` if the
+    /// division of a force is ambiguous beyond that with a single cushion.
     #[cold]
     #[inline(never)]
     pub(super) fn easing(
@@ -109,11 +109,11 @@ impl<const ROOM: usize> Solved<ROOM> {
         }
         let Solution { sizes, free, moved, .. } = solution.plus(edge.share.min(1.0), &whole, &none);
         system.sizes = sizes;
-        Some(Self { system, free, moved, within: edge.slack(DEPARTING * table.gravity) })
+        Some(Self { system, free, moved, share_margin: edge.slack(DEPARTING * table.gravity) })
     }
 }
 
-/// A force as it depends on the share of the resistance that is taken away and on the friction upwards, per mass, m/s².
+/// A force as a linear function of the removed share of the resistance and of the upward friction, per mass, m/s².
 #[derive(Clone, Copy)]
 struct Force {
     whole: DVec2,
@@ -126,7 +126,7 @@ impl Force {
         Self { whole: factor * self.whole, by_share: factor * self.by_share, by_up: factor * self.by_up }
     }
 
-    /// Its size and how that changes.
+    /// Returns the magnitude and its derivatives with respect to share and upward friction.
     fn size(&self, share: f64, up: f64) -> (f64, DVec2) {
         let force = self.whole + share * self.by_share + up * self.by_up;
         let direction = force.normalize_or_zero();
@@ -134,20 +134,20 @@ impl Force {
     }
 }
 
-/// Where what holds a ball is just at its limit.
+/// The state in which the holding forces are exactly at their limits.
 #[derive(Clone, Copy)]
 struct Edge {
     share: f64,
-    /// How fast the forces fall below their limits as the share grows, m/s².
+    /// Decrease of the forces relative to their limits per unit of share, m/s².
     falls: f64,
-    /// By how much they are above them all the same, m/s².
+    /// Remaining excess of the forces over their limits, m/s².
     over: f64,
-    /// By how much none of them gives way to the other, m/s².
+    /// Margin by which neither force takes over the whole load, m/s².
     divided: f64,
 }
 
 impl Edge {
-    /// The least share with which the cloth is not above its limit, or nearest to it.
+    /// Returns the smallest share at which the cloth is within its limit, or the share nearest to that.
     fn of_the_cloth(limit: f64, held: Force) -> Self {
         let (square, falls) = (held.by_share.length_squared(), -held.whole.dot(held.by_share));
         let excess = held.whole.length_squared() - limit * limit;
@@ -157,8 +157,8 @@ impl Edge {
         Self { share, falls: -by.x, over: size - limit, divided: f64::INFINITY }
     }
 
-    /// The share with which the cloth and a cushion's friction, which may be as large as `most`, are both at their limits, and what it
-    /// adds to the friction upwards; none where there is none.
+    /// Returns the share at which the cloth and a cushion's friction, with the limit `most`, are both at their limits, and the resulting
+    /// change of the upward friction; `None` if there is no such share.
     fn with_a_cushion(mut self, limit: f64, held: Force, friction: Force, most: Force) -> Option<(Self, f64)> {
         let mut up = 0.0;
         for _ in 0..MOST_STEPS {
@@ -168,7 +168,7 @@ impl Edge {
                 (DVec2::new(cloth.1.x, friction.1.x - most.1.x), DVec2::new(cloth.1.y, friction.1.y - most.1.y));
             let area = by_share.perp_dot(by_up);
             let (share_step, up_step) = (-over.perp_dot(by_up) / area, -by_share.perp_dot(over) / area);
-            // More from below takes as much off the one as it puts on the other.
+            // More upward friction relieves one and loads the other equally.
             let part = by_up.y / (by_up.y - by_up.x);
             self = Self {
                 share: self.share + share_step,
@@ -184,7 +184,7 @@ impl Edge {
         (self.share.is_finite() && up.is_finite()).then_some((self, up))
     }
 
-    /// By how much the share is within its bounds, m/s²; what slips more slowly than at the rate `departing` holds.
+    /// Returns the margin of the share from its bounds, m/s²; a slip rate below `departing` counts as sticking.
     fn slack(&self, departing: f64) -> f64 {
         let bounds = (self.share * self.falls).min((1.0 - self.share) * self.falls + departing);
         bounds.min(self.divided) - self.over.max(0.0)

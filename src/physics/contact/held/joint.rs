@@ -1,4 +1,4 @@
-//! A contact as a joint of two bodies: the directions of its forces, what they do to its balls, and the rates that they resist.
+//! A contact as a joint of two bodies: force directions, their effect on the balls, and the rates that they resist.
 
 use glam::{DVec2, DVec3};
 
@@ -10,7 +10,7 @@ use crate::{
     table::BALLS,
 };
 
-/// Accelerations, speeds or their changes: of the centre, and R times those of the spin.
+/// Accelerations, velocities or their changes: of the centre, and R times those of the spin.
 #[derive(Clone, Copy, Debug)]
 pub struct Movement {
     pub linear: [DVec2; BALLS],
@@ -20,7 +20,7 @@ pub struct Movement {
 impl Movement {
     pub const NONE: Self = Self { linear: [DVec2::ZERO; BALLS], angular: [DVec3::ZERO; BALLS] };
 
-    /// The largest difference of the members' speeds.
+    /// Returns the largest difference of the members' motions.
     pub fn distance(&self, other: &Self, members: [bool; BALLS]) -> f64 {
         (0..BALLS).filter(|&ball| members[ball]).fold(0.0, |largest, ball| {
             let linear = self.linear[ball].distance(other.linear[ball]);
@@ -29,7 +29,7 @@ impl Movement {
     }
 }
 
-/// How a contact's balls, the first and the second, move under one of its unknowns alone.
+/// Motion of a contact's first and second ball under one of its unknowns alone.
 #[derive(Clone, Copy)]
 pub struct Response {
     pub linear: [DVec2; 2],
@@ -40,23 +40,23 @@ impl Response {
     pub const NONE: Self = Self { linear: [DVec2::ZERO; 2], angular: [DVec3::ZERO; 2] };
 }
 
-/// Along a contact's normal, its tangent `t = z×n` and z: forces, or rates.
+/// Components of a force or rate along a contact's normal, its tangent `t = z×n` and z.
 pub type Triple = [f64; 3];
 
-/// A contact and what is known of it.
+/// A contact with its precomputed geometry.
 #[derive(Clone, Copy)]
 pub struct Joint {
     pub first: usize,
     pub second: Option<usize>,
     pub n: DVec2,
     pub t: DVec2,
-    /// Its first unknown.
+    /// Index of its first unknown.
     pub at: usize,
-    /// The normal force alone, or two frictions that hold as well; without the one upwards where that is prescribed.
+    /// Number of unknowns: the normal force alone, or with two sticking frictions; 2 if the upward friction is prescribed.
     pub unknowns: usize,
-    /// Friction along t and z for each unit of the normal force, where the contact slips.
+    /// Friction along t and z per unit of normal force, if the contact slips.
     pub slip_friction: DVec2,
-    /// What the rates have besides the accelerations' part, m/s²: two balls' courses around each other bend.
+    /// Part of the rates that does not depend on the accelerations, m/s²: the contact frame of two balls rotates.
     pub bias: Triple,
 }
 
@@ -72,8 +72,8 @@ impl Joint {
         bias: [0.0; 3],
     };
 
-    /// The joint of a contact whose friction does this, with the coefficient `mu` where it slips; the numbers of its unknowns begin
-    /// at 0. The balls' radius is in m.
+    /// Creates the joint of a contact with this friction mode and the coefficient `mu` for slip. Its unknowns are numbered from 0. `radius`
+    /// is the balls' radius, m.
     #[inline(always)]
     pub fn new(radius: f64, balls: &[BallState; BALLS], contact: &Contact, friction: Friction, mu: f64) -> Self {
         let (n, slip) = contact.normal_and_slip(radius, balls);
@@ -90,7 +90,7 @@ impl Joint {
         }
     }
 
-    /// The force of one unknown alone.
+    /// Returns the force of one unknown alone.
     pub fn unit(&self, unknown: usize) -> Triple {
         match unknown {
             0 => [1.0, self.slip_friction.x, self.slip_friction.y],
@@ -99,45 +99,45 @@ impl Joint {
         }
     }
 
-    /// What a force does to each of its balls: the push, which the second gets the other way, and the twist.
+    /// Returns the effect of a force on the balls: the push, which acts on the second ball in the opposite direction, and the twist.
     pub fn act(&self, [normal, along, up]: Triple) -> (DVec2, DVec3) {
         (normal * self.n + along * self.t, (2.5 * up * self.t).extend(-2.5 * along))
     }
 
-    /// Its balls, with the sense in which a force acts on them.
+    /// Returns the balls, with the sign with which a force acts on them.
     pub fn members(&self) -> impl Iterator<Item = (usize, f64)> {
         [(self.first, 1.0)].into_iter().chain(self.second.map(|second| (second, -1.0)))
     }
 
     #[inline(always)]
     pub fn rates(&self, movement: &Movement) -> Triple {
-        let (mut apart, mut around) = (movement.linear[self.first], movement.angular[self.first]);
+        let (mut relative, mut around) = (movement.linear[self.first], movement.angular[self.first]);
         if let Some(second) = self.second {
-            apart -= movement.linear[second];
+            relative -= movement.linear[second];
             around += movement.angular[second];
         }
-        self.rates_of(apart, around)
+        self.rates_of(relative, around)
     }
 
-    /// The same where only the balls of another contact move, in `response` to it.
+    /// As [`Self::rates`] if only the balls of another contact move, by `response`.
     #[inline(always)]
     pub fn rates_by(&self, other: &Self, response: &Response) -> Triple {
-        let (mut apart, mut around) = (DVec2::ZERO, DVec3::ZERO);
+        let (mut relative, mut around) = (DVec2::ZERO, DVec3::ZERO);
         for (place, (ball, _)) in other.members().enumerate() {
             if let Some((_, sense)) = self.members().find(|(member, _)| *member == ball) {
-                apart += sense * response.linear[place];
+                relative += sense * response.linear[place];
                 around += response.angular[place];
             }
         }
-        self.rates_of(apart, around)
+        self.rates_of(relative, around)
     }
 
     #[inline(always)]
-    fn rates_of(&self, apart: DVec2, around: DVec3) -> Triple {
-        [apart.dot(self.n), apart.dot(self.t) - around.z, around.truncate().dot(self.t)]
+    fn rates_of(&self, relative: DVec2, around: DVec3) -> Triple {
+        [relative.dot(self.n), relative.dot(self.t) - around.z, around.truncate().dot(self.t)]
     }
 
-    /// Adds a multiple of a response to it to a movement.
+    /// Adds a multiple of a response of this contact to a motion.
     #[inline(always)]
     pub fn add(&self, movement: &mut Movement, factor: f64, response: &Response) {
         for (place, (ball, _)) in self.members().enumerate() {

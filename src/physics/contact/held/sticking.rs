@@ -1,10 +1,10 @@
-//! What the cloth does to a ball that a force would move: it is taken out of the contacts' system beforehand.
+//! Holding forces of the cloth, which are eliminated from the contacts' system beforehand.
 
 use glam::{DVec2, DVec3};
 
 use crate::physics::contact::{ActiveSet, Friction};
 
-/// How the cloth holds a ball.
+/// Mode in which the cloth holds a ball.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Cloth {
     Slides,
@@ -12,14 +12,14 @@ pub enum Cloth {
     Stands,
 }
 
-/// The cloth's forces on a ball that it holds: against slip, against rolling, against spin.
+/// Holding forces of the cloth on a ball: against slip, against rolling, against spin.
 pub type Holding = (DVec2, DVec2, f64);
 
-/// What the cloth does to a ball that would move otherwise.
+/// Holding modes of the cloth for one ball.
 #[derive(Clone, Copy)]
 pub struct Sticking {
     pub cloth: Cloth,
-    /// Whether the spin about the vertical is held.
+    /// Whether the spin about the vertical is held at zero.
     pub spin: bool,
 }
 
@@ -33,12 +33,12 @@ impl Sticking {
         Self { cloth, spin: !matches!(set.spin[ball], Friction::Slips(_)) }
     }
 
-    /// The forces that hold a ball which would move like this without them.
+    /// Returns the forces that hold a ball with this motion without them.
     pub fn holding(self, linear: DVec2, angular: DVec3) -> Holding {
         let around = angular.truncate();
         let (cloth, roll) = match self.cloth {
             Cloth::Slides => (DVec2::ZERO, DVec2::ZERO),
-            // The slip's rate is a + z×Rα, and a force at the lowest point adds 7/2 of itself.
+            // The slip's rate is a + z×Rα; a force at the lowest point adds 7/2 of itself.
             Cloth::Rolls => ((linear + around.perp()) / -3.5, DVec2::ZERO),
             Cloth::Stands => {
                 let cloth = around.perp() / -2.5;
@@ -48,7 +48,7 @@ impl Sticking {
         (cloth, roll, if self.spin { angular.z / -2.5 } else { 0.0 })
     }
 
-    /// The movement that is left.
+    /// Returns the remaining motion after the holding forces.
     pub fn held(self, linear: DVec2, angular: DVec3) -> (DVec2, DVec3) {
         let around = angular.truncate();
         let spin = if self.spin { 0.0 } else { angular.z };

@@ -1,4 +1,4 @@
-//! Impulses that stop what moves no longer: what is left, by rounding or by the end of a slip, of speeds that are to be zero.
+//! Impulses that cancel residual speeds: velocities that should be zero but are not, because of rounding or the end of a slip.
 
 use glam::DVec2;
 
@@ -8,15 +8,14 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// Impulses that stop some speeds change others by a few times as much. Where it is far more, the contacts are about to open,
-/// and what is stopped is rounding.
+/// Impulses that cancel some speeds may change others by a few times as much. If it is far more, the contacts are about to open, and the
+/// residual is rounding.
 const MOST_AMPLIFICATION: f64 = 100.0;
 
-/// Takes out of velocities and spins what is left of speeds that are to be zero: the opening of `contacts` and the slips that
-/// do not last by `set`, by impulses in those contacts, as the ends of slips do: a push that stops something has friction where its
-/// contact slips. An impulse that would have to pull takes back part of what an impact has just `given` a contact, per mass in
-/// m/s, and its friction with it; beyond that it is rounding, and has nothing to rub with: energy would be gained. Where the
-/// speeds cannot all vanish, or not without changing others by far more, all stay.
+/// Cancels residual speeds: the opening speed of `contacts` and, according to `set`, the slips that have ended. It uses impulses in these
+/// contacts: an impulse that pushes has friction if its contact slips. An impulse that would have to pull takes back part of what an impact
+/// has just `given` a contact, per mass in m/s, with its friction. Beyond that it is a rounding error and has no friction: energy would be
+/// gained. If the speeds cannot all vanish, or only with far larger changes of others, all velocities stay.
 pub fn stop_by_impulses(
     table: &Table,
     balls: &mut [BallState; BALLS],
@@ -34,10 +33,10 @@ pub fn stop_by_impulses(
     }
 }
 
-/// The movement that is left; `None` where all speeds stay.
+/// Returns the corrected motion; `None` if all speeds stay.
 fn stopped_in<const ROOM: usize>(scene: Scene<'_>, given: &[f64; MAX_CONTACTS]) -> Option<Movement> {
     let Scene { table, balls, .. } = scene;
-    // Balls without a coefficient of friction have no rubbing of their own: what stops them does not slip.
+    // Contacts without a coefficient of friction have no slip friction: the impulses that stop them do not slip.
     let mut system = Held::<ROOM>::new(scene, |contact| !contact.never_slips(table));
     let speeds =
         Movement { linear: balls.map(|ball| ball.velocity), angular: balls.map(|ball| table.radius * ball.spin) };
@@ -50,7 +49,7 @@ fn stopped_in<const ROOM: usize>(scene: Scene<'_>, given: &[f64; MAX_CONTACTS]) 
 }
 
 impl<const ROOM: usize> Held<ROOM> {
-    /// The largest of the speeds that are to be zero.
+    /// Returns the largest of the speeds that should be zero.
     fn to_stop(&self, speeds: &Movement) -> f64 {
         let moved = self.held(speeds);
         let largest = moved.distance(speeds, self.members);
@@ -60,8 +59,7 @@ impl<const ROOM: usize> Held<ROOM> {
         })
     }
 
-    /// Takes the friction of contacts that slip away where they pull back more than has been `given`; tells whether there are
-    /// any.
+    /// Removes the friction of slipping contacts that pull more than they were `given`. Returns whether there are any.
     fn smooth_what_pulls(&mut self, given: &[f64; MAX_CONTACTS]) -> bool {
         let mut any = false;
         for ((joint, sizes), given) in self.joints[..self.contacts].iter_mut().zip(&self.sizes).zip(given) {

@@ -1,9 +1,9 @@
-//! Impulses that stop what is to stand still, and contacts that cannot all be held.
+//! Tests of impulses that cancel residual speeds, and of contacts that cannot all be held.
 
 use super::*;
 use crate::physics::BallState;
 
-/// A ball at a cushion, which it slips on and leaves at some speed.
+/// A ball at a cushion that slips on it and opens at this speed.
 fn rubbing(opening: f64) -> (Table, [BallState; BALLS], [Contact; 1]) {
     let table = Table::preset("textbook").unwrap();
     let mut balls = [0.0, 0.3, -0.3].map(|x| BallState::at_rest(DVec2::new(x, 0.0)));
@@ -23,13 +23,13 @@ fn stopped(opening: f64, given: f64) -> f64 {
 }
 
 #[test]
-fn what_would_have_to_pull_gains_no_energy() {
+fn an_impulse_that_would_have_to_pull_gains_no_energy() {
     assert!(stopped(1e-9, 0.0) <= f64::EPSILON);
-    // What closes is pushed, and rubs.
+    // A closing contact is pushed and has friction.
     assert!(stopped(-1e-9, 0.0) < -1e-11);
 }
 
-/// Taken for rounding of the spin's 40 rad/s, it would be left, and carry the ball on.
+/// If such a speed were treated as rounding of the spin's 40 rad/s, it would remain and carry the ball away.
 #[test]
 fn a_speed_that_is_rounding_beside_a_spin_is_stopped() {
     assert!(stopped(1e-13, 0.0) <= f64::EPSILON);
@@ -41,8 +41,8 @@ fn a_push_that_was_too_large_is_taken_back_with_its_friction() {
     assert!(stopped(1e-9, 1e-6) > 1e-11);
 }
 
-/// A ball between a cushion and one that lies still, along which it slides: its course would have to bend to touch both. Held by the
-/// forces of the moment in which it has hardly moved, it would gain energy.
+/// A ball slides along a ball at rest, between that ball and a cushion: its trajectory would have to curve to touch both. Held by the
+/// forces of the first instant, it would gain energy.
 #[test]
 fn a_ball_cannot_both_stay_on_a_cushion_and_go_round_another() {
     let table = Table::preset("textbook").unwrap();
@@ -55,7 +55,7 @@ fn a_ball_cannot_both_stay_on_a_cushion_and_go_round_another() {
         let set = ActiveSet::of(&table, &balls, &contacts, 1e-9);
         let scene = Scene { table: &table, balls: &balls, contacts: &contacts, set: &set };
         let mut pressed = Forces::NONE;
-        // The cushion takes what the cloth's friction pushes, the other ball no more than it can without being moved.
+        // The cushion takes the push of the cloth's friction; the other ball takes no more than it can without being moved.
         pressed.normal[..2].copy_from_slice(&[1.75, 0.04]);
         scene.forces(Some(&pressed)).expect("forces").slack
     };

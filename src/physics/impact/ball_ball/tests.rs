@@ -1,4 +1,4 @@
-//! What holds for every law of two balls' impacts.
+//! Properties of every ball-ball impact law.
 
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -8,10 +8,10 @@ use super::*;
 /// Radius of the balls, m.
 const RADIUS: f64 = 0.03;
 
-/// Rounding of sums of squares of a few m/s.
+/// Rounding error of sums of squares of a few m/s.
 const ROUNDING: f64 = 1e-12;
 
-/// Laws with friction and without a coefficient, the same for all impacts or by their speeds.
+/// Laws with and without a coefficient of friction, constant or dependent on speed and slip.
 fn laws() -> impl Strategy<Value = BallImpact> {
     let fade = (0.0..3.0f64, 0.0..0.2f64, 0.0..1.0f64).prop_map(|(from, slope, least)| Fade { from, slope, least });
     let by_slip =
@@ -20,7 +20,7 @@ fn laws() -> impl Strategy<Value = BallImpact> {
         .prop_map(|(restitution, friction, fade, by_slip)| BallImpact { restitution, friction, fade, by_slip })
 }
 
-/// Two balls that touch and approach each other, and the unit vector from the second to the first.
+/// Two touching balls that approach each other, and the unit vector from the second to the first.
 fn meeting() -> impl Strategy<Value = (DVec2, [BallState; 2])> {
     let velocities = prop::array::uniform4(-5.0..5.0f64);
     let spins = prop::array::uniform6(-200.0..200.0f64);
@@ -32,7 +32,7 @@ fn meeting() -> impl Strategy<Value = (DVec2, [BallState; 2])> {
             spin: DVec3::from_slice(w),
         };
         let mut balls = [ball(n * 2.0 * RADIUS, &v[..2], &w[..3]), ball(DVec2::ZERO, &v[2..], &w[3..])];
-        // Balls that fly apart are sent at each other instead.
+        // If the balls would separate, their velocities are reversed.
         let sign = (balls[1].velocity - balls[0].velocity).dot(n).signum();
         for ball in &mut balls {
             ball.velocity *= sign;
@@ -47,7 +47,7 @@ fn collide(law: &BallImpact, balls: [BallState; 2]) -> [BallState; 2] {
     [first, second]
 }
 
-/// Whether two pairs are the same but for rounding, in velocity and R times spin.
+/// Whether two pairs are equal up to rounding, in velocity and R times spin.
 fn are_same(one: &[BallState; 2], other: &[BallState; 2]) -> bool {
     one.iter().zip(other).all(|(one, other)| {
         one.velocity.distance(other.velocity).max(RADIUS * one.spin.distance(other.spin)) < ROUNDING
@@ -67,9 +67,9 @@ proptest! {
         prop_assert!(energy(&after) <= energy(&before) * (1.0 + 1e-14) + 1e-13);
     }
 
-    /// Without loss an impact is undone by the same impact of the reversed velocities.
+    /// An impact without loss is undone by the same impact with reversed velocities.
     #[test]
-    fn what_loses_nothing_runs_backwards((_, before) in meeting()) {
+    fn an_impact_without_loss_is_reversible((_, before) in meeting()) {
         let law = BallImpact { restitution: 1.0, friction: Some(0.0), fade: None, by_slip: None };
         let reversed = |balls: [BallState; 2]| {
             balls.map(|ball| BallState { velocity: -ball.velocity, spin: -ball.spin, ..ball })
@@ -78,7 +78,7 @@ proptest! {
         prop_assert!(are_same(&back, &before), "{back:?}");
     }
 
-    /// Velocities are mirrored as they are, spins as the axes they are.
+    /// A reflection mirrors velocities as polar vectors and spins as axial vectors.
     #[test]
     fn mirrored_balls_part_mirrored(law in laws(), (_, before) in meeting()) {
         let mirror = |balls: [BallState; 2]| {

@@ -4,10 +4,10 @@ use glam::DVec2;
 
 use super::{super::contact_twist, BallState};
 
-/// Velocity and spin after a collision with the cushion whose normal into the table is `n`. Returns the normal impulse
-/// per mass `P/m`, m/s, which is zero or less for a ball that does not approach.
+/// Applies a collision with the cushion whose normal into the table is `n`. Returns the normal impulse per mass `P/m`, m/s, which is zero
+/// or negative for a ball that does not approach.
 ///
-/// Equations (22) and (23), with Coulomb's law up to the no-slip limit 2/7.
+/// Equations (22) and (23), with Coulomb friction up to the no-slip limit 2/7.
 #[inline]
 pub(super) fn collide_rail(radius: f64, restitution: f64, friction: f64, n: DVec2, ball: &mut BallState) -> f64 {
     let normal = -(1.0 + restitution) * ball.velocity.dot(n);
@@ -18,7 +18,7 @@ pub(super) fn collide_rail(radius: f64, restitution: f64, friction: f64, n: DVec
     let slip_t = ball.velocity.dot(t) - radius * ball.spin.z;
     let slip_z = radius * (ball.spin.x * t.x + ball.spin.y * t.y);
     let slip = (slip_t * slip_t + slip_z * slip_z).sqrt();
-    // Whether it slips is as good as random: the lesser of both costs less than a branch.
+    // Whether the contact slips or sticks is unpredictable, so that a minimum costs less than a branch.
     let (slips, holds) = (friction * normal / slip, 2.0 / 7.0);
     let factor = if slips < holds { slips } else { holds };
     ball.velocity += normal * n - factor * slip_t * t;

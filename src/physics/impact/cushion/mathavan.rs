@@ -1,30 +1,31 @@
-//! Impact at the height of the nose, integrated over its impulse: Mathavan, Jackson and Parkin, "A theoretical analysis of
-//! billiard ball dynamics under cushion impacts" (2010).
+//! Impact at the height of the nose, integrated over its impulse: Mathavan, Jackson and Parkin, "A theoretical analysis of billiard ball
+//! dynamics under cushion impacts" (2010).
 //!
-//! While the impulse `P` along the line of the impact grows, the nose's friction acts on the ball with `μ dP` against the slip there,
-//! and the ball, pressed into the cloth by `dN = (sin α + μ cos α · slip's upward share) dP`, is rubbed by the cloth with
-//! `μ_s dN` against its slip below. Compression ends when the ball no longer approaches; restitution gives back the
-//! share `e²` of the work that compression took (Stronge).
+//! While the impulse `P` along the line of impact grows, the nose's friction acts on the ball with `μ dP` against the slip there. The ball
+//! is pressed into the cloth by `dN = (sin α + μ cos α · upward share of the slip) dP`, and the cloth's friction acts with `μ_s dN` against
+//! its slip there. Compression ends when the ball no longer approaches. Restitution returns the share `e²` of the work of compression
+//! (Stronge).
 //!
-//! Speeds change evenly with the impulse but for the directions of the two slips, so that few steps are enough; where the nose
-//! holds the ball, a step's friction is what its other forces leave to be held.
+//! Velocities are linear in the impulse, except for the directions of the two slips, so that a few steps are enough. If the nose sticks,
+//! the friction of a step balances the other forces.
 
 use glam::{DVec2, DVec3};
 
 use super::BallState;
 
-/// Steps for compression, and as many for restitution. Speeds of an impact at 1 m/s are right to 0.3 mm/s in the median, 2 mm/s in nine
-/// of ten, and 4 cm/s at worst, where a slip ends within a step: a tenth of what the law is off real rails by.
+/// Steps for compression, and the same number for restitution. For an impact at 1 m/s, the velocity error is 0.3 mm/s in the median, below
+/// 2 mm/s in nine of ten cases, and 4 cm/s at worst, if a slip ends within a step. This is a tenth of the law's deviation from real rails.
 const STEPS: u32 = 4;
 
-/// Share of what would hold the ball below which the slip keeps its direction: it saves a square root.
+/// If the fourth power of available over holding friction is below this, the slip keeps its direction; this saves a square root.
 const NEARLY_FREE: f64 = 0.02;
 
-/// No nose and no cloth take more than nine tenths of what drives a ball out: a guard for those that could hold it.
+/// Smallest rate of outward velocity per impulse: friction of nose and cloth cancels at most nine tenths of the driving force. Guard
+/// against constants with which friction could hold the ball in the rail.
 const LEAST_GAIN: f64 = 0.1;
 
-/// Velocity along the normal into the table and along the cushion, and speeds of the spin at the equator, `R ω`, about
-/// these two and the vertical, all m/s.
+/// Velocity along the normal into the table and along the cushion, and the equatorial speeds `R ω` of the spin about these two axes and the
+/// vertical, all m/s.
 #[derive(Clone, Copy)]
 struct Motion {
     velocity: DVec2,
@@ -37,7 +38,7 @@ impl Motion {
     }
 }
 
-/// What the impact is about: friction of nose and cloth, sine and cosine of the nose's height.
+/// Coefficients of friction of nose and cloth, and sine and cosine of the nose's elevation.
 struct Law {
     nose: f64,
     cloth: f64,
@@ -46,27 +47,27 @@ struct Law {
 }
 
 impl Law {
-    /// Slip at the nose, along the cushion and across the line of the impact.
+    /// Returns the slip at the nose, along the cushion and orthogonal to both the cushion and the line of impact.
     fn slip(&self, Motion { velocity: v, spin: w }: &Motion) -> DVec2 {
         DVec2::new(v.y - (self.cosine * w.z + self.sine * w.x), w.y + self.sine * v.x)
     }
 
-    /// Change of `from` for each unit of impulse per mass along the line of the impact, over so much of it, with slips in the
-    /// directions that they have at `at`.
+    /// Returns the derivative of the motion with respect to the impulse per mass along the line of impact, for a step of `impulse` that
+    /// starts at `from`. The slip directions are those at `at`.
     fn rate(&self, from: &Motion, at: &Motion, impulse: f64) -> Motion {
         let Self { nose, cloth, sine, cosine } = *self;
         let below = DVec2::new(at.velocity.x - at.spin.y, at.velocity.y + at.spin.x);
-        // The cloth's friction for each unit by which the ball is pressed down.
+        // Friction of the cloth per unit of downward impulse.
         let drag = -cloth * below.normalize_or_zero();
         let rate = |friction: DVec2| {
-            // Upwards the nose lifts with its friction and presses down with its normal force.
+            // The upward friction of the nose lifts the ball; its normal force presses the ball down.
             let drag = (sine - friction.y * cosine).max(0.0) * drag;
             Motion {
                 velocity: DVec2::new(cosine + friction.y * sine + drag.x, friction.x + drag.y),
                 spin: 2.5 * DVec3::new(drag.y - friction.x * sine, friction.y - drag.x, -friction.x * cosine),
             }
         };
-        // The friction that leaves no slip at the end: the slip changes in proportion to it.
+        // Friction that leaves no slip at the end of the step: the slip is linear in the friction.
         let dragged = DVec2::new((1.0 - 2.5 * sine) * drag.y, (sine - 2.5) * drag.x);
         let left = self.slip(from) / impulse + sine * (DVec2::new(0.0, cosine) + dragged);
         let up = -left.y / (2.5 + sine * sine - cosine * dragged.y);
@@ -76,7 +77,7 @@ impl Law {
             return rate(holding);
         }
         let slip = self.slip(at).normalize_or_zero();
-        // Shortly before the nose holds the ball, the slip turns to where it will be held.
+        // Shortly before the nose sticks, the slip direction is blended towards that of the sticking friction.
         let near = share * share;
         if near < NEARLY_FREE {
             return rate(-nose * slip);
@@ -85,21 +86,21 @@ impl Law {
         rate(nose * against.normalize_or_zero())
     }
 
-    /// The same, but that it drives the ball out.
+    /// As [`Self::step`], but at least with the outward rate [`LEAST_GAIN`].
     fn driven_out(&self, motion: &Motion, impulse: f64) -> Motion {
         let Motion { velocity, spin } = self.step(motion, impulse);
         Motion { velocity: velocity.with_x(velocity.x.max(LEAST_GAIN)), spin }
     }
 
-    /// Change for each unit of impulse over so much of it: the midpoint method.
+    /// Returns the derivative for a step of `impulse` by the midpoint method.
     fn step(&self, motion: &Motion, impulse: f64) -> Motion {
         let first = self.rate(motion, motion, 0.5 * impulse);
         self.rate(motion, &motion.plus(0.5 * impulse, &first), impulse)
     }
 }
 
-/// Velocity and spin after the collision; `[nose, cloth]` the coefficients of friction, `[sine, cosine]` of the nose's
-/// height, `n` the normal into the table. Returns the impulse per mass along the line of the impact, m/s.
+/// Applies the collision; `[nose, cloth]` are the coefficients of friction, `[sine, cosine]` those of the nose's elevation, `n` is the
+/// normal into the table. Returns the impulse per mass along the line of impact, m/s.
 pub(super) fn collide(
     radius: f64,
     restitution: f64,
@@ -124,18 +125,18 @@ pub(super) fn collide(
     impulse
 }
 
-/// The same for an approaching motion, in so many steps for compression and for restitution.
+/// Integrates an impact of an approaching ball, with `steps` steps each for compression and restitution. Returns the impulse per mass.
 fn integrate(law: &Law, restitution: f64, motion: &mut Motion, steps: u32) -> f64 {
-    // Work along the line of the impact is the mean speed times the impulse, the speed being v_n cos α; here without the cosine.
+    // Work along the line of impact is the mean speed times the impulse. The speed is v_n cos α; here without the factor cos α.
     let (mut impulse, mut work) = (0.0, 0.0);
-    // By how much the speed along the normal grows with the impulse.
+    // Increase of the normal velocity per unit of impulse.
     let mut gain = law.cosine;
     for left in (1..=steps).rev() {
         let approach = -motion.velocity.x;
         let planned = approach / (gain * f64::from(left));
         let rate = law.driven_out(motion, planned);
         gain = rate.velocity.x;
-        // The last step ends where the ball stands.
+        // The last step ends when the normal velocity is zero.
         let part = if left == 1 { approach / gain } else { planned.min(approach / gain) };
         let next = motion.plus(part, &rate);
         work -= 0.5 * (motion.velocity.x + next.velocity.x) * part;
@@ -148,7 +149,7 @@ fn integrate(law: &Law, restitution: f64, motion: &mut Motion, steps: u32) -> f6
     let mut owed = restitution * restitution * work;
     for left in (1..=steps).rev() {
         let slow = motion.velocity.x.max(0.0);
-        // The impulse that gives back the work, while the speed grows evenly.
+        // Impulse that returns the owed work at a constant rate `gain`.
         let until = |gain: f64| 2.0 * owed / (slow + (slow * slow + 2.0 * gain * owed).sqrt());
         let planned = until(gain) / f64::from(left);
         if planned.is_nan() || planned <= 0.0 {
@@ -185,7 +186,7 @@ mod tests {
     #[test]
     fn few_steps_are_as_near_as_is_said_and_more_come_nearer() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(7);
-        // Balls that come at 1 m/s, every other of them rolling.
+        // Balls that approach at 1 m/s; every second one rolls.
         let starts: Vec<Motion> = (0..400)
             .map(|index| {
                 let mut number = |wide: f64| wide * (2.0 * rng.random::<f64>() - 1.0);
@@ -214,8 +215,8 @@ mod tests {
     #[test]
     fn many_steps_come_where_friction_alone_leads_that_never_holds() {
         let (law, e) = (law(), 0.889);
-        // Each tiny step is rubbed against the slip at its start; where the nose would hold the ball, the slip trembles about nought.
-        let rubbed = |start: &Motion| {
+        // Explicit tiny steps with friction against the slip at their start; while the nose should stick, the slip oscillates about zero.
+        let explicit = |start: &Motion| {
             let (mut motion, mut work, mut done) = (*start, 0.0, 0.0);
             let (size, mut owed) = (1e-5, f64::INFINITY);
             while owed > 0.0 {
@@ -248,7 +249,7 @@ mod tests {
                 velocity: DVec2::new(-1.0, number(2.0)),
                 spin: DVec3::new(number(2.0), number(2.0), number(2.0)),
             };
-            let (ours, slow) = (after(&start, 4096), rubbed(&start));
+            let (ours, slow) = (after(&start, 4096), explicit(&start));
             let off = ours.velocity.distance(slow.velocity) + ours.spin.distance(slow.spin);
             assert!(off < 2e-3, "{off:e}");
         }
@@ -274,7 +275,7 @@ mod tests {
 
     #[test]
     fn a_ball_that_comes_straight_without_slip_below_leaves_with_the_work_that_is_given_back() {
-        // Without friction the speed falls by e alone.
+        // Without friction, the speed is reduced by the factor e alone.
         let smooth = Law { nose: 0.0, cloth: 0.0, ..law() };
         let mut motion = Motion { velocity: DVec2::new(-1.5, 0.7), spin: DVec3::new(0.1, 0.2, 0.3) };
         let impulse = integrate(&smooth, 0.889, &mut motion, STEPS);

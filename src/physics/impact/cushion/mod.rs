@@ -1,4 +1,4 @@
-//! Collision of a ball with a cushion: one law a model, chosen by the table.
+//! Collision of a ball with a cushion: one law per rail model, selected by the table.
 
 mod equator;
 mod mathavan;
@@ -11,44 +11,46 @@ use crate::table::{Fade, Rail, RailModel, Rails, Table};
 use equator::collide_rail;
 use nose::StickSlip;
 
-/// One cushion, as an impact needs it.
+/// Impact constants of one cushion.
 #[derive(Clone, Copy, Debug)]
 pub struct Cushion {
-    /// Restitution at a slow impact.
+    /// Restitution at low impact speed.
     pub restitution: f64,
     /// Coefficient of friction.
     pub friction: f64,
-    /// The law of its impacts.
+    /// The impact law.
     law: Law,
     fade: Option<Fade>,
 }
 
-/// How often a ball may meet a nose again at once, and the share of its approach that may be left. By the laws of accepted tables what is
-/// left falls to 0.84 of itself at most.
-const AGAIN: u32 = 200;
-const LEFT: f64 = 1e-14;
+/// Largest number of immediately repeated impacts with a nose. On accepted tables, each repetition leaves at most 0.84 of the approach
+/// speed.
+const MAX_REPEATS: u32 = 200;
 
-/// What an impact with a rail or another ball does besides changing the motion.
+/// Share of the approach speed that may remain when the repetition stops.
+const MAX_REMAINDER: f64 = 1e-14;
+
+/// Impulse of an impact with a rail or another ball.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ImpactImpulse {
-    /// The impulse per mass along the line of the impact, m/s, which is zero or less for a ball that does not approach.
+    /// Impulse per mass along the line of impact, m/s; zero or negative for a ball that does not approach.
     pub normal: f64,
-    /// Upward velocity that the ball would have, were nothing above the cloth to hold it, m/s: the friction of much follow
-    /// lets it climb the nose of a rail. None for two balls.
+    /// Upward velocity that the ball would have if nothing held it on the cloth, m/s: with strong follow, friction lets it climb the nose
+    /// of a rail. Zero for two balls.
     pub climb: f64,
 }
 
-/// What decides how an impact goes, worked out once a shot.
+/// Constants of the impact law, computed once per shot.
 #[derive(Clone, Copy, Debug)]
 enum Law {
     Equator,
-    /// Sine and cosine of the height at which the nose meets the ball, as seen from its centre, and how slip turns into sticking.
+    /// Sine and cosine of the elevation of the nose's contact point as seen from the ball's centre, and the stick/slip law.
     Nose {
         sine: f64,
         cosine: f64,
         stick_slip: StickSlip,
     },
-    /// The same height; friction of the cloth meanwhile.
+    /// The same elevation, with simultaneous friction on the cloth of coefficient `cloth`.
     Mathavan {
         sine: f64,
         cosine: f64,
@@ -57,7 +59,7 @@ enum Law {
 }
 
 impl Cushion {
-    /// A table's cushion.
+    /// Returns the cushion of a rail of `table`.
     pub fn of(table: &Table, rail: Rail) -> Self {
         let own = table.rail.own(rail);
         let restitution = own.e.unwrap_or(table.rail_restitution);
@@ -76,18 +78,18 @@ impl Cushion {
         Self { restitution, friction, law, fade: table.rail.fade }
     }
 
-    /// With this restitution, however fast the impact, at the height of the ball's centre.
+    /// Returns the cushion with this restitution at any speed and contact at the height of the ball's centre.
     #[must_use]
     pub fn with_restitution(self, restitution: f64) -> Self {
         Self { restitution, law: Law::Equator, fade: None, ..self }
     }
 
-    /// Whether it meets slow and fast balls alike, at the height of their centres.
+    /// Whether restitution does not depend on speed and contact is at the height of the ball's centre.
     fn is_plain(&self) -> bool {
         matches!(self.law, Law::Equator) && self.fade.is_none()
     }
 
-    /// Velocity and spin after a collision of a ball on the cloth with this cushion, whose normal into the table is `n`.
+    /// Applies a collision of a ball on the cloth with this cushion, whose normal into the table is `n`.
     #[inline(always)]
     pub fn resolve(&self, radius: f64, n: DVec2, ball: &mut BallState) -> ImpactImpulse {
         if self.is_plain() {
@@ -97,25 +99,26 @@ impl Cushion {
         self.resolve_at_height(radius, n, ball)
     }
 
-    /// A dead nose above the ball's centre takes less than the whole approach: it presses the ball down, too, which the cloth takes up. So
-    /// they meet again at once, until the ball leaves; but one that climbs the nose is not held by the cloth.
+    /// Repeats the impact until the ball leaves. A nose above the ball's centre also presses the ball down, and the cloth absorbs that
+    /// part. With low restitution, some approach speed remains after an impact, so that the next one follows immediately. A ball that
+    /// climbs the nose is not held by the cloth and needs no repetition.
     #[inline(never)]
     fn resolve_at_height(&self, radius: f64, n: DVec2, ball: &mut BallState) -> ImpactImpulse {
-        let most_left = LEFT * ball.velocity.dot(n).abs();
-        let mut whole = self.meet(radius, n, ball);
-        for _ in 0..AGAIN {
+        let most_left = MAX_REMAINDER * ball.velocity.dot(n).abs();
+        let mut whole = self.impact_once(radius, n, ball);
+        for _ in 0..MAX_REPEATS {
             if ball.velocity.dot(n) >= -most_left || whole.climb > 0.0 {
                 return whole;
             }
-            let again = self.meet(radius, n, ball);
+            let again = self.impact_once(radius, n, ball);
             whole = ImpactImpulse { normal: whole.normal + again.normal, climb: whole.climb + again.climb };
         }
         whole
     }
 
-    /// One impact at the height of the nose.
+    /// Applies one impact at the height of the nose.
     #[inline(always)]
-    fn meet(&self, radius: f64, n: DVec2, ball: &mut BallState) -> ImpactImpulse {
+    fn impact_once(&self, radius: f64, n: DVec2, ball: &mut BallState) -> ImpactImpulse {
         let restitution = self.restitution_at(-ball.velocity.dot(n));
         let [normal, climb] = match self.law {
             Law::Equator => [collide_rail(radius, restitution, self.friction, n, ball), 0.0],
@@ -133,16 +136,16 @@ impl Cushion {
         self.fade.map_or(self.restitution, |fade| fade.at(self.restitution, approach))
     }
 
-    /// The same for a ball in the air, which meets the nose in the direction `d` from its centre, a unit vector: with the
-    /// cloth out of reach all models are an impact with Coulomb's friction. It leaves with the speed `slowest` at least, m/s.
-    /// Returns the speed of its approach, m/s, negative if there is none.
+    /// Applies a collision of a ball in the air with the nose in the direction `d` from its centre, a unit vector. Without the cloth, all
+    /// models reduce to an impact with Coulomb friction. The ball leaves at least at the speed `slowest`, m/s. Returns its approach speed,
+    /// m/s, which is negative if it does not approach.
     pub fn resolve_in_space(&self, radius: f64, slowest: f64, d: DVec3, ball: &mut SpatialState) -> f64 {
         let stick_slip = if let Law::Nose { stick_slip, .. } = self.law { stick_slip } else { StickSlip::Sharp };
         let restitution = self.restitution_at(ball.velocity.dot(d));
         nose::collide_in_space(radius, [restitution, self.friction, slowest], stick_slip, d, ball)
     }
 
-    /// Sine and cosine of the height at which the nose meets a ball on the cloth, as seen from its centre.
+    /// Returns sine and cosine of the elevation of the nose's contact point, seen from the centre of a ball on the cloth.
     pub fn nose(&self) -> [f64; 2] {
         match self.law {
             Law::Equator => [0.0, 1.0],
@@ -151,7 +154,7 @@ impl Cushion {
     }
 }
 
-/// A table's four cushions: mostly one for all.
+/// The four cushions of a table, which usually have the same constants.
 #[derive(Clone, Debug)]
 pub struct Cushions {
     all: Cushion,
@@ -159,7 +162,7 @@ pub struct Cushions {
 }
 
 impl Cushions {
-    /// Those of a table.
+    /// Returns the cushions of `table`.
     pub fn of(table: &Table) -> Self {
         let Rails { left, right, bottom, top, .. } = table.rail;
         let differ = left.is_some() || right.is_some() || bottom.is_some() || top.is_some();
@@ -169,13 +172,13 @@ impl Cushions {
         }
     }
 
-    /// The one of a rail.
+    /// Returns the cushion of a rail.
     #[inline(always)]
     pub fn at(&self, rail: Rail) -> &Cushion {
         self.own.as_ref().map_or(&self.all, |own| &own[rail as usize])
     }
 
-    /// All of them with this restitution, at the height of the ball's centre.
+    /// Returns all cushions with this restitution and contact at the height of the ball's centre.
     #[must_use]
     pub fn with_restitution(&self, restitution: f64) -> Self {
         let own = self.own.as_ref().map(|own| Box::new(own.map(|cushion| cushion.with_restitution(restitution))));

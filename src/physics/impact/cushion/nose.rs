@@ -1,31 +1,31 @@
 //! Impact at the height of the nose, above the ball's centre: the geometry of Han, "Dynamics in carom and three cushion
 //! billiards" (2005), with the impulse in closed form.
 //!
-//! With `d` the unit vector from the ball's centre to the nose, `d = -n cos α + z sin α`, `sin α = (h - R)/R`, the impulse
-//! along `d` is `P/m = (1 + e) v·d`. The contact's slip `S` is `v + R ω×d` without its part along `d`, and the friction
-//! `J/m = -f S`. A ball on the cloth keeps its height: what presses it down the cloth takes up.
+//! With `d` the unit vector from the ball's centre to the nose, `d = -n cos α + z sin α`, `sin α = (h - R)/R`, the impulse along `d` is
+//! `P/m = (1 + e) v·d`. The slip `S` of the contact is `v + R ω×d` without its component along `d`. The friction impulse is `J/m = -f S`. A
+//! ball on the cloth keeps its height: the cloth absorbs the downward part of the impulse.
 
 use glam::{DVec2, DVec3};
 
 use super::{
-    super::{super::SpatialState, opening_in_space, raised},
+    super::{super::SpatialState, separation_correction, separation_speed},
     BallState,
 };
 
-/// How friction passes from slipping to sticking.
+/// Transition of friction from slip to stick.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum StickSlip {
-    /// Coulomb's law up to no slip: `f = min(2/7, μ P / (m |S|))`.
+    /// Coulomb friction up to the no-slip limit: `f = min(2/7, μ P / (m |S|))`.
     Sharp,
-    /// `f = L tanh(μ P / (m L |S|))`, with the most `L` that the slip loses.
+    /// `f = L tanh(μ P / (m L |S|))`, with `L` the largest share of the slip that friction removes.
     Smooth {
-        /// `L`, two sevenths where the contact just sticks.
+        /// `L`; two sevenths if the contact just sticks.
         most: f64,
     },
 }
 
 impl StickSlip {
-    /// The friction's factor `f`, given `μ P/m` and the slip's size, m/s.
+    /// Returns the factor `f` for `μ P/m` and the magnitude of the slip, both m/s.
     #[inline(always)]
     fn factor(self, push: f64, slip: f64) -> f64 {
         // Without slip there is no friction.
@@ -38,7 +38,7 @@ impl StickSlip {
                 if slips < 2.0 / 7.0 { slips } else { 2.0 / 7.0 }
             }
             Self::Smooth { most } => {
-                // The hyperbolic tangent at half the price of the library's; beyond that it is one.
+                // Hyperbolic tangent at half the cost of the library function; it equals one beyond this bound.
                 let grown = libm::exp(2.0 * push / (most * slip));
                 if grown < 1e17 { most * (grown - 1.0) / (grown + 1.0) } else { most }
             }
@@ -46,8 +46,8 @@ impl StickSlip {
     }
 }
 
-/// The collision of a ball in the air with a nose in the direction `d` from its centre, a unit vector; it leaves with the speed
-/// `slowest` at least. Returns the speed of its approach, m/s, negative if there is none.
+/// Applies the collision of a ball in the air with a nose in the direction `d` from its centre, a unit vector; the ball leaves at least at
+/// the speed `slowest`, m/s. Returns its approach speed, m/s, which is negative if it does not approach.
 pub(super) fn collide_in_space(
     radius: f64,
     [restitution, friction, slowest]: [f64; 3],
@@ -60,17 +60,17 @@ pub(super) fn collide_in_space(
         return approach;
     }
     let across = ball.velocity - approach * d;
-    let opening = opening_in_space(approach, restitution, slowest);
+    let opening = separation_speed(approach, restitution, slowest);
     let normal = approach + opening;
     let slip = across + radius * ball.spin.cross(d);
     let rub = -stick_slip.factor(friction * normal, slip.length()) * slip;
-    ball.velocity += rub - normal * d + raised(opening, slowest, across + rub, -d);
+    ball.velocity += rub - normal * d + separation_correction(opening, slowest, across + rub, -d);
     ball.spin += 2.5 / radius * d.cross(rub);
     approach
 }
 
-/// Velocity and spin after the collision; `[sine, cosine]` of the nose's height, `n` the normal into the table. Returns
-/// `P/m` and the speed with which the ball would climb, were it free to, both m/s.
+/// Applies the collision of a ball on the cloth; `[sine, cosine]` of the nose's elevation, `n` the normal into the table. Returns `P/m` and
+/// the speed at which the ball would climb if nothing held it, both m/s.
 pub(super) fn collide(
     radius: f64,
     restitution: f64,
@@ -87,7 +87,7 @@ pub(super) fn collide(
     }
     let t = n.perp();
     let [spin_n, spin_t] = [n, t].map(|axis| ball.spin.truncate().dot(axis));
-    // The slip along t, and along n sin α + z cos α, which both stand across d.
+    // Components of the slip along t and along n sin α + z cos α, both orthogonal to d.
     let slip_t = ball.velocity.dot(t) - radius * (cosine * ball.spin.z + sine * spin_n);
     let slip_up = radius * spin_t - sine * approach;
     let slip = (slip_t * slip_t + slip_up * slip_up).sqrt();

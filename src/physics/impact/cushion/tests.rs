@@ -1,4 +1,4 @@
-//! What holds for every model of a rail.
+//! Properties of every rail model.
 
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
@@ -59,7 +59,7 @@ proptest! {
 
     #[test]
     fn a_mirrored_ball_comes_back_mirrored(ball in moving(), height in 0.0308..0.040f64) {
-        // Mirrored along the cushion: spins about axes in the mirror's plane change their sign.
+        // Mirrored along the cushion: spins about axes in the mirror plane change their sign.
         let mirror = |ball: &BallState| BallState {
             velocity: ball.velocity * DVec2::new(1.0, -1.0),
             spin: ball.spin * DVec3::new(-1.0, 1.0, -1.0),
@@ -89,9 +89,9 @@ proptest! {
         prop_assert!(after.specific_energy(RADIUS) <= ball.specific_energy(RADIUS) * (1.0 + 1e-14));
     }
 
-    /// Without loss an impact is undone by the same impact of the reversed velocities.
+    /// An impact without loss is undone by the same impact with reversed velocities.
     #[test]
-    fn what_loses_nothing_at_the_height_of_the_centre_runs_backwards(ball in moving()) {
+    fn an_impact_without_loss_at_the_height_of_the_centre_is_reversible(ball in moving()) {
         let there = |mut ball: BallState| {
             collide_rail(RADIUS, 1.0, 0.0, DVec2::NEG_X, &mut ball);
             BallState { velocity: -ball.velocity, spin: -ball.spin, ..ball }
