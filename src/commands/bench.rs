@@ -1,4 +1,4 @@
-//! `carom bench`: what this machine does in a second.
+//! `carom bench`: measures the speed of this machine.
 
 use std::{io::Write, time::Duration};
 
@@ -13,10 +13,10 @@ use crate::{
 
 /// Measure the speed of this machine.
 ///
-/// Measured are shots, recommendations and network updates a second. It takes about twenty seconds.
+/// The figures are shots, recommendations and network updates per second. This takes about twenty seconds.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Seconds for each figure.
+    /// Seconds of measurement for each figure.
     #[arg(long, default_value_t = 1.0)]
     seconds: f64,
     /// Print one JSON object.
@@ -24,7 +24,7 @@ pub struct Args {
     json: bool,
 }
 
-/// Longest time for a figure, s.
+/// Longest measurement of a figure, s.
 const LONGEST: f64 = 3600.0;
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
@@ -56,14 +56,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A figure for people to read.
+/// Formats a figure as a line of text.
 fn words(figure: &Figure) -> String {
     let threads = if figure.threads == 1 { "1 thread".to_owned() } else { format!("{} threads", figure.threads) };
     let line = format!("{:<18} {:<7} {threads:<10} {:>12} /s", figure.what, figure.table, grouped(figure.per_second));
     figure.sizes.as_ref().map_or_else(|| line.clone(), |sizes| format!("{line}  {sizes}"))
 }
 
-/// A number with thousands set apart.
+/// Formats a number with spaces between thousands.
 fn grouped(number: f64) -> String {
     HumanCount(number.round() as u64).to_string().replace(',', " ")
 }

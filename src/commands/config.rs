@@ -1,4 +1,4 @@
-//! `carom config`: what can be set once and for all, how it is set now, and whether the file is right.
+//! `carom config`: displays the settings, their meaning and their current values, and checks the settings file.
 
 use std::io::Write;
 
@@ -8,13 +8,13 @@ use super::{
 };
 use crate::{printing, terminal::Settings};
 
-/// Show every setting with what it means and accepts, as a file to begin with.
+/// Show every setting with its meaning and its accepted values, as a file to start from.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Print only where the file is.
+    /// Print only the path of the settings file.
     #[arg(long)]
     path: bool,
-    /// Print nothing but what is wrong with the file.
+    /// Print only the mistakes in the file.
     #[arg(long, conflicts_with = "path")]
     check: bool,
 }

@@ -1,4 +1,4 @@
-//! The doors to the outside, which show control characters instead of sending them.
+//! The standard output and the standard error, with control characters escaped.
 
 use std::{
     fmt::Display,
@@ -13,56 +13,55 @@ use super::{
     wrapping::Wrapping,
 };
 
-/// Takes an output's text in, and gives it on with everything shown that a terminal would obey. New lines and tabs
-/// pass; bytes that are no UTF-8 become U+FFFD.
+/// A writer that passes text on with all control characters escaped. New lines and tabs pass; bytes that are not UTF-8 become U+FFFD.
 #[derive(Debug)]
 pub struct Shown<W: Write> {
     inner: W,
-    /// The beginning of a character whose end has not been written yet.
+    /// The first bytes of a character whose remaining bytes have not been written yet.
     begun: Vec<u8>,
-    /// Whether text is spelt in ASCII.
+    /// Whether text is transliterated to ASCII.
     spells: bool,
-    /// Where lines are to break between words.
+    /// Line wrapping between words; `None` if lines are not wrapped.
     wrapping: Option<Wrapping>,
 }
 
-/// The standard output.
+/// Returns the standard output.
 #[expect(clippy::disallowed_methods, reason = "this is the door that the lint leads to")]
 pub fn stdout() -> Shown<StdoutLock<'static>> {
     Shown::at_terminal(io::stdout().lock())
 }
 
-/// The standard error.
+/// Returns the standard error.
 #[expect(clippy::disallowed_methods, reason = "this is the door that the lint leads to")]
 pub fn stderr() -> Shown<StderrLock<'static>> {
     Shown::at_terminal(io::stderr().lock())
 }
 
-/// Whether somebody watches the standard error.
+/// Whether the standard error is a terminal.
 #[expect(clippy::disallowed_methods, reason = "nothing is written")]
 pub fn is_watched() -> bool {
     io::stderr().is_terminal()
 }
 
-/// Writes `text` over the line that stands at the terminal on the standard error.
+/// Writes `text` over the current terminal line of the standard error.
 ///
 /// # Errors
-/// What the output answers.
+/// Returns the error of the output.
 pub fn redraw_line(text: impl Display) -> io::Result<()> {
     clear_line()?;
     write!(stderr(), "{text}")
 }
 
-/// Empties the line that stands at the terminal on the standard error.
+/// Clears the current terminal line of the standard error.
 ///
 /// # Errors
-/// What the output answers.
+/// Returns the error of the output.
 pub fn clear_line() -> io::Result<()> {
     stderr().inner.write_all(b"\r\x1b[K")
 }
 
 impl<W: Write + IsTerminal> Shown<W> {
-    /// Spelt as the locale asks for, and where somebody reads it at a terminal, as wide as that.
+    /// Transliterates if the locale requires it; wraps lines at the width of the terminal if `inner` is one.
     fn at_terminal(inner: W) -> Self {
         let size = inner.is_terminal().then(size).and_then(Result::ok);
         let wrapping = size.filter(|(columns, _)| *columns > 0).map(|(columns, _)| Wrapping::new(usize::from(columns)));
@@ -71,12 +70,12 @@ impl<W: Write + IsTerminal> Shown<W> {
 }
 
 impl<W: Write> Shown<W> {
-    /// Gives the text on to `inner`.
+    /// Wraps `inner`, without transliteration and without line wrapping.
     pub const fn new(inner: W) -> Self {
         Self { inner, begun: Vec::new(), spells: false, wrapping: None }
     }
 
-    /// The same, where `is_exact` for what must be neither spelt nor broken: JSON, and what is meant for a file.
+    /// Turns transliteration and line wrapping off if `is_exact`: for JSON, and for text meant for a file.
     #[must_use]
     pub fn exact(mut self, is_exact: bool) -> Self {
         if is_exact {
@@ -149,7 +148,7 @@ impl<W: Write> Write for Shown<W> {
 
 impl<W: Write> Drop for Shown<W> {
     fn drop(&mut self) {
-        // Nobody is left to tell.
+        // Errors cannot be reported from here.
         let _ = if self.begun.is_empty() { Ok(()) } else { self.put("\u{fffd}") };
         let _ = self.put_rest();
     }

@@ -1,4 +1,4 @@
-//! The report for people: a line for each thing, and what is wrong at the end.
+//! The report as text: a line for each item, and the problems at the end.
 
 use std::io::{self, Write};
 
@@ -8,7 +8,7 @@ use crate::{
     printing::{FULL_VERSION, OneLine},
 };
 
-/// Writes all of it.
+/// Writes the whole report.
 pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     for row in columns(&rows(report), &[]) {
         writeln!(out, "{row}")?;

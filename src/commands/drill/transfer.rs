@@ -1,4 +1,4 @@
-//! `carom drill export` and `carom drill import`: all of one's practice as one JSON file, and back.
+//! `carom drill export` and `carom drill import`: all practice data of a player as one JSON file.
 
 use std::{
     io::{self, Read},
@@ -19,17 +19,17 @@ use crate::{
     storage::{self, Places, target_of, write_atomic},
 };
 
-/// Write all sessions, positions and the skill of one's own as one JSON file.
+/// Write all sessions, your own positions and your own skill to one JSON file.
 #[derive(Debug, clap::Args)]
 pub struct ExportArgs {
-    /// The file, in a folder that is there, or an earlier export to replace; without one, or for "-", the standard output.
+    /// The file: a new one in an existing folder, or an earlier export to replace; without one, or for "-", the standard output.
     file: Option<PathBuf>,
 }
 
-/// Take in a file that `carom drill export` wrote, or a library of exercises.
+/// Import a file that `carom drill export` wrote, or a library of exercises.
 ///
-/// Nothing that is here is lost. Of a session on both sides the longer version is kept. One that has gone on on both sides is
-/// refused, and so is a position whose name is that of another.
+/// No data of this account is lost. If both sides have a session, the longer version is kept. A session that was continued differently on
+/// both sides is refused, and so is a position whose name is already used by another.
 #[derive(Debug, clap::Args)]
 pub struct ImportArgs {
     /// The file; "-" reads the standard input.

@@ -1,4 +1,4 @@
-//! `carom train --list`: the runs there are.
+//! `carom train --list`: the existing runs.
 
 use std::path::Path;
 
@@ -12,10 +12,10 @@ use crate::{
     storage::Places,
 };
 
-/// Prints the runs in `folder`, or the user's, and tells whether there are any.
+/// Prints the runs in `folder`, or the user's runs, and returns whether there are any.
 pub fn print(folder: Option<&Path>, json: bool) -> Result<bool, Failure> {
     let own = Places::of_this_user().runs;
-    // Somebody who has never trained has no folder yet.
+    // A user who has never trained has no such folder yet.
     let Listing { runs, unreadable } = match (folder, folder.unwrap_or(&own)) {
         (None, own) if !own.exists() => Listing::default(),
         (_, folder) => runs_in(folder).map_err(|error| {
@@ -38,7 +38,7 @@ pub fn print(folder: Option<&Path>, json: bool) -> Result<bool, Failure> {
 const HEADINGS: [&str; 11] =
     ["name", "agent", "reward", "table", "seed", "shots", "of", "best", "last", "last written (UTC)", "state"];
 
-/// Columns that are numbers and stand to the right.
+/// The columns with numbers, which are right-aligned.
 const NUMBERS: [usize; 5] = [4, 5, 6, 7, 8];
 
 fn row(run: &Summary) -> [String; HEADINGS.len()] {

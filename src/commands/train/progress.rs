@@ -1,4 +1,4 @@
-//! What the user sees while training: a bar on a terminal, else a line for every measurement.
+//! The progress display of a training: a bar on a terminal, otherwise a line for every measurement.
 
 use std::io::{self, Write as _};
 
@@ -15,9 +15,9 @@ use crate::{
 pub struct Progress {
     bar: ProgressBar,
     json: bool,
-    /// The run's seed, where there are several runs.
+    /// The run's seed, if there are several runs.
     seed: Option<u64>,
-    /// Why a line could not be written, where one could not.
+    /// The error of the last line that could not be written, if any.
     unwritten: Option<io::Error>,
 }
 
@@ -31,7 +31,7 @@ struct Line<'a> {
 }
 
 impl Progress {
-    /// For a run that is about to start, alone or one of several with different seeds.
+    /// Creates the display for a run that is about to start, alone or as one of several with different seeds.
     pub fn new(run: &Run, json: bool, seed: Option<u64>) -> Self {
         let learner = run.learner();
         let plan = learner.plan();
@@ -60,17 +60,17 @@ impl Progress {
         Self { bar, json, seed, unwritten: None }
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     ///
     /// # Errors
-    /// Where a line could not be written.
+    /// Fails if a line could not be written.
     pub fn close(self) -> io::Result<()> {
         self.bar.finish_and_clear();
         self.unwritten.map_or(Ok(()), Err)
     }
 }
 
-/// A measurement in a line; nothing where the record has none.
+/// Formats a measurement as a line; `None` if the record has none.
 pub fn line(record: &Record) -> Option<String> {
     let Record { seconds, shots, .. } = record;
     let speed = *shots as f64 / seconds.max(1e-9);
@@ -87,7 +87,7 @@ impl Watcher for Progress {
         if self.json
             && let Ok(line) = printing::json_text(&Line { seed: self.seed, record })
         {
-            // A reader that has gone away must not end the training.
+            // A closed output must not end the training.
             self.unwritten = writeln!(printing::stdout(), "{line}").err().or(self.unwritten.take());
         }
         self.bar.set_position(record.shots);
