@@ -237,7 +237,7 @@ fn measure(args: &Args, table: Table, steepest: Steepest) -> Result<Study, Failu
     line.clear();
     if study.summary.judged.count == 0 {
         return Err(Failure::failed(format_args!(
-            "none of the {all} shots on \"{}\" can be judged: {}; a level table whose rails have another model than \"mathavan\" would do",
+            "none of the {all} shots on \"{}\" can be judged: {}; use a level table whose rail model is not \"mathavan\"",
             study.summary.table,
             study.why_unjudged()
         )));

@@ -31,7 +31,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let accepted = args.seconds > 0.0 && args.seconds <= LONGEST;
     let time = Duration::try_from_secs_f64(args.seconds).ok().filter(|_| accepted).ok_or_else(|| {
         Failure::wrong_input(format_args!(
-            "--seconds {} is no time to measure; accepted is above 0 and at most {LONGEST}",
+            "--seconds {} is not a valid time; accepted is above 0 and at most {LONGEST}",
             number(args.seconds)
         ))
     })?;

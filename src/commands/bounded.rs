@@ -72,8 +72,7 @@ fn finite(table: &Table, recording: Recording, is_over: bool, else_would: &str) 
     let name = &table.name;
     if is_over {
         return Err(Failure::failed(format_args!(
-            "the shot takes more than {} s to compute on \"{name}\" and is given up; {else_would}a table that is less stiff \
-             would do",
+            "the shot takes more than {} s to compute on \"{name}\" and was stopped; use {else_would}a less stiff table",
             LONGEST.as_secs()
         )));
     }
@@ -81,7 +80,7 @@ fn finite(table: &Table, recording: Recording, is_over: bool, else_would: &str) 
         return Ok(recording);
     }
     Err(Failure::failed(format_args!(
-        "the shot's numbers do not stay finite on \"{name}\"; a table with less friction between balls or on cushions would do"
+        "the shot's numbers do not stay finite on \"{name}\"; use a table with less friction between balls or on cushions"
     )))
 }
 

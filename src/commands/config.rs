@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{printing, terminal::Settings};
 
-/// Show every setting with its meaning and its accepted values, as a file to start from.
+/// Show every setting with its meaning and accepted values, as a file to start from.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Print only the path of the settings file.

@@ -33,7 +33,7 @@ pub struct Args {
 pub(super) fn run(args: &Args, seat: Seat) -> Result<(), Failure> {
     let Some(player) = &args.followed else { return list(args.json) };
     // The message is the same for players with and without a folder, so that it does not reveal who has one.
-    let hidden = || Failure::failed(format_args!("{player} shows no table now; carom follow lists who does"));
+    let hidden = || Failure::failed(format_args!("{player} shows no table now; carom follow lists the players who do"));
     let folder = Places::of_player(player).map_err(Failure::failed)?.shown;
     if matches!(ShownTable::look(&folder), Sight::Nothing) {
         return Err(hidden());
@@ -54,7 +54,7 @@ pub(super) fn run(args: &Args, seat: Seat) -> Result<(), Failure> {
         &mut printing::stdout().exact(args.json),
     )?;
     if !stop.load(Ordering::Relaxed) {
-        tell(format_args!("{player} shows the table no more"));
+        tell(format_args!("{player} no longer shows the table"));
     }
     Ok(())
 }
@@ -70,7 +70,7 @@ fn list(json: bool) -> Result<(), Failure> {
         }
     }
     if shown.is_empty() {
-        tell("nobody shows their table now: a player does by F on the coach's screen");
+        tell("nobody shows their table now; a player can do so with the key F on the coach's screen");
     }
     Ok(())
 }

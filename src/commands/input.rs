@@ -43,7 +43,7 @@ pub fn table_named(name: &str) -> Result<Table, Failure> {
 pub fn bundled_table(name: &str) -> Result<Table, Failure> {
     Table::preset(name).map_err(|_| {
         Failure::wrong_input(format_args!(
-            "positions and games of practice lie on bundled tables, and \"{name}\" is none; accepted are {}",
+            "positions are saved for bundled tables only, and \"{name}\" is not one; accepted are {}",
             PRESETS.map(|name| format!("\"{name}\"")).join(", ")
         ))
     })
@@ -136,7 +136,7 @@ pub fn minutes(value: f64) -> Result<Duration, Failure> {
         return Ok(Duration::from_secs_f64(60.0 * value));
     }
     Err(Failure::wrong_input(format_args!(
-        "--minutes {value:?} is no time; accepted is a number above 0 and at most {MOST_MINUTES:e}"
+        "--minutes {value:?} is not a valid time; accepted is a number above 0 and at most {MOST_MINUTES:e}"
     )))
 }
 

@@ -47,7 +47,7 @@ const SSH_REQUEST: &str = "SSH_ORIGINAL_COMMAND";
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
-    /// Table of the full-screen program: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
+    /// Table of the terminal program: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
     #[arg(long)]
     table: Option<String>,
     /// Use plain lines instead of a screen: for screen readers, and for terminals that cannot draw.

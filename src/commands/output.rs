@@ -78,7 +78,7 @@ pub fn of_refused_lines(refused: usize) -> Result<(), Failure> {
     if refused == 0 || io::stdin().is_terminal() {
         return Ok(());
     }
-    Err(Failure::wrong_input(format_args!("{} refused; each was told why", plural(refused, "line"))))
+    Err(Failure::wrong_input(format_args!("{} refused; the reasons are above", plural(refused, "line"))))
 }
 
 /// Refuses a path in a missing folder: a mistyped path must not create folders that nobody looks into.

@@ -79,7 +79,7 @@ const MOST_REPEATED: usize = 200;
 pub fn parse_request<Q: DeserializeOwned + Keys>(line: &[u8]) -> Result<Q, String> {
     let accepted = format!("accepted is an object with {}", Q::FORM);
     if !line.trim_ascii_start().starts_with(b"{") {
-        return Err(format!("it begins with no brace; {accepted}"));
+        return Err(format!("it does not begin with a brace; {accepted}"));
     }
     let given: Map<String, Value> = serde_json::from_slice(line).map_err(|error| not_json(&error))?;
     let request = serde_json::from_slice(line).map_err(|error| {
@@ -94,7 +94,7 @@ pub fn parse_request<Q: DeserializeOwned + Keys>(line: &[u8]) -> Result<Q, Strin
             let twice = text.strip_prefix("duplicate field `").and_then(|name| name.strip_suffix('`'));
             twice.map_or_else(
                 || format!("{}; {accepted}", in_plain_words(text)),
-                |name| format!("\"{name}\" is there twice"),
+                |name| format!("\"{name}\" occurs twice"),
             )
         })
     })?;
@@ -115,7 +115,7 @@ fn not_json(error: &serde_json::Error) -> String {
         _ if error.to_string().starts_with("number out of range") => {
             format!("the number that ends at column {} is out of range; accepted is up to 1.8e308", error.column())
         }
-        _ => format!("column {} is no JSON", error.column()),
+        _ => format!("column {} is not JSON", error.column()),
     }
 }
 
@@ -150,10 +150,10 @@ mod tests {
         let said = |line: &str| parse_request::<Line>(line.as_bytes()).unwrap_err();
         let accepted = "accepted is an object with preset; rule may be left out";
         assert_eq!(said("{}"), format!("`preset` is missing; {accepted}"));
-        assert_eq!(said("[]"), format!("it begins with no brace; {accepted}"));
+        assert_eq!(said("[]"), format!("it does not begin with a brace; {accepted}"));
         let name = "a table's name or the path of its file, as a string";
         assert_eq!(said(r#"{"preset": 3}"#), format!("\"preset\" is 3; accepted is {name}"));
-        assert_eq!(said(r#"{"preset" 3}"#), "column 11 is no JSON");
+        assert_eq!(said(r#"{"preset" 3}"#), "column 11 is not JSON");
         let cue = CueDegrees { a: 0.0, b: 0.0, theta_deg: 0.0, phi_deg: 0.0, speed: 2.0 };
         let (table, seconds) = (Table::default(), f64::INFINITY);
         let shot = Shot { layout: Layout::opening(&table), cue };

@@ -134,7 +134,7 @@ impl GivenImpulse {
             [x, y] | [x, y, 0.0] => Ok(Impulse::on_cloth(DVec2::new(x, y), spin)),
             [x, y, lift] if table.flight.is_some() => Ok(Impulse { velocity: DVec2::new(x, y), spin, lift }),
             [_, _, up] => Err(Failure::wrong_input(format_args!(
-                "impulse.velocity has {} m/s upwards; accepted is 0, for balls stay on the cloth of \"{}\": a section \
+                "impulse.velocity has {} m/s upwards; accepted is 0, because balls stay on the cloth of \"{}\": a section \
                  [flight] in a table's file lets them leave it",
                 number(up),
                 table.name
@@ -158,7 +158,7 @@ impl BatchLine {
                 Ok(SimulateAnswer::of(&played, &outcome(&played), cue.is_miscue(table), cue_room, &args.at))
             }
             (None, Some(_)) if steps.is_some() => {
-                Err(Failure::wrong_input("--method steps plays a cue, not an impulse"))
+                Err(Failure::wrong_input("--method steps needs a cue, not an impulse"))
             }
             (None, Some(given)) => {
                 let played = (bounded::play(table, &self.layout, Start::Motion(&given.impulse(table)?))?, None);
@@ -366,7 +366,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let miscue = cue.is_miscue(&table);
     if miscue {
         tell(format_args!(
-            "note: a real tip slips off here: a² + b² is {:.3}, on \"{}\" it holds up to {}",
+            "note: a real tip would slip off (miscue): a² + b² is {:.3}; the limit on \"{}\" is {}",
             cue.tip_offset_squared(),
             table.name,
             number(table.miscue_limit)
@@ -453,7 +453,7 @@ fn describe(out: &mut impl Write, args: &Args, (recording, stepped): &Played, ve
         }
     }
     if stepped.is_some_and(|stepped| !stepped.at_rest) {
-        writeln!(out, "given up while balls still jitter, the last event after {:.6} s:", recording.duration())?;
+        writeln!(out, "stopped while balls still jitter, the last event after {:.6} s:", recording.duration())?;
     } else {
         writeln!(out, "all still after {:.6} s:", recording.duration())?;
     }

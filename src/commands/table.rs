@@ -87,7 +87,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             if args.json {
                 printing::json_line(&mut out, &table)?;
             } else {
-                writeln!(out, "{} can be played on: {}", file.display(), line(&table))?;
+                writeln!(out, "{} is a valid table: {}", file.display(), line(&table))?;
             }
         }
     }

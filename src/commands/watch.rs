@@ -115,7 +115,7 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
     }
     match followed.condition {
         Condition::Died | Condition::Removed | Condition::Is(Phase::Failed) => {
-            Err(Failure::failed(format_args!("the run has not ended well: {}", followed.condition)))
+            Err(Failure::failed(format_args!("the run did not end well: {}", followed.condition)))
         }
         _ => Ok(()),
     }

@@ -53,14 +53,14 @@ impl Confinement {
         if std::iter::once(&self.written).chain(&self.read).any(|folder| path.starts_with(folder)) {
             return Ok(());
         }
-        Err(refusal("a guest reads no files but their own"))
+        Err(refusal("a guest can read only their own files"))
     }
 
     fn writes(&self, path: &Path) -> io::Result<()> {
         if resolved(path).starts_with(&self.written) {
             return Ok(());
         }
-        Err(refusal("a guest writes no files but their own"))
+        Err(refusal("a guest can write only their own files"))
     }
 }
 

@@ -36,7 +36,9 @@ fn existing(folder: &Path) -> io::Result<PathBuf> {
     loop {
         match std::fs::metadata(above) {
             Ok(found) if found.is_dir() => return Ok(above.to_owned()),
-            Ok(_) => return Err(io::Error::new(ErrorKind::NotADirectory, format!("{} is no folder", above.display()))),
+            Ok(_) => {
+                return Err(io::Error::new(ErrorKind::NotADirectory, format!("{} is not a folder", above.display())));
+            }
             Err(error) if error.kind() == ErrorKind::NotFound => match above.parent() {
                 Some(parent) if parent.as_os_str().is_empty() => above = Path::new("."),
                 Some(parent) => above = parent,

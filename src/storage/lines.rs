@@ -32,7 +32,7 @@ pub fn next_line(reader: &mut impl BufRead, line: &mut Vec<u8>) -> io::Result<Ne
     line.clear();
     let mut rest = reader.by_ref().take(MOST_SKIPPED);
     if rest.skip_until(b'\n')? as u64 == MOST_SKIPPED {
-        let sentence = format!("a line has more than {MOST_SKIPPED} bytes, and accepted are up to {LONGEST_LINE}");
+        let sentence = format!("a line has more than {MOST_SKIPPED} bytes; accepted are up to {LONGEST_LINE}");
         return Err(io::Error::new(io::ErrorKind::InvalidData, sentence));
     }
     Ok(NextLine::TooLong)

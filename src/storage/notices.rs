@@ -7,7 +7,7 @@ use serde::{Deserialize, de::IgnoredAny};
 use super::{PRACTICE, Places, SMALL, read, read_text, write_atomic};
 
 /// Shown to users who saved data while "match" meant another table.
-const MATCH: &str = "\"match\" is now a table as filmed balls show it, and what you saved for \"match\" is played on it; the former one is \"textbook\"";
+const MATCH: &str = "\"match\" is now a table with constants from filmed shots, and what you saved for \"match\" is played on it; the former one is \"textbook\"";
 
 /// The line in the record of notices which states that [`MATCH`] was shown.
 const MATCH_SHOWN: &str = "match";

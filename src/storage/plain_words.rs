@@ -63,7 +63,7 @@ pub fn json_flaw(error: &serde_json::Error) -> String {
     match error.classify() {
         Category::Eof if (line, column) == (1, 0) => "it is empty".to_owned(),
         Category::Eof => format!("it ends in the middle of line {line}"),
-        Category::Syntax | Category::Io => format!("line {line}, column {column} is no JSON"),
+        Category::Syntax | Category::Io => format!("line {line}, column {column} is not JSON"),
         Category::Data => {
             let text = error.to_string();
             let reason = in_plain_words(text.split(" at line ").next().unwrap_or_default()).replace(NAME[0], NAME[1]);
@@ -100,8 +100,8 @@ mod tests {
         let json = |text: &str| json_flaw(&serde_json::from_str::<Two>(text).unwrap_err());
         assert_eq!(json(""), "it is empty");
         assert_eq!(json("{\"name\":\n"), "it ends in the middle of line 2");
-        assert_eq!(json("{\"name\" 3}"), "line 1, column 9 is no JSON");
-        assert_eq!(json("{nam: 3}"), "line 1, column 2 is no JSON");
+        assert_eq!(json("{\"name\" 3}"), "line 1, column 9 is not JSON");
+        assert_eq!(json("{nam: 3}"), "line 1, column 2 is not JSON");
         let said = std::io::Error::from_raw_os_error(2).to_string();
         assert!(said.contains("os error"), "{said}");
         let said = without_numbers(format!("a: {said}; b"));

@@ -12,7 +12,7 @@ pub struct Player(String);
 /// Error for a name that is not accepted for a player.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "\"{0}\" is no name of a player; accepted are 1 to {LONGEST} letters a to z and A to Z, digits, \"-\" and \"_\", beginning \
+    "\"{0}\" is not accepted as a player's name; accepted are 1 to {LONGEST} letters a to z and A to Z, digits, \"-\" and \"_\", beginning \
      with a letter or a digit"
 )]
 pub struct PlayerNameError(String);

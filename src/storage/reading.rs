@@ -29,7 +29,7 @@ pub fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
     if bytes.len() as u64 > largest {
         return Err(io::Error::new(
             io::ErrorKind::FileTooLarge,
-            format!("it has more than {largest} bytes, which is no file of this kind"),
+            format!("it has more than {largest} bytes, too many for a file of this kind"),
         ));
     }
     Ok(bytes)
@@ -40,7 +40,7 @@ pub fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
 /// # Errors
 /// Fails like [`read`], and for text that is not UTF-8.
 pub fn read_text(path: &Path, largest: u64) -> io::Result<String> {
-    let no_text = |_| io::Error::new(io::ErrorKind::InvalidData, "it is no text: it has bytes that are no UTF-8");
+    let no_text = |_| io::Error::new(io::ErrorKind::InvalidData, "it is not text: it has bytes that are not UTF-8");
     String::from_utf8(read(path, largest)?).map_err(no_text)
 }
 

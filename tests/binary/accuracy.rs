@@ -133,7 +133,7 @@ fn a_place_that_cannot_be_written_is_named_before_anything_is_measured() {
         let output = command.timeout(std::time::Duration::from_secs(20)).output().unwrap();
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!((output.status.code(), said.lines().count()), (Some(1), 1), "{arguments:?}: {said}");
-        assert!(said.contains(out) && said.contains("is no folder") && output.stdout.is_empty(), "{said}");
+        assert!(said.contains(out) && said.contains("is not a folder") && output.stdout.is_empty(), "{said}");
     }
 }
 

@@ -157,8 +157,8 @@ fn a_refused_line_names_the_field_with_its_value_and_what_is_accepted() {
         (line("impulse", json!({"velocity": 3})), &["\"impulse\" is {\"velocity\":3}", "[x, y, z]"]),
         (line("rule", json!("Straight")), &["\"rule\" is \"Straight\"", "\"three-cushion\""]),
         (whole[..40].to_owned(), &["it ends before its object does"]),
-        (whole.replacen("match", "match\" \"", 1), &[" is no JSON"]),
-        (whole.replacen("\"rule\"", "\"preset\": \"thesis\", \"rule\"", 1), &["\"preset\" is there twice"]),
+        (whole.replacen("match", "match\" \"", 1), &[" is not JSON"]),
+        (whole.replacen("\"rule\"", "\"preset\": \"thesis\", \"rule\"", 1), &["\"preset\" occurs twice"]),
     ] {
         let output = carom(&["simulate", "--batch", "-"]).write_stdin(line.clone()).output().unwrap();
         let answer: Value = serde_json::from_slice(&output.stdout).unwrap();

@@ -118,11 +118,11 @@ fn innings_that_were_not_begun_are_told() {
         assert_eq!((&report["layouts"], &report["innings"]), (&5.into(), &0.into()), "{line}");
         let text = asked(&words(&line)).assert().success().get_output().stdout.clone();
         let text = String::from_utf8(text).unwrap();
-        assert!(text.contains("; on 5 of 5 layouts none was begun, for the time was up)"), "{text}");
+        assert!(text.contains("; on 5 of 5 layouts none was started, because the time was up)"), "{text}");
     }
     let text = asked(&words(line)).assert().success().get_output().stdout.clone();
     let text = String::from_utf8(text).unwrap();
-    assert!(text.contains("in 5 innings (") && !text.contains("none was begun"), "{text}");
+    assert!(text.contains("in 5 innings (") && !text.contains("none was started"), "{text}");
 }
 
 #[test]
@@ -164,10 +164,10 @@ fn what_is_not_a_whole_is_refused_by_name() {
         (vec![&one, &two, &stranger], " 5 and 6"),
         (vec![&one, &halves], "are parts of different evaluations: of 3 and of 2 parts"),
         (vec![&one, &others], "are parts of different evaluations: random_search 5 and 6"),
-        (vec![&broken], "is no part of an evaluation"),
+        (vec![&broken], "is not a part of an evaluation"),
         (vec![&cut], "it ends in the middle of line 1"),
         (vec![&empty], "it is empty"),
-        (vec![&prose], "line 1, column 1 is no JSON"),
+        (vec![&prose], "line 1, column 1 is not JSON"),
         (vec![&other_json], "line 1, column 2"),
     ] {
         let files: Vec<&str> = files.into_iter().map(String::as_str).collect();

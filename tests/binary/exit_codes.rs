@@ -94,7 +94,7 @@ fn refused_lines_of_a_pipe_end_every_conversation_in_the_same_way() {
         assert_eq!(said(args, good).code, Some(0), "{args:?}");
         let ended = said(args, refused);
         assert!(
-            ended.code == Some(2) && ended.err.ends_with("2 lines refused; each was told why\n"),
+            ended.code == Some(2) && ended.err.ends_with("2 lines refused; the reasons are above\n"),
             "{args:?}: {}",
             ended.err
         );

@@ -23,7 +23,7 @@ use report::Report;
 /// Default name of a calibrated table.
 const NAME: &str = "own";
 
-/// Estimate the constants of a real table, with their uncertainty, from a few short tests.
+/// Estimate the constants of a real table and their uncertainty from a few short tests.
 ///
 /// The player plays the tests at the table and writes down the results. With a FILE of these entries, the command reports what follows from
 /// them. Without one, it asks for the tests one by one and saves every entry at once; the next call continues where this one ended.

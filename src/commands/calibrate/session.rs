@@ -79,8 +79,11 @@ fn entry(table: &Table, test: &Test, text: &str) -> Result<Entry, String> {
     let mut words = values.iter().map(String::as_str);
     while let Some(word) = words.next() {
         let is_name = is_a_name(word);
-        let name =
-            if is_name { word } else { marks.next().ok_or_else(|| format!("\"{word}\" is too much; {HELP}"))? };
+        let name = if is_name {
+            word
+        } else {
+            marks.next().ok_or_else(|| format!("\"{word}\" is one value too many; {HELP}"))?
+        };
         let value = if is_name { words.next().ok_or_else(|| format!("{word} has no value"))? } else { word };
         entry.take(name, value)?;
     }

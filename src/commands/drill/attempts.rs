@@ -90,7 +90,7 @@ pub fn exam(args: &ExamArgs) -> Result<(), Failure> {
     let workspace = Workspace::open();
     if args.options.table.is_some() {
         return Err(Failure::wrong_input(
-            "an exam is played on the tables of its exercises, for which its averages are told; leave out --table",
+            "an exam is played on the tables of its exercises, for which its averages are known; leave out --table",
         ));
     }
     let mut session = args.options.session(Goal::Exam, Vec::new())?;

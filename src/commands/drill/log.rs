@@ -59,7 +59,7 @@ impl LogEntry {
             "miss" => Ok(Self::Miss),
             "undo" => Ok(Self::Undo),
             _ => Err(Failure::wrong_input(format_args!(
-                "\"{text}\" is no result; accepted are make, miss and undo, or --made 7 --of 10"
+                "\"{text}\" is not a result; accepted are make, miss and undo, or --made 7 --of 10"
             ))),
         }
     }

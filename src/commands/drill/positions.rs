@@ -107,7 +107,7 @@ pub fn save(args: &SaveArgs) -> Result<(), Failure> {
     keep(&Exercise { title, point: args.point.clone(), tags: args.tags.clone(), shot, ..position }, args.replace)?;
     if let Some(cue) = &shot {
         if !has_room(&table, &layout, cue) {
-            tell("note: the cue has no room for the shot at this elevation, so it is no model shot");
+            tell("note: the cue has no room for the shot at this elevation, so it is not a model shot");
         } else if !scores(args.rule, &table, &layout, cue) {
             tell(format_args!("note: the shot makes no point under the rule {}", args.rule));
         }
@@ -156,7 +156,7 @@ fn failure(error: StoreError) -> Failure {
     match error {
         StoreError::Exercise(error) => Failure::wrong_input(error),
         StoreError::Taken(name) => Failure::failed(format_args!(
-            "there is a position \"{name}\" already; --replace saves over it, another name beside it"
+            "there is a position \"{name}\" already; use --replace to overwrite it, or another name"
         )),
         error => Failure::failed(error),
     }

@@ -48,7 +48,7 @@ pub fn words(record: &Record) -> String {
         return "not tried yet".to_owned();
     }
     let average = record.average.map_or_else(String::new, |average| {
-        let of = if record.has_unordered { " of those noted one by one" } else { "" };
+        let of = if record.has_unordered { " of those logged one by one" } else { "" };
         format!(", average {average:.2} in {}, high run {}{of}", plural(record.innings, "inning"), record.high_run)
     });
     let helped = if record.helped > 0 { format!(", {} with a hint", record.helped) } else { String::new() };

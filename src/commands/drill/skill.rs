@@ -12,7 +12,8 @@ use crate::{
 };
 
 /// The message if the results give only a bound.
-const NO_SKILL: &str = "that is a bound and no skill to keep: makes and misses at exercises of other grades tell more";
+const NO_SKILL: &str =
+    "this is only a bound, not a skill that can be kept: results at exercises of other grades tell more";
 
 /// Estimate the player's skill from the results at a real table.
 ///
@@ -69,7 +70,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     if left_out > 0 {
         tell(format_args!(
-            "note: {} had no part in it, for their shot is not known or the cue has no room for it",
+            "note: {} not used, because the shot is unknown or the cue has no room for it",
             plural(left_out, "attempt")
         ));
     }

@@ -272,7 +272,7 @@ impl<'a> StrokeByStroke<'a> {
     /// Explains why the coach did not play.
     pub fn no_point(&self) -> Failure {
         let budget = self.options.budget_ms;
-        Failure::failed(format_args!("the coach found no point in {budget} ms; a larger --budget-ms may do"))
+        Failure::failed(format_args!("the coach found no point in {budget} ms; a larger --budget-ms may help"))
     }
 
     /// Returns the model shot, if the balls are in its position.

@@ -53,7 +53,7 @@ pub fn export(args: &ExportArgs) -> Result<(), Failure> {
             if target.exists() && !storage::read_text(&target, storage::PRACTICE).is_ok_and(is_export) {
                 let file = file.display();
                 return Err(Failure::failed(format_args!(
-                    "{file} is there already and is no export, so it stays as it is; accepted is a new name"
+                    "{file} already exists and is not an export, so it stays as it is; accepted is a new name"
                 )));
             }
             let bytes = serde_json::to_vec(&practice).map_err(|error| refuse(error.into()))?;
@@ -70,10 +70,7 @@ pub fn export(args: &ExportArgs) -> Result<(), Failure> {
     if notes.is_empty() {
         return Ok(());
     }
-    Err(Failure::failed(format_args!(
-        "{} could not be read and had no part in the export",
-        plural(notes.len(), "file")
-    )))
+    Err(Failure::failed(format_args!("{} could not be read; the export lacks this data", plural(notes.len(), "file"))))
 }
 
 pub fn import(args: &ImportArgs) -> Result<(), Failure> {
@@ -93,7 +90,7 @@ pub fn import(args: &ImportArgs) -> Result<(), Failure> {
         json_line(&imported)?;
     } else {
         line(format_args!(
-            "{} and {} taken in, {longer} of those here replaced by longer ones, {known} known already",
+            "{} and {} imported, {longer} existing ones replaced by longer ones, {known} already known",
             plural(*positions, "position"),
             plural(*sessions, "session")
         ))?;
@@ -104,5 +101,5 @@ pub fn import(args: &ImportArgs) -> Result<(), Failure> {
     if refused.is_empty() {
         return Ok(());
     }
-    Err(Failure::failed(format_args!("{} of what {file} holds could not be taken in", plural(refused.len(), "part"))))
+    Err(Failure::failed(format_args!("{} of {file} could not be imported", plural(refused.len(), "part"))))
 }

@@ -34,7 +34,9 @@ impl Comparison {
     pub fn of(spec: &Spec, records: &Records, others: &[PathBuf]) -> Result<Self, Failure> {
         let (other, theirs) = merged(others)?;
         let (Records::Shots(own), Records::Shots(theirs)) = (records, &theirs) else {
-            return Err(Failure::wrong_input("innings of self-play are not compared: only one shot a layout is"));
+            return Err(Failure::wrong_input(
+                "innings of self-play cannot be compared: --against needs one shot per layout",
+            ));
         };
         if let Some(what) = spec.difference_of_layouts(&other) {
             return Err(Failure::wrong_input(format_args!(
@@ -75,7 +77,7 @@ impl fmt::Display for Comparison {
         write!(formatter, "difference of {compared} on the same {}: {difference:+.4}", plural(*layouts, "layout"))?;
         match self.difference_interval {
             Some([low, high]) => write!(formatter, " (95 % interval {low:+.4} to {high:+.4})")?,
-            None => write!(formatter, " (too little to say anything of other layouts)")?,
+            None => write!(formatter, " (too little to say anything about other layouts)")?,
         }
         write!(formatter, ", better on {better}, worse on {worse}")
     }

@@ -164,7 +164,7 @@ impl fmt::Display for Robustness {
                 100.0 * high,
                 100.0 * worst
             )?,
-            _ => write!(formatter, "; fewer than {FEWEST} layouts say nothing of others")?,
+            _ => write!(formatter, "; fewer than {FEWEST} layouts say nothing about others")?,
         }
         self.reliability.as_ref().map_or(Ok(()), |reliability| write!(formatter, "\n{reliability}"))
     }
@@ -179,7 +179,10 @@ mod tests {
         let of = |chances: &[f64]| Robustness::new(Skill::CLUB, Doubt::FULL, chances.to_vec());
         let few = of(&[0.737; 9]);
         assert_eq!((few.make_interval, few.worst_tenth), (None, None));
-        assert!(few.to_string().ends_with("73.70 % of the time; fewer than 10 layouts say nothing of others"), "{few}");
+        assert!(
+            few.to_string().ends_with("73.70 % of the time; fewer than 10 layouts say nothing about others"),
+            "{few}"
+        );
         let [low, high] = of(&[1.0; 20]).make_interval.unwrap();
         assert!(low < 0.9 && high == 1.0, "20 of 20 can be luck: {low}");
         let spread = of(&[0.2, 0.8].repeat(50));

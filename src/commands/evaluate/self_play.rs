@@ -162,7 +162,7 @@ fn print_text(out: &mut impl Write, report: &SelfPlayReport<'_>) -> std::io::Res
     let [low, high] = report.average_interval.map(end);
     let not_begun = match (report.layouts as usize).saturating_sub(report.innings) {
         0 => String::new(),
-        missing => format!("; on {missing} of {} layouts none was begun, for the time was up", report.layouts),
+        missing => format!("; on {missing} of {} layouts none was started, because the time was up", report.layouts),
     };
     writeln!(
         out,
@@ -180,7 +180,9 @@ fn print_text(out: &mut impl Write, report: &SelfPlayReport<'_>) -> std::io::Res
     writeln!(
         out,
         "average {} (95 % interval {low} to {high}), mean run {:.1}, longest {}",
-        report.average.map_or_else(|| "unknown, for nothing was missed".to_owned(), |average| format!("{average:.2}")),
+        report
+            .average
+            .map_or_else(|| "unknown, because nothing was missed".to_owned(), |average| format!("{average:.2}")),
         report.mean_run,
         report.longest
     )?;

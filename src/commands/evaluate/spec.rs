@@ -107,7 +107,7 @@ impl FromStr for Shard {
         let shard = text.split_once('/').and_then(|(part, of)| Some((part.parse().ok()?, of.parse().ok()?)));
         match shard {
             Some((part, of)) if (1..=of).contains(&part) => Ok(Self { part, of }),
-            _ => Err(format!("\"{text}\" is no part: write K/N like 2/8, K from 1 to N")),
+            _ => Err(format!("\"{text}\" is not a part: write K/N like 2/8, K from 1 to N")),
         }
     }
 }
@@ -179,7 +179,7 @@ pub enum MergeError {
     #[error("{} cannot be read: {error}", path.display())]
     File { path: PathBuf, error: std::io::Error },
     /// Its content is not a part.
-    #[error("{} is no part of an evaluation, as carom evaluate --shard prints it: {}", path.display(), what_is_wrong(error))]
+    #[error("{} is not a part of an evaluation, as carom evaluate --shard prints it: {}", path.display(), what_is_wrong(error))]
     Contents { path: PathBuf, error: serde_json::Error },
     /// The parts measured different things.
     #[error("{} and {} are parts of different evaluations: {what}", one.display(), other.display())]
@@ -204,7 +204,7 @@ impl From<MergeError> for Failure {
 /// Explains where the content stops being a part, without the jargon of the JSON library.
 fn what_is_wrong(error: &serde_json::Error) -> String {
     if error.is_data() {
-        return format!("it holds something else at line {}, column {}", error.line(), error.column());
+        return format!("it contains something else at line {}, column {}", error.line(), error.column());
     }
     storage::json_flaw(error)
 }

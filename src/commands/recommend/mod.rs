@@ -226,7 +226,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         let meets_first = answer.shot.description_in_words.as_ref().is_none_or(|words| words.begins_with(args.first));
         let attempt = if meets_first { "this is the best attempt" } else { NO_ATTEMPT };
         return Err(Failure::failed(format_args!(
-            "no point was found{begins}{without} in {:.0} ms; {attempt}, a larger {} may do",
+            "no point was found{begins}{without} in {:.0} ms; {attempt}, a larger {} may help",
             answer.elapsed_ms,
             if args.simulations.is_some() { "--simulations" } else { "--budget-ms" }
         )));

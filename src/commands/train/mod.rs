@@ -169,7 +169,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let rate = read.spec.settings.get("actor_learning_rate").and_then(Value::as_f64);
     if let Some(rate) = rate.filter(|rate| *rate < STANDING_STILL && args.from.is_some()) {
         tell(format_args!(
-            "note: the actor stays as it is, for actor_learning_rate is {rate:e}, as --from may bring along; --set \
+            "note: the actor will not change, because actor_learning_rate is {rate:e} (--from may have set it); --set \
              actor_learning_rate=0.0004 lets it learn"
         ));
     }
@@ -194,7 +194,7 @@ fn for_one_run(jobs: u32) -> Result<(), Failure> {
     if jobs == 1 {
         return Ok(());
     }
-    Err(Failure::wrong_input(format_args!("--jobs {jobs} is for several seeds; say how many by --seeds")))
+    Err(Failure::wrong_input(format_args!("--jobs {jobs} is for several seeds; give their number with --seeds")))
 }
 
 /// Resumes one run or a group of seeds.
@@ -215,7 +215,7 @@ fn train(mut run: Run, options: &TrainOptions<'_>) -> Result<(), Failure> {
     let learner = run.learner();
     if learner.is_finished() {
         tell(format_args!(
-            "{} is finished: it has played {} shots (asked for: {}); start a new run with its weights by --from",
+            "{} is finished: it has played {} shots (requested: {}); start a new run with its weights by --from",
             run.folder().display(),
             learner.shots(),
             learner.plan().shots
@@ -264,12 +264,12 @@ fn abandon(run: Run) -> Result<Failure, RunError> {
     // The run holds the lock of the folder.
     drop(run);
     discard(&folder)?;
-    Ok(Failure::unfinished(format_args!("{}: given up and removed, as was asked", folder.display())))
+    Ok(Failure::unfinished(format_args!("{}: abandoned and removed, as requested", folder.display())))
 }
 
 fn how_to_resume(folder: &Path) -> Failure {
     let folder = shell_word(&folder.to_string_lossy());
-    Failure::unfinished(format_args!("stopped early; go on with: carom train --resume {folder}"))
+    Failure::unfinished(format_args!("stopped early; resume with: carom train --resume {folder}"))
 }
 
 fn failure(error: RunError) -> Failure {

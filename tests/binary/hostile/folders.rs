@@ -84,7 +84,7 @@ fn an_export_goes_where_a_link_leads() {
     assert_eq!(carom(home.path(), &["drill", "export", "real.json"]).code, Some(0));
     fs::write(home.path().join("notes.txt"), "mine").unwrap();
     let said = carom(home.path(), &["drill", "export", "notes.txt"]);
-    assert!(said.code == Some(1) && said.err.contains("is no export, so it stays as it is"), "{}", said.err);
+    assert!(said.code == Some(1) && said.err.contains("is not an export, so it stays as it is"), "{}", said.err);
     assert_eq!(fs::read_to_string(home.path().join("notes.txt")).unwrap(), "mine");
 }
 

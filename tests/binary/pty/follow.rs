@@ -176,7 +176,7 @@ fn pipes_get_lines_and_programs_get_objects_until_the_player_leaves() {
     let [plain, json] = [plain, json].map(|child| child.wait_with_output().unwrap());
     assert!(text().starts_with("anna plays straight"), "{}", text());
     assert!(
-        plain.status.success() && String::from_utf8(plain.stderr).unwrap().contains("anna shows the table no more")
+        plain.status.success() && String::from_utf8(plain.stderr).unwrap().contains("anna no longer shows the table")
     );
     assert!(json.status.success());
     let text = objects();

@@ -69,7 +69,7 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
         assert_eq!(said["shots"], 16, "{file}");
     }
     let resumed = done(here, "train --resume rounds");
-    assert!(resumed.err.contains("it has played 16 shots (asked for: 1)"), "{}", resumed.err);
+    assert!(resumed.err.contains("it has played 16 shots (requested: 1)"), "{}", resumed.err);
 
     let again = carom(here, &format!("{SHORT} --run one"));
     assert_eq!(again.code, Some(1));
