@@ -270,7 +270,8 @@ fn refine(exercise: &Exercise, mut shot: CueInputs) -> (f64, CueInputs) {
                     phi: rounded(shot.phi.to_degrees() + sign * phi / DEGREE, DEGREE).to_radians(),
                     speed: rounded(shot.speed + sign * speed / SPEED, SPEED),
                 };
-                let Some(next) = exercise.table().ok().and_then(|table| with_raised_cue(exercise, &table, &next)) else {
+                let Some(next) = exercise.table().ok().and_then(|table| with_raised_cue(exercise, &table, &next))
+                else {
                     continue;
                 };
                 let reached = worth_of(exercise, &next, ATTEMPTS);

@@ -108,7 +108,7 @@ pub fn parse_request<Q: DeserializeOwned + Keys>(line: &[u8]) -> Result<Q, Strin
     }
 }
 
-/// Explains why a line is not JSON. serde_json counts lines within this text, so only its column is useful.
+/// Explains why a line is not JSON. `serde_json` counts lines within this text, so only its column is useful.
 fn not_json(error: &serde_json::Error) -> String {
     match error.classify() {
         Category::Eof => "it ends before its object does".to_owned(),

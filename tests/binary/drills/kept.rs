@@ -1,4 +1,4 @@
-//! Positions of one's own, codes, export and import.
+//! The user's own positions, share codes, export and import.
 
 use std::fs;
 
@@ -9,7 +9,7 @@ fn a_position_is_shared_added_replaced_and_removed() {
     let folder = folder();
     let code = drill(folder.path(), &["share", "mine"]).out;
     assert_eq!(code.lines().count(), 1);
-    // As a chat may wrap it.
+    // Split in two, as a chat may wrap it.
     let (begin, end) = code.trim().split_at(30);
     assert_eq!(drill(folder.path(), &["add", begin, end]).code, Some(1), "there is one of this name");
     assert_eq!(drill(folder.path(), &["add", begin, end, "--name", "yours"]).code, Some(0));
@@ -124,7 +124,7 @@ fn what_is_exported_is_imported_elsewhere_and_once() {
     assert_eq!((tried(there.path()), import()["known"].as_u64()), (3, Some(3)));
     assert_eq!(drill(there.path(), &["export", "-"]).out, drill(there.path(), &["export"]).out);
     assert_eq!(drill(there.path(), &["export"]).out.trim(), fs::read_to_string(file).unwrap().trim());
-    // Of what has grown there since, the longer is taken; a file of a newer version is refused whole.
+    // Of sessions that have grown here since, the longer version is kept; a file of a newer version is refused completely.
     let text = fs::read_to_string(file).unwrap();
     fs::write(file, text.replace("\"version\":1", "\"version\":2")).unwrap();
     let newer = drill(there.path(), &["import", file]);
