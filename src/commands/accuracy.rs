@@ -8,7 +8,7 @@ use std::{
 use super::{
     Failure,
     input::{seed, table_named, whole},
-    output::{check_place, plural, tell},
+    output::{check_place, plural, print_note},
 };
 use crate::{
     printing::{self, ProgressLine},
@@ -91,7 +91,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             "--shots {shots} is more than can be studied; accepted are 1 to {MOST_STUDIED}, and more with --stability"
         )));
     }
-    let tables = args.table.as_ref().map_or_else(judged, |name| table_named(name).map(with_flights))?;
+    let tables = args.table.as_ref().map_or_else(default_tables, |name| table_named(name).map(with_flights))?;
     let references = study::check_references();
     let measured = tables.into_iter().map(|(table, steepest)| measure(args, table, steepest));
     let studies = measured.collect::<Result<Vec<_>, _>>()?;
@@ -117,7 +117,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     drop(out);
     // The stability table has its own tables and numbers of shots.
     if args.quick || args.shots.is_some() || args.table.is_some() {
-        tell("The stability table was not played: --stability plays it, in minutes; with --quick a tenth of it.");
+        print_note("The stability table was not played: --stability plays it, in minutes; with --quick a tenth of it.");
         return Ok(());
     }
     play_stability(args, &stability::Plan::REPORT)
@@ -138,7 +138,7 @@ fn replay_film(args: &Args) -> Result<(), Failure> {
         None => filmed::models(),
     };
     let judged = |(name, table): &(String, Table)| {
-        tell(format_args!("playing the film on {name} ..."));
+        print_note(format_args!("playing the film on {name} ..."));
         filmed::judge(name, table, &film)
     };
     let rows: Vec<_> = models.iter().map(judged).collect();
@@ -168,7 +168,7 @@ fn fit_film(args: &Args) -> Result<(), Failure> {
     let parts = [("the whole film", &film, &film), ("every other shot", &even, &odd), ("the other shots", &odd, &even)];
     let mut out = printing::stdout().exact(args.json);
     for (used, fit_on, judge_on) in parts {
-        tell(format_args!("fitting {used} ..."));
+        print_note(format_args!("fitting {used} ..."));
         let fitted = filmed::fit_constants(&table, model, fit_on);
         let name = format!("fitted to {used}");
         let row = filmed::judge(&name, &fitted.table, judge_on);
@@ -211,7 +211,7 @@ fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
 }
 
 /// Returns the default tables: two with ordinary strokes, and one with steep strokes that make balls fly.
-fn judged() -> Result<Vec<(Table, Steepest)>, Failure> {
+fn default_tables() -> Result<Vec<(Table, Steepest)>, Failure> {
     let flat = JUDGED.into_iter().map(|name| Ok((table_named(name)?, Steepest::USUAL)));
     flat.chain([Ok((Table::default(), Steepest::FLIGHTS))]).collect()
 }
@@ -259,6 +259,6 @@ fn write_file(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {
     let path = folder.join(name);
     write_atomic(&path, text.as_bytes())
         .map_err(|error| Failure::failed(format_args!("{} cannot be written: {error}", path.display())))?;
-    tell(format_args!("wrote {}", path.display()));
+    print_note(format_args!("wrote {}", path.display()));
     Ok(())
 }

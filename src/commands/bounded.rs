@@ -24,7 +24,7 @@ const MOST_STEPS: f64 = 4e6;
 pub fn play(table: &Table, layout: &Layout, start: Start<'_>) -> Result<Recording, Failure> {
     let (recording, is_over) =
         Recording::within_bounds(table, layout, start, LONGEST, u32::MAX).map_err(Failure::wrong_input)?;
-    finite(table, recording, is_over, "")
+    check_finite(table, recording, is_over, "")
 }
 
 /// Plays a shot in fixed time steps.
@@ -55,7 +55,7 @@ pub fn play_in_steps(
     };
     let (recording, (stepped, is_over)) =
         Recording::played_by(table, layout, Start::Stroke(cue), play).map_err(Failure::wrong_input)?;
-    Ok((finite(table, recording, is_over, "larger time steps or ")?, stepped))
+    Ok((check_finite(table, recording, is_over, "larger time steps or ")?, stepped))
 }
 
 /// Rounds a positive `value` up to two significant digits.
@@ -67,12 +67,17 @@ fn rounded_up(value: f64) -> f64 {
     if nearest < value { two_digits(times + 1.0) } else { nearest }
 }
 
-/// Returns the recording if it is complete and its numbers are finite. `else_would` names remedies besides a less stiff table.
-fn finite(table: &Table, recording: Recording, is_over: bool, else_would: &str) -> Result<Recording, Failure> {
+/// Returns the recording if it is complete and its numbers are finite. `other_remedies` names remedies besides a less stiff table.
+fn check_finite(
+    table: &Table,
+    recording: Recording,
+    is_over: bool,
+    other_remedies: &str,
+) -> Result<Recording, Failure> {
     let name = &table.name;
     if is_over {
         return Err(Failure::failed(format_args!(
-            "the shot takes more than {} s to compute on \"{name}\" and was stopped; use {else_would}a less stiff table",
+            "the shot takes more than {} s to compute on \"{name}\" and was stopped; use {other_remedies}a less stiff table",
             LONGEST.as_secs()
         )));
     }

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use super::{
     Failure,
-    output::{plural, tell},
+    output::{plural, print_note},
 };
 use crate::{printing, terminal::Settings};
 
@@ -30,7 +30,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         write!(out, "# {}\n{}", path.display(), settings.document())?;
     }
     for complaint in &complaints {
-        tell(format_args!("{}: {complaint}", path.display()));
+        print_note(format_args!("{}: {complaint}", path.display()));
     }
     match complaints.len() {
         0 => Ok(()),

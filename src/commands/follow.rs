@@ -4,7 +4,7 @@ use std::sync::atomic::Ordering;
 
 use super::{
     Failure, failure,
-    output::{json_line, line, tell},
+    output::{json_line, line, print_note},
 };
 use crate::{
     platform::stop_on_signal,
@@ -54,7 +54,7 @@ pub(super) fn run(args: &Args, seat: Seat) -> Result<(), Failure> {
         &mut printing::stdout().exact(args.json),
     )?;
     if !stop.load(Ordering::Relaxed) {
-        tell(format_args!("{player} no longer shows the table"));
+        print_note(format_args!("{player} no longer shows the table"));
     }
     Ok(())
 }
@@ -70,7 +70,7 @@ fn list(json: bool) -> Result<(), Failure> {
         }
     }
     if shown.is_empty() {
-        tell("nobody shows their table now; a player can do so with the key F on the coach's screen");
+        print_note("nobody shows their table now; a player can do so with the key F on the coach's screen");
     }
     Ok(())
 }

@@ -15,7 +15,7 @@ use serde_json::json;
 
 use super::{
     Failure,
-    output::tell,
+    output::print_note,
     request::{Keys, parse_request},
 };
 use crate::{
@@ -60,10 +60,10 @@ pub fn table_in(file: &Path) -> Result<Table, Failure> {
 pub fn note_doubts(policy: &Policy, table: &Table, rule: Option<Rule>) {
     let Origin { reward, table: trained_on, .. } = policy.origin();
     if let Some(rule) = rule.filter(|rule| *reward != Reward::for_rule(*rule)) {
-        tell(format_args!("note: this policy was trained for {reward}; of the rule \"{rule}\" it knows nothing"));
+        print_note(format_args!("note: this policy was trained for {reward}; of the rule \"{rule}\" it knows nothing"));
     }
     if !policy.knows(table) {
-        tell(format_args!("note: this policy was trained on \"{trained_on}\", not on \"{}\"", table.name));
+        print_note(format_args!("note: this policy was trained on \"{trained_on}\", not on \"{}\"", table.name));
     }
 }
 

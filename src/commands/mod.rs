@@ -29,7 +29,7 @@ use std::{any::TypeId, error::Error, ffi::OsString, io::Write};
 use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 pub use failure::Failure;
-use output::{of_refused_lines, tell};
+use output::{print_note, refused_lines_result};
 
 use crate::{
     platform,
@@ -146,7 +146,7 @@ impl Cli {
             crate::terminal::need_terminal(self.guest).map_err(failure)?;
         }
         let seat = self.seat()?;
-        // A table on the command line was chosen by the operator of the machine, so it may lie outside the player's folder.
+        // The operator of the machine chose the table on the command line, so it is read before a guest is confined to their folder.
         let named = self.table.as_deref().map(input::table_named).transpose()?;
         seat.take(None).map_err(|error| {
             let folder = seat.places.own.display();
@@ -158,12 +158,12 @@ impl Cli {
         let table = named.map_or_else(|| input::table_named(&settings.table), Ok)?;
         if self.plain {
             if let Some(news) = notice(&seat.places) {
-                tell(format_args!("note: {news}"));
+                print_note(format_args!("note: {news}"));
             }
             for complaint in &complaints {
-                tell(format_args!("{}: {complaint}", path.display()));
+                print_note(format_args!("{}: {complaint}", path.display()));
             }
-            return of_refused_lines(crate::terminal::talk(table, &settings, &seat.places).map_err(failure)?);
+            return refused_lines_result(crate::terminal::talk(table, &settings, &seat.places).map_err(failure)?);
         }
         crate::terminal::run(table, &settings, &complaints, seat).map_err(failure)
     }

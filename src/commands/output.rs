@@ -22,7 +22,7 @@ use crate::{
 
 /// Prints a sentence to the standard error. Errors are ignored: if the terminal is gone, such as after a broken ssh connection, the work
 /// continues without a reader.
-pub fn tell(sentence: impl Display) {
+pub fn print_note(sentence: impl Display) {
     let _ = writeln!(printing::stderr(), "{sentence}");
 }
 
@@ -74,7 +74,7 @@ pub fn chance_words(skill: Skill, rate: f64, [low, high]: [f64; 2]) -> String {
 ///
 /// # Errors
 /// Fails if lines of a pipe or a file were refused.
-pub fn of_refused_lines(refused: usize) -> Result<(), Failure> {
+pub fn refused_lines_result(refused: usize) -> Result<(), Failure> {
     if refused == 0 || io::stdin().is_terminal() {
         return Ok(());
     }
@@ -101,7 +101,7 @@ pub fn plural(count: usize, thing: &str) -> String {
 }
 
 /// States the skill and the rule, for commands in which only the command line sets them.
-pub fn whom_words(skill: Skill, rule: Rule) -> String {
+pub fn player_and_rule_words(skill: Skill, rule: Rule) -> String {
     format!(
         "For a player of skill \"{skill}\" under the rule {rule}; --skill and --rule choose others. The screen's skill and rule are not used."
     )

@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::{
     Failure,
     input::{seed, table_named, whole, whole_from},
-    output::{check_place, tell},
+    output::{check_place, print_note},
 };
 use crate::{
     platform::stop_on_signal,
@@ -105,7 +105,7 @@ fn write(args: &Args, drawn: &Drawn) -> std::io::Result<()> {
 
 fn progress(shots: u64) -> ProgressBar {
     if !printing::is_watched() {
-        tell(format_args!("training for {shots} shots"));
+        print_note(format_args!("training for {shots} shots"));
         return ProgressBar::hidden();
     }
     let template = "{elapsed_precise} {wide_bar} {human_pos}/{human_len} shots, {eta} left";

@@ -10,7 +10,7 @@ use super::{
     Failure, bounded,
     input::{ByTable, PositionArgs, answer_lines},
     lookup::skill_called,
-    output::{chance_words, impulse_words, shot_text, tell, units},
+    output::{chance_words, impulse_words, print_note, shot_text, units},
     request::{Key, Keys, RuleName},
     typed_stroke::TypedStroke,
 };
@@ -360,12 +360,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let typed = TypedStroke::read(args.shot.as_deref().unwrap_or_default())?;
     let cue = typed.on(&table, &layout, CueBall::White)?;
     if matches!(typed, TypedStroke::Said(_)) {
-        tell(format_args!("note: the shot is \"{}\"", shot_text(&cue)));
+        print_note(format_args!("note: the shot is \"{}\"", shot_text(&cue)));
     }
     let played = play(&table, &layout, &cue, steps)?;
     let miscue = cue.is_miscue(&table);
     if miscue {
-        tell(format_args!(
+        print_note(format_args!(
             "note: a real tip would slip off (miscue): a² + b² is {:.3}; the limit on \"{}\" is {}",
             cue.tip_offset_squared(),
             table.name,
@@ -374,7 +374,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let cue_room = CueRoom::of(&table, &layout, &cue);
     if let Some(note) = cue_room.as_ref().and_then(CueRoom::note) {
-        tell(format_args!("note: {note}"));
+        print_note(format_args!("note: {note}"));
     }
     let verdict = Verdict::of(args.rule, &table, &layout, &played.0);
     let chance = args.skill.map(|skill| {

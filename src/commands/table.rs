@@ -7,7 +7,7 @@ use clap::Subcommand;
 use super::{
     Failure,
     input::{table_in, table_named},
-    output::tell,
+    output::print_note,
 };
 use crate::{
     printing,
@@ -63,7 +63,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
                 let table = match table {
                     Ok(table) => table,
                     Err(failure) => {
-                        tell(format_args!("note: {failure}"));
+                        print_note(format_args!("note: {failure}"));
                         continue;
                     }
                 };

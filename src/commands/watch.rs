@@ -11,7 +11,7 @@ use std::{
 use super::{
     Failure,
     lookup::{LATEST, existing_run},
-    output::{json_line, tell},
+    output::{json_line, print_note},
     train::{line, print_runs},
 };
 use crate::{
@@ -59,13 +59,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     match folder {
         Some(folder) if is_run => {
             if args.run.as_deref() == Some(Path::new(LATEST)) {
-                tell(format_args!("watching the run in {}", folder.display()));
+                print_note(format_args!("watching the run in {}", folder.display()));
             }
             follow(&folder, args.json)
         }
         folder => {
             if print_runs(folder.as_deref(), args.json)? {
-                tell(match folder {
+                print_note(match folder {
                     None => "choose one of them: carom watch NAME, or carom watch latest".to_owned(),
                     Some(folder) => {
                         let name = folder.join("NAME");
@@ -95,7 +95,7 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
             }
             printed = update.records.last().map_or(printed, |record| record.shots.max(printed));
             for notice in update.notices.iter().flatten() {
-                tell(format_args!("note: {}", OneLine(notice)));
+                print_note(format_args!("note: {}", OneLine(notice)));
             }
             followed.apply(update);
         }
@@ -106,7 +106,7 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
         // A measurement is already reported by its own line.
         if is_settled && condition != Condition::Is(Phase::Measuring) && !condition.is_like(before) {
             before = condition;
-            tell(OneLine(followed.sentence()));
+            print_note(OneLine(followed.sentence()));
         }
         if over.is_some() && is_settled {
             break;

@@ -15,8 +15,8 @@ mod threads;
 pub use self::{
     stop::{UNFINISHED, outlive_hang_up, stop_on_signal},
     system::{
-        CAN_SUSPEND, CLOCK, Input, NEEDS_TERM, die, file_identity, for_all_to_read, free_space, free_the_screen,
-        listen, own_group, refuse_large_files, suspend, sync_folder, terminal_output, thread_time,
+        CAN_SUSPEND, CLOCK, Input, NEEDS_TERM, die, file_identity, free_space, free_the_screen, listen, own_group,
+        refuse_large_files, suspend, sync_folder, terminal_output, thread_time, use_umask_permissions,
     },
     threads::{limit_threads, threads},
 };

@@ -9,10 +9,10 @@ use std::{
 use super::{clear_line, is_watched, redraw_line, stderr};
 
 /// Time between two lines if the output is not a terminal.
-const SELDOM: Duration = Duration::from_secs(60);
+const LINE_INTERVAL: Duration = Duration::from_secs(60);
 
 /// Time between two updates on a terminal, where each replaces the one before.
-const OFTEN: Duration = Duration::from_millis(200);
+const REDRAW_INTERVAL: Duration = Duration::from_millis(200);
 
 /// Writes progress to the standard error: one line that is updated on a terminal, otherwise one line per minute.
 #[derive(Debug)]
@@ -32,7 +32,7 @@ impl Default for ProgressLine {
 impl ProgressLine {
     /// Shows the progress, unless it was shown very recently.
     pub fn show(&mut self, progress: impl Display) {
-        if self.shown.elapsed() < if self.terminal { OFTEN } else { SELDOM } {
+        if self.shown.elapsed() < if self.terminal { REDRAW_INTERVAL } else { LINE_INTERVAL } {
             return;
         }
         self.shown = Instant::now();

@@ -8,7 +8,7 @@ use std::{
 use crossterm::terminal::size;
 
 use super::{
-    spelling::{is_wanted, spelt},
+    spelling::{needs_ascii, spelt},
     visible::{is_hidden, parts},
     wrapping::Wrapping,
 };
@@ -18,7 +18,7 @@ use super::{
 pub struct Shown<W: Write> {
     inner: W,
     /// The first bytes of a character whose remaining bytes have not been written yet.
-    begun: Vec<u8>,
+    incomplete: Vec<u8>,
     /// Whether text is transliterated to ASCII.
     spells: bool,
     /// Line wrapping between words; `None` if lines are not wrapped.
@@ -65,14 +65,14 @@ impl<W: Write + IsTerminal> Shown<W> {
     fn at_terminal(inner: W) -> Self {
         let size = inner.is_terminal().then(size).and_then(Result::ok);
         let wrapping = size.filter(|(columns, _)| *columns > 0).map(|(columns, _)| Wrapping::new(usize::from(columns)));
-        Self { inner, begun: Vec::new(), spells: is_wanted(), wrapping }
+        Self { inner, incomplete: Vec::new(), spells: needs_ascii(), wrapping }
     }
 }
 
 impl<W: Write> Shown<W> {
     /// Wraps `inner`, without transliteration and without line wrapping.
     pub const fn new(inner: W) -> Self {
-        Self { inner, begun: Vec::new(), spells: false, wrapping: None }
+        Self { inner, incomplete: Vec::new(), spells: false, wrapping: None }
     }
 
     /// Turns transliteration and line wrapping off if `is_exact`: for JSON, and for text meant for a file.
@@ -112,11 +112,11 @@ impl<W: Write> Shown<W> {
 impl<W: Write> Write for Shown<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let joined;
-        let bytes_now = if self.begun.is_empty() {
+        let bytes_now = if self.incomplete.is_empty() {
             bytes
         } else {
-            joined = [self.begun.as_slice(), bytes].concat();
-            self.begun.clear();
+            joined = [self.incomplete.as_slice(), bytes].concat();
+            self.incomplete.clear();
             &joined
         };
         let mut left = bytes_now;
@@ -130,7 +130,7 @@ impl<W: Write> Write for Shown<W> {
                     let (good, bad) = left.split_at(error.valid_up_to());
                     self.show(std::str::from_utf8(good).unwrap_or_default())?;
                     let Some(length) = error.error_len() else {
-                        self.begun.extend_from_slice(bad);
+                        self.incomplete.extend_from_slice(bad);
                         return Ok(bytes.len());
                     };
                     self.show("\u{fffd}")?;
@@ -149,7 +149,7 @@ impl<W: Write> Write for Shown<W> {
 impl<W: Write> Drop for Shown<W> {
     fn drop(&mut self) {
         // Errors cannot be reported from here.
-        let _ = if self.begun.is_empty() { Ok(()) } else { self.put("\u{fffd}") };
+        let _ = if self.incomplete.is_empty() { Ok(()) } else { self.put("\u{fffd}") };
         let _ = self.put_rest();
     }
 }
@@ -175,7 +175,7 @@ mod tests {
         let said = |is_exact| {
             let mut bytes = Vec::new();
             let mut out =
-                Shown { inner: &mut bytes, begun: Vec::new(), spells: true, wrapping: Some(Wrapping::new(9)) }
+                Shown { inner: &mut bytes, incomplete: Vec::new(), spells: true, wrapping: Some(Wrapping::new(9)) }
                     .exact(is_exact);
             write!(out, "3\u{b0} \u{b1} 1").unwrap();
             drop(out);

@@ -3,7 +3,7 @@
 use std::{borrow::Cow, sync::OnceLock};
 
 /// The replacements. Other non-ASCII characters come from names that users chose; they stay unchanged.
-const SPELT: [(&str, &str); 17] = [
+const REPLACEMENTS: [(&str, &str); 17] = [
     ("\u{2013}", "-"),
     ("mass\u{e9}", "masse"),
     ("\u{b1}", "+-"),
@@ -29,7 +29,7 @@ pub fn spelt(text: &str) -> Cow<'_, str> {
     if text.is_ascii() {
         return Cow::Borrowed(text);
     }
-    Cow::Owned(SPELT.iter().fold(with_degrees(text), |text, (character, word)| text.replace(character, word)))
+    Cow::Owned(REPLACEMENTS.iter().fold(with_degrees(text), |text, (character, word)| text.replace(character, word)))
 }
 
 /// Replaces degree signs by words: "degree" after the number 1, otherwise "degrees".
@@ -66,9 +66,9 @@ fn locale(variable: impl Fn(&str) -> Option<String>) -> String {
 }
 
 /// Whether the environment of this process requires transliteration.
-pub(super) fn is_wanted() -> bool {
-    static IS_WANTED: OnceLock<bool> = OnceLock::new();
-    *IS_WANTED.get_or_init(|| !is_unicode(|name| std::env::var(name).ok()))
+pub(super) fn needs_ascii() -> bool {
+    static NEEDS_ASCII: OnceLock<bool> = OnceLock::new();
+    *NEEDS_ASCII.get_or_init(|| !is_unicode(|name| std::env::var(name).ok()))
 }
 
 #[cfg(test)]

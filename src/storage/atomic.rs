@@ -8,7 +8,7 @@ use std::{
 
 use tempfile::NamedTempFile;
 
-use super::{confinement::may_write, reading::regular};
+use super::{confinement::may_write, reading::check_regular};
 use crate::platform;
 
 /// Prefix and suffix of temporary file names; they identify the files that a killed process left.
@@ -42,7 +42,7 @@ pub fn create_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// Fails if `path` exists and is not a regular file, if its folder is missing, or with any error of the file system. The old file is then
 /// untouched.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    replaceable(path)?;
+    check_replaceable(path)?;
     let mut file = readable_by_all(folder_of(path))?;
     file.as_file_mut().write_all(bytes)?;
     file.persist(path)?;
@@ -62,7 +62,7 @@ impl Staged {
     /// # Errors
     /// Returns any error of the file system; no file is left then.
     pub fn new(path: &Path, bytes: &[u8]) -> io::Result<Self> {
-        replaceable(path)?;
+        check_replaceable(path)?;
         let folder = folder_of(path);
         may_write(folder)?;
         std::fs::create_dir_all(folder)?;
@@ -133,8 +133,8 @@ pub fn target_of(path: &Path) -> PathBuf {
 }
 
 /// Refuses an existing path that is not a regular file: replacing a pipe or a device would turn it into a regular file.
-fn replaceable(path: &Path) -> io::Result<()> {
-    std::fs::metadata(path).map_or(Ok(()), |found| regular(&found))
+fn check_replaceable(path: &Path) -> io::Result<()> {
+    std::fs::metadata(path).map_or(Ok(()), |found| check_regular(&found))
 }
 
 fn folder_of(path: &Path) -> &Path {
@@ -150,7 +150,7 @@ fn readable_by_all(folder: &Path) -> io::Result<NamedTempFile> {
     let [begin, end] = PARTIAL;
     let mut builder = tempfile::Builder::new();
     builder.prefix(begin).suffix(end);
-    platform::for_all_to_read(&mut builder);
+    platform::use_umask_permissions(&mut builder);
     builder.tempfile_in(folder).map_err(without_its_name)
 }
 

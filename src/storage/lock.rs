@@ -33,7 +33,7 @@ impl Lock {
     pub fn take(folder: &Path) -> io::Result<Option<Self>> {
         let path = folder.join(Self::FILE);
         if let Ok(found) = path.metadata() {
-            super::reading::regular(&found)?;
+            super::reading::check_regular(&found)?;
         }
         let file = OpenOptions::new().create(true).truncate(false).write(true).open(path)?;
         for attempt in 0..ATTEMPTS {

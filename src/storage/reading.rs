@@ -76,9 +76,9 @@ pub fn put_aside(path: &Path) -> String {
 pub fn open(path: &Path) -> io::Result<File> {
     may_read(path)?;
     // Check before opening, because opening a pipe without a writer blocks.
-    regular(&fs::metadata(path).map_err(missing)?)?;
+    check_regular(&fs::metadata(path).map_err(missing)?)?;
     let file = File::open(path)?;
-    regular(&file.metadata()?)?;
+    check_regular(&file.metadata()?)?;
     Ok(file)
 }
 
@@ -96,7 +96,7 @@ fn missing(error: io::Error) -> io::Error {
 ///
 /// # Errors
 /// Fails with the kind of the file that was found.
-pub fn regular(found: &fs::Metadata) -> io::Result<()> {
+pub fn check_regular(found: &fs::Metadata) -> io::Result<()> {
     if found.is_file() {
         return Ok(());
     }

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use super::{
     Failure,
     input::{seed, table_named, whole},
-    output::{check_place, line, need_folder, tell},
+    output::{check_place, line, need_folder, print_note},
 };
 use crate::{
     calibration::{Entries, KeptError, Play, calibrate, entries_of, may_save_table, overnight, prior, save_table},
@@ -138,7 +138,7 @@ fn check_out(path: &Path) -> Result<(), Failure> {
 fn report_result(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entries) -> Result<(), Failure> {
     let (trials, odd) = entries.trials(table);
     for oddity in &odd {
-        tell(format_args!("{oddity}; it is left out"));
+        print_note(format_args!("{oddity}; it is left out"));
     }
     let own = table.doubt.is_some().then_some(&table.name);
     let name = args.name.as_ref().or(entries.name.as_ref()).or(own).map_or(NAME, String::as_str);
@@ -169,7 +169,7 @@ fn report_result(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entri
     let Some(path) = out else { return Ok(()) };
     let said = format!("the table \"{}\" is written to {}", found.table.name, path.display());
     if args.json {
-        tell(said);
+        print_note(said);
         return Ok(());
     }
     line(said)

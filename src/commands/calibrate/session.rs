@@ -7,7 +7,7 @@ use crate::{
     calibration::{Edit, Entries, Entry, FAR_END, PROTOCOL, RAILS, Test, edit_entries, kept_entries, missing_today},
     commands::{
         Failure,
-        output::{ask, of_refused_lines, tell},
+        output::{ask, print_note, refused_lines_result},
     },
     storage::Places,
     table::{Table, TableDoubt},
@@ -23,13 +23,13 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
     let places = Places::of_this_user();
     let path = if args.daily { places.daily_check } else { places.calibration };
     let mut session = Session::open(path, args.daily)?;
-    tell(HELP);
-    tell(format_args!("entries are kept in {}", session.path.display()));
+    print_note(HELP);
+    print_note(format_args!("entries are kept in {}", session.path.display()));
     let (mut shown, mut refused) = (None, 0);
     while let Some(test) = session.next() {
         if shown != Some((test.name, session.entries.trials.len())) {
             let number = 1 + PROTOCOL.iter().position(|one| one.name == test.name).unwrap_or_default();
-            words(number, test).iter().for_each(tell);
+            words(number, test).iter().for_each(print_note);
             shown = Some((test.name, session.entries.trials.len()));
         }
         let names: Vec<&str> = test.asked().collect();
@@ -38,7 +38,7 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
             Ok(text) => text,
             Err(failure) => {
                 refused += 1;
-                tell(failure);
+                print_note(failure);
                 continue;
             }
         };
@@ -48,26 +48,26 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
             "skip" => session.skip(test),
             "again" => session.again(),
             "undo" => session.undo()?,
-            "help" | "?" => tell(HELP),
+            "help" | "?" => print_note(HELP),
             marks => match entry(table, test, marks) {
                 Ok(entry) => {
                     let kept = kept_words(test, &entry);
                     session.add(entry)?;
-                    tell(format_args!("kept: {}, stroke {}: {kept}", test.name, session.count(test)));
+                    print_note(format_args!("kept: {}, stroke {}: {kept}", test.name, session.count(test)));
                 }
                 Err(what) => {
                     refused += 1;
-                    tell(format_args!("{}: {what}; nothing was kept", test.name));
+                    print_note(format_args!("{}: {what}; nothing was kept", test.name));
                 }
             },
         }
     }
     if session.entries.trials.is_empty() && args.out.is_none() {
-        tell("nothing is entered yet");
+        print_note("nothing is entered yet");
     } else {
         report_result(args, table, doubt, &session.entries)?;
     }
-    of_refused_lines(refused)
+    refused_lines_result(refused)
 }
 
 /// Parses a typed line as an entry.
@@ -131,7 +131,7 @@ struct Session {
     /// A test that is repeated.
     repeated: Option<&'static Test>,
     is_daily: bool,
-    /// Whether the file still contains the check of an earlier day, which is replaced by the first entry.
+    /// Whether the file still contains the check of an earlier day. The first entry moves it to a backup next to the file.
     holds_earlier_check: bool,
 }
 
@@ -170,13 +170,13 @@ impl Session {
 
     fn undo(&mut self) -> Result<(), Failure> {
         let Some(entry) = self.entries.trials.last().cloned() else {
-            tell("there is nothing to take back");
+            print_note("there is nothing to take back");
             return Ok(());
         };
         self.skipped.retain(|name| *name != entry.test);
         let said = format!("the last entry ({}) is taken back", entry.test);
         self.edit(&Edit::TakeOut(self.entries.trials.len() - 1, entry))?;
-        tell(said);
+        print_note(said);
         Ok(())
     }
 
@@ -188,7 +188,7 @@ impl Session {
     fn again(&mut self) {
         self.repeated = self.entries.trials.last().and_then(|entry| Test::named(&entry.test));
         if self.repeated.is_none() {
-            tell("there is no test yet to play again");
+            print_note("there is no test yet to play again");
         }
     }
 

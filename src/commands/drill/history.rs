@@ -9,7 +9,7 @@ use super::{
 use crate::{
     commands::{
         Failure,
-        output::{json_line, line, print_table, tell},
+        output::{json_line, line, print_note, print_table},
     },
     drills::{Goal, Record, Session, Venue},
     game::Rule,
@@ -143,7 +143,7 @@ fn all(sessions: &[Session], json: bool) -> Result<(), Failure> {
         }
     }
     if rows.is_empty() {
-        tell("nothing was practised yet; carom drill list shows the exercises");
+        print_note("nothing was practised yet; carom drill list shows the exercises");
     } else if !json {
         let heads = ["name", "where", "made", "tried", "rate", "average", "high run", "last (UTC)"];
         print_table(heads, rows, &[2, 3, 4, 5, 6])?;
@@ -179,7 +179,7 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
         return Ok(());
     }
     if tried.is_empty() {
-        tell(format_args!("{}: not tried yet", subject.name()));
+        print_note(format_args!("{}: not tried yet", subject.name()));
         return Ok(());
     }
     print_table(["started (UTC)", "where", "goal or score", "made", "tried", "rate", "high run"], rows, &[3, 4, 5, 6])?;

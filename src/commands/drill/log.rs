@@ -13,7 +13,7 @@ use crate::{
     commands::{
         Failure,
         input::whole,
-        output::{ask, json_line, line, of_refused_lines, tell},
+        output::{ask, json_line, line, print_note, refused_lines_result},
     },
     drills::{Attempt, Goal, Session, Venue},
     storage::Lock,
@@ -207,7 +207,7 @@ impl Log {
             match text.and_then(|text| LogEntry::read(&text)) {
                 Err(failure) => {
                     refused += 1;
-                    tell(failure);
+                    print_note(failure);
                 }
                 Ok(word) => {
                     if self.apply(&word)? {
@@ -216,12 +216,12 @@ impl Log {
                     } else {
                         self.lock = None;
                         lacked_undo = true;
-                        tell(self.nothing_to_undo());
+                        print_note(self.nothing_to_undo());
                     }
                 }
             }
         }
-        of_refused_lines(refused)?;
+        refused_lines_result(refused)?;
         if lacked_undo && !io::stdin().is_terminal() {
             return Err(Failure::failed("an undo had nothing to take back, as was told"));
         }

@@ -9,7 +9,7 @@ use crate::{
         Failure,
         input::{seed, table_named, whole},
         lookup::skill_called,
-        output::{tell, whom_words},
+        output::{player_and_rule_words, print_note},
         typed_stroke::TypedStroke,
     },
     drills::{Exercise, Goal, Session, Venue},
@@ -67,7 +67,7 @@ impl PlayOptions {
     /// Prints skill and rule for a user at the terminal, who may expect those of the full-screen program.
     pub fn print_player(&self, session: &Session, rule: Rule) {
         if !self.json && io::stdin().is_terminal() {
-            tell(whom_words(session.skill, rule));
+            print_note(player_and_rule_words(session.skill, rule));
         }
     }
 }

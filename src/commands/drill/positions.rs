@@ -5,7 +5,7 @@ use crate::{
     commands::{
         Failure,
         input::bundled_table,
-        output::{line, tell},
+        output::{line, print_note},
         typed_stroke::TypedStroke,
     },
     drills::{
@@ -107,9 +107,9 @@ pub fn save(args: &SaveArgs) -> Result<(), Failure> {
     keep(&Exercise { title, point: args.point.clone(), tags: args.tags.clone(), shot, ..position }, args.replace)?;
     if let Some(cue) = &shot {
         if !has_room(&table, &layout, cue) {
-            tell("note: the cue has no room for the shot at this elevation, so it is not a model shot");
+            print_note("note: the cue has no room for the shot at this elevation, so it is not a model shot");
         } else if !scores(args.rule, &table, &layout, cue) {
-            tell(format_args!("note: the shot makes no point under the rule {}", args.rule));
+            print_note(format_args!("note: the shot makes no point under the rule {}", args.rule));
         }
     }
     Ok(())

@@ -6,7 +6,7 @@ use super::Workspace;
 use crate::{
     commands::{
         Failure,
-        output::{json_line, line, plural, tell},
+        output::{json_line, line, plural, print_note},
     },
     drills::estimate::{Estimate, estimate},
 };
@@ -69,7 +69,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         None => line(NO_SKILL)?,
     }
     if left_out > 0 {
-        tell(format_args!(
+        print_note(format_args!(
             "note: {} not used, because the shot is unknown or the cue has no room for it",
             plural(left_out, "attempt")
         ));

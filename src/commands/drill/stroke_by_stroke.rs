@@ -15,7 +15,7 @@ use crate::{
     },
     commands::{
         Failure,
-        output::{json_line, line, plural, shot_text, tell, units},
+        output::{json_line, line, plural, print_note, shot_text, units},
         recommend::coach_for,
     },
     drills::{
@@ -305,7 +305,7 @@ impl<'a> StrokeByStroke<'a> {
         if self.options.json {
             return Ok(json_line(&Refused { kind: "refused", line: number, error: failure.to_string() })?);
         }
-        tell(format_args!("line {number}: {failure}"));
+        print_note(format_args!("line {number}: {failure}"));
         Ok(())
     }
 

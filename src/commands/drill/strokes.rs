@@ -7,7 +7,7 @@ use super::{
 use crate::{
     commands::{
         Failure,
-        output::{ask, of_refused_lines, tell},
+        output::{ask, print_note, refused_lines_result},
     },
     drills::{Session, Store},
 };
@@ -73,7 +73,9 @@ pub fn play(
     // For a repeated stroke, the user asked for this number of attempts.
     let is_cut = game.session().attempts.len() >= most && !game.session().is_over();
     if is_cut && !matches!(strokes, Strokes::Same(_)) {
-        tell(format_args!("note: the limit of {most} strokes ended it; --strokes sets another, up to {MOST_STROKES}"));
+        print_note(format_args!(
+            "note: the limit of {most} strokes ended it; --strokes sets another, up to {MOST_STROKES}"
+        ));
     }
-    of_refused_lines(refused)
+    refused_lines_result(refused)
 }

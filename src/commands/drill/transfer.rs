@@ -9,7 +9,7 @@ use super::{Workspace, workspace::note};
 use crate::{
     commands::{
         Failure,
-        output::{json_line, line, need_folder, plural, tell},
+        output::{json_line, line, need_folder, plural, print_note},
     },
     drills::{
         Store,
@@ -59,7 +59,7 @@ pub fn export(args: &ExportArgs) -> Result<(), Failure> {
             let bytes = serde_json::to_vec(&practice).map_err(|error| refuse(error.into()))?;
             write_atomic(&target, &bytes).map_err(refuse)?;
             let (positions, sessions) = (practice.library.exercises.len(), practice.sessions.len());
-            tell(format_args!(
+            print_note(format_args!(
                 "{} and {} written to {}",
                 plural(positions, "position"),
                 plural(sessions, "session"),
@@ -96,7 +96,7 @@ pub fn import(args: &ImportArgs) -> Result<(), Failure> {
         ))?;
     }
     for sentence in refused {
-        tell(format_args!("refused: {}", OneLine(sentence)));
+        print_note(format_args!("refused: {}", OneLine(sentence)));
     }
     if refused.is_empty() {
         return Ok(());

@@ -2,7 +2,7 @@
 
 use crate::{
     coach::Skill,
-    commands::{Failure, lookup::own_skill, output::tell},
+    commands::{Failure, lookup::own_skill, output::print_note},
     drills::{Exercise, Library, LibraryError, Session, Store},
     printing::OneLine,
     storage::{self, Places},
@@ -57,6 +57,6 @@ pub fn player(given: Option<Skill>) -> Skill {
 /// Prints notes about unreadable files.
 pub fn note(notes: &[String]) {
     for sentence in notes {
-        tell(format_args!("note: {}", OneLine(sentence)));
+        print_note(format_args!("note: {}", OneLine(sentence)));
     }
 }

@@ -14,7 +14,7 @@ use crate::{
     coach::{Coach, Doubt, Inning, Request, Skill, inning, layout_seed},
     commands::{
         Failure,
-        output::{json_line, plural, tell},
+        output::{json_line, plural, print_note},
     },
     learning::evaluation::held_out_layouts,
     printing,
@@ -96,13 +96,13 @@ pub fn play(
         let number = index + 1;
         let mut say = |so_far: &Inning, _: &Layout| {
             if so_far.points.is_multiple_of(PROGRESS) {
-                tell(format_args!("inning {number}: {}", plural(so_far.points as usize, "point")));
+                print_note(format_args!("inning {number}: {}", plural(so_far.points as usize, "point")));
             }
         };
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(!layout_seed(spec.seed, index));
         let Inning { points, missed, simulations, elapsed, slowest } =
             inning(coach, layout, request, most, until, &mut rng, &mut say).map_err(Failure::wrong_input)?;
-        tell(format_args!(
+        print_note(format_args!(
             "inning {number}: {}{}",
             plural(points as usize, "point"),
             if missed { "" } else { ", broken off" }

@@ -24,7 +24,7 @@ use crate::{
 
 /// Speed of the cue above which a stroke counts as hard, m/s. In filmed matches the balls leave the cue at 3.5 m/s, after a stroke at 2.5
 /// m/s.
-const HARD: f64 = 5.0;
+const HARD_SPEED: f64 = 5.0;
 
 /// The shot if the recommender refuses a layout. Held-out layouts are valid, so it refuses none.
 const NO_SHOT: CueInputs = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 1e-3 };
@@ -200,7 +200,7 @@ struct EvaluationReport<'a> {
     /// Decisions per second; the time to judge the shots is not included.
     layouts_per_second: f64,
     slowest_ms: f64,
-    /// Share of strokes that are harder than [`HARD`].
+    /// Share of strokes that are harder than [`HARD_SPEED`].
     hard_share: f64,
     /// For players that search.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -251,7 +251,7 @@ fn report<'a>(spec: &'a Spec, records: &[ShotRecord]) -> EvaluationReport<'a> {
         best_of_k: best_of_k.map(|made| made.iter().filter(|made| **made).count() as f64 / count as f64),
         layouts_per_second: count as f64 / seconds.max(f64::MIN_POSITIVE),
         slowest_ms: 1e3 * records.iter().map(|record| record.seconds).fold(0.0, f64::max),
-        hard_share: mean(&|record| f64::from(record.speed > HARD)),
+        hard_share: mean(&|record| f64::from(record.speed > HARD_SPEED)),
         simulations_per_layout: is_searching.then(|| mean(&|record| record.simulations.unwrap_or(0) as f64)),
         reliability: compares_shots.then(|| Reliability::new(&predicted, &earned)),
         robustness,
@@ -283,7 +283,7 @@ fn print_text(out: &mut impl Write, report: &EvaluationReport<'_>, layouts: usiz
         Some(simulations) => writeln!(out, ", {simulations:.1} simulations a layout")?,
         None => writeln!(out)?,
     }
-    writeln!(out, "{:.1} % of the strokes are harder than {HARD} m/s", 100.0 * report.hard_share)?;
+    writeln!(out, "{:.1} % of the strokes are harder than {HARD_SPEED} m/s", 100.0 * report.hard_share)?;
     report.reliability.as_ref().map_or(Ok(()), |reliability| writeln!(out, "{reliability}"))?;
     report.robustness.as_ref().map_or(Ok(()), |robustness| writeln!(out, "{robustness}"))
 }

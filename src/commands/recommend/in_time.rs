@@ -2,7 +2,7 @@
 
 use std::{sync::mpsc, thread, time::Duration};
 
-use crate::commands::{Failure, output::tell};
+use crate::commands::{Failure, output::print_note};
 
 /// Time limit of one explanation. On a real table it takes a tenth of this.
 const LONGEST: Duration = Duration::from_secs(3);
@@ -18,6 +18,6 @@ pub fn in_time<T: Send + 'static, E: std::fmt::Display + Send + 'static>(
     if let Ok(found) = found.recv_timeout(LONGEST) {
         return found.map(Some).map_err(Failure::wrong_input);
     }
-    tell(format_args!("note: {what} take more than {} s on this table and are left out", LONGEST.as_secs()));
+    print_note(format_args!("note: {what} take more than {} s on this table and are left out", LONGEST.as_secs()));
     Ok(None)
 }

@@ -22,7 +22,7 @@ use super::{
     Failure,
     input::{ByTable, PositionArgs, answer_lines, note_doubts, seed, whole, whole_from},
     lookup::{policy_called, skill_called},
-    output::{chance_words, impulse_words, units, whom_words},
+    output::{chance_words, impulse_words, player_and_rule_words, units},
     request::{Key, Keys, RuleName},
 };
 use crate::{
@@ -84,8 +84,8 @@ pub struct Args {
     budget_ms: Option<u64>,
     /// Number of simulations after which the search starts nothing new.
     ///
-    /// Without --budget-ms, the answer is then the same on every machine; with it, the search stays within both. This is not a hard limit:
-    /// a minimal search and judging the shots that were found take thousands of simulations in addition.
+    /// Without --budget-ms, the answer is then the same on every machine; with it, both limits apply. This is not a hard limit: a minimal
+    /// search and judging the shots that were found take thousands of simulations in addition.
     #[arg(long, value_parser = whole_from(1_u64))]
     simulations: Option<u64>,
     /// Return the networks' own shot, without any search.
@@ -345,7 +345,7 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
     if let Some(why) = &answer.why {
         why.describe(out, units())?;
     }
-    writeln!(out, "{}", whom_words(args.skill, args.rule))?;
+    writeln!(out, "{}", player_and_rule_words(args.skill, args.rule))?;
     if shot.description_in_words.is_some() {
         writeln!(out)?;
     }

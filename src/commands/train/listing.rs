@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::{
     commands::{
         Failure,
-        output::{json_line, print_table, tell},
+        output::{json_line, print_note, print_table},
     },
     learning::run::list::{Listing, Summary, runs_in},
     printing::OneLine,
@@ -23,10 +23,10 @@ pub fn print(folder: Option<&Path>, json: bool) -> Result<bool, Failure> {
         })?,
     };
     for sentence in unreadable {
-        tell(format_args!("note: {}", OneLine(sentence)));
+        print_note(format_args!("note: {}", OneLine(sentence)));
     }
     if runs.is_empty() {
-        tell(format_args!("no runs in {}; start one with carom train", folder.unwrap_or(&own).display()));
+        print_note(format_args!("no runs in {}; start one with carom train", folder.unwrap_or(&own).display()));
     } else if json {
         runs.iter().try_for_each(json_line)?;
     } else {

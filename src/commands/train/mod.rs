@@ -20,7 +20,7 @@ use super::{
     Failure,
     input::{minutes, seed, whole, whole_from},
     lookup::{LATEST, existing_run},
-    output::tell,
+    output::print_note,
 };
 use crate::{
     game::Reward,
@@ -165,10 +165,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         spec::same_spec(args, folder)?;
         return resume(folder, args.jobs, &options);
     }
-    let read = spec::read(args)?;
-    let rate = read.spec.settings.get("actor_learning_rate").and_then(Value::as_f64);
+    let request = spec::read(args)?;
+    let rate = request.spec.settings.get("actor_learning_rate").and_then(Value::as_f64);
     if let Some(rate) = rate.filter(|rate| *rate < STANDING_STILL && args.from.is_some()) {
-        tell(format_args!(
+        print_note(format_args!(
             "note: the actor will not change, because actor_learning_rate is {rate:e} (--from may have set it); --set \
              actor_learning_rate=0.0004 lets it learn"
         ));
@@ -181,16 +181,16 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
                 args.seed
             )));
         }
-        return multi_seed::start(&read, seeds, args.jobs, &options);
+        return multi_seed::start(&request, seeds, args.jobs, &options);
     }
-    for_one_run(args.jobs)?;
-    let spec::Read { spec, weights, .. } = &read;
-    let run = read.begin(|folder| spec.start(folder, spec.plan.seed, weights.as_ref())).map_err(failure)?;
+    check_single_run(args.jobs)?;
+    let spec::TrainingRequest { spec, weights, .. } = &request;
+    let run = request.begin(|folder| spec.start(folder, spec.plan.seed, weights.as_ref())).map_err(failure)?;
     train(run, &options)
 }
 
 /// Refuses --jobs above 1 for a single run.
-fn for_one_run(jobs: u32) -> Result<(), Failure> {
+fn check_single_run(jobs: u32) -> Result<(), Failure> {
     if jobs == 1 {
         return Ok(());
     }
@@ -202,10 +202,10 @@ fn resume(folder: &Path, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Fa
     if is_group(folder) {
         return multi_seed::resume(folder, jobs, options);
     }
-    for_one_run(jobs)?;
+    check_single_run(jobs)?;
     let (run, notices) = Run::resume(folder).map_err(failure)?;
     for notice in notices {
-        tell(format_args!("warning: {notice}"));
+        print_note(format_args!("warning: {notice}"));
     }
     train(run, options)
 }
@@ -214,7 +214,7 @@ fn resume(folder: &Path, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Fa
 fn train(mut run: Run, options: &TrainOptions<'_>) -> Result<(), Failure> {
     let learner = run.learner();
     if learner.is_finished() {
-        tell(format_args!(
+        print_note(format_args!(
             "{} is finished: it has played {} shots (requested: {}); start a new run with its weights by --from",
             run.folder().display(),
             learner.shots(),

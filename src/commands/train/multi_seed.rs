@@ -6,9 +6,9 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{TrainOptions, abandon, failure, how_to_resume, progress::Progress, spec::Read};
+use super::{TrainOptions, abandon, failure, how_to_resume, progress::Progress, spec::TrainingRequest};
 use crate::{
-    commands::{Failure, output::tell},
+    commands::{Failure, output::print_note},
     learning::run::{
         Ending, RunError,
         seeds::{Group, Spread},
@@ -18,9 +18,10 @@ use crate::{
 };
 
 /// Trains new runs with `seeds` seeds, `jobs` at a time.
-pub fn start(read: &Read, seeds: u64, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Failure> {
-    let Read { spec, weights, .. } = read;
-    let group = read.begin(|folder| Group::create(folder, spec.clone(), seeds, weights.as_ref())).map_err(failure)?;
+pub fn start(request: &TrainingRequest, seeds: u64, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Failure> {
+    let TrainingRequest { spec, weights, .. } = request;
+    let group =
+        request.begin(|folder| Group::create(folder, spec.clone(), seeds, weights.as_ref())).map_err(failure)?;
     train(&group, jobs, options)
 }
 
@@ -91,7 +92,7 @@ fn print_spread(
 fn train_one(group: &Group, seed: u64, limit: Option<Duration>, options: &TrainOptions<'_>) -> Result<bool, RunError> {
     let (mut run, notices) = group.run(seed)?;
     for notice in notices {
-        tell(format_args!("warning: seed {seed}: {notice}"));
+        print_note(format_args!("warning: seed {seed}: {notice}"));
     }
     if run.result().is_some() {
         return Ok(true);
@@ -99,13 +100,13 @@ fn train_one(group: &Group, seed: u64, limit: Option<Duration>, options: &TrainO
     let mut progress = Progress::new(&run, options.json, Some(seed));
     let ending = run.train(&options.limits(limit), &mut progress)?;
     if let Err(error) = progress.close() {
-        tell(format_args!("warning: seed {seed}: the output cannot be written: {error}"));
+        print_note(format_args!("warning: seed {seed}: the output cannot be written: {error}"));
     }
     match ending {
         Ending::Finished(_) => Ok(true),
         Ending::Stopped(_) => Ok(false),
         Ending::Abandoned => abandon(run).map(|removed| {
-            tell(removed);
+            print_note(removed);
             false
         }),
     }

@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use crate::{
-    commands::output::tell,
+    commands::output::print_note,
     learning::run::{Run, Watcher, metrics::Record},
     printing::{self, shell_word},
 };
@@ -41,7 +41,7 @@ impl Progress {
             ProgressBar::hidden()
         };
         if !learner.is_finished() {
-            tell(format_args!(
+            print_note(format_args!(
                 "training {} for {} on \"{}\" with seed {} in {}; from any terminal: carom watch {}",
                 learner.agent(),
                 plan.reward,
@@ -95,12 +95,12 @@ impl Watcher for Progress {
         self.bar.set_message(summary);
         if let Some(line) = line(record).filter(|_| self.bar.is_hidden()) {
             let whose = self.seed.map(|seed| format!(", seed {seed}")).unwrap_or_default();
-            tell(format_args!("{line}{whose}"));
+            print_note(format_args!("{line}{whose}"));
         }
     }
 
     fn warn(&mut self, sentence: &str) {
         let whose = self.seed.map(|seed| format!("seed {seed}: ")).unwrap_or_default();
-        self.bar.suspend(|| tell(format_args!("warning: {whose}{sentence}")));
+        self.bar.suspend(|| print_note(format_args!("warning: {whose}{sentence}")));
     }
 }

@@ -13,7 +13,7 @@ use crate::{
         Failure,
         input::table_named,
         lookup::{Source, weights_named},
-        output::tell,
+        output::print_note,
     },
     game::Reward,
     learning::{
@@ -31,7 +31,7 @@ use crate::{
 };
 
 /// A training run to start: its specification, its initial weights and its folder.
-pub struct Read {
+pub struct TrainingRequest {
     pub spec: TrainingSpec,
     pub weights: Option<Weights>,
     pub folder: PathBuf,
@@ -39,16 +39,16 @@ pub struct Read {
     pub is_named: bool,
 }
 
-impl Read {
+impl TrainingRequest {
     /// Calls `start` with the folder. If the user did not choose it and it exists, a number is appended: the default name has a resolution
     /// of one second, and another training may have started in the same second.
     pub fn begin<T>(&self, start: impl Fn(&Path) -> Result<T, RunError>) -> Result<T, RunError> {
-        if self.is_named { start(&self.folder) } else { begin_in_free(&self.folder, start) }
+        if self.is_named { start(&self.folder) } else { start_in_free_folder(&self.folder, start) }
     }
 }
 
 /// Calls `start` with `folder`, or with the first free name with -2, -3 and so on appended.
-fn begin_in_free<T>(folder: &Path, start: impl Fn(&Path) -> Result<T, RunError>) -> Result<T, RunError> {
+fn start_in_free_folder<T>(folder: &Path, start: impl Fn(&Path) -> Result<T, RunError>) -> Result<T, RunError> {
     let mut begun = start(folder);
     for number in 2_u32.. {
         if !matches!(begun, Err(RunError::Occupied(_) | RunError::Foreign { .. } | RunError::Busy(_))) {
@@ -62,10 +62,10 @@ fn begin_in_free<T>(folder: &Path, start: impl Fn(&Path) -> Result<T, RunError>)
 }
 
 /// Reads the request from the command line. Missing values are those of the run that the weights come from, or the defaults.
-pub fn read(args: &Args) -> Result<Read, Failure> {
+pub fn read(args: &Args) -> Result<TrainingRequest, Failure> {
     let weights = source(args)?.and_then(weights_of).transpose().map_err(failure)?;
     if let Some(notice) = weights.as_ref().and_then(|weights| weights.notice.as_ref()) {
-        tell(format_args!("warning: {notice}"));
+        print_note(format_args!("warning: {notice}"));
     }
     let base = weights.as_ref().map(|weights| base_of(weights, args)).transpose()?;
     let spec = specified(args, base)?;
@@ -73,7 +73,7 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
         let name = run_name(&timestamp(), &spec.agent, &spec.table.name, spec.plan.reward, args.seed);
         Places::of_this_user().runs.join(name)
     });
-    Ok(Read { spec, weights, folder, is_named: args.run.is_some() })
+    Ok(TrainingRequest { spec, weights, folder, is_named: args.run.is_some() })
 }
 
 /// Returns the source that `--from` names, if it is given.
@@ -288,9 +288,9 @@ mod tests {
             name if name == "runs/a-1-2" => Err(RunError::Busy(name)),
             name => Ok(name),
         };
-        assert_eq!(begin_in_free(Path::new("runs/a-1"), taken).unwrap(), "runs/a-1-3");
-        assert_eq!(begin_in_free(Path::new("runs/b-1"), taken).unwrap(), "runs/b-1");
+        assert_eq!(start_in_free_folder(Path::new("runs/a-1"), taken).unwrap(), "runs/a-1-3");
+        assert_eq!(start_in_free_folder(Path::new("runs/b-1"), taken).unwrap(), "runs/b-1");
         let missing = |folder: &Path| Err::<(), _>(RunError::Missing(folder.display().to_string()));
-        assert!(begin_in_free(Path::new("runs/a-1"), missing).is_err(), "no other name helps");
+        assert!(start_in_free_folder(Path::new("runs/a-1"), missing).is_err(), "no other name helps");
     }
 }

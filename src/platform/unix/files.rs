@@ -12,7 +12,7 @@ use rustix::io::Errno;
 use signal_hook::{consts::SIGXFSZ, flag};
 
 /// Gives a temporary file the permissions that the umask grants to any new file, instead of access for the owner alone.
-pub fn for_all_to_read(builder: &mut tempfile::Builder<'_, '_>) {
+pub fn use_umask_permissions(builder: &mut tempfile::Builder<'_, '_>) {
     builder.permissions(PermissionsExt::from_mode(0o666));
 }
 

@@ -17,7 +17,7 @@ use rustix::{
 use crate::platform::Came;
 
 /// Time that the screen has to end after a signal, before output that the terminal does not accept is discarded.
-const ENDING: Duration = Duration::from_millis(300);
+const EXIT_GRACE: Duration = Duration::from_millis(300);
 
 /// Terminal input as bytes.
 #[derive(Debug)]
@@ -29,15 +29,15 @@ impl Input {
         Self(io::stdin())
     }
 
-    /// Waits for bytes, at most `patience` if it is given, and reads them into `bytes`.
+    /// Waits for bytes, at most `timeout` if it is given, and reads them into `bytes`.
     ///
     /// # Errors
     /// Returns the error of the terminal.
-    pub fn next(&mut self, bytes: &mut [u8], patience: Option<Duration>) -> io::Result<Came> {
-        let patience = patience.and_then(|time| Timespec::try_from(time).ok());
+    pub fn next(&mut self, bytes: &mut [u8], timeout: Option<Duration>) -> io::Result<Came> {
+        let timeout = timeout.and_then(|time| Timespec::try_from(time).ok());
         let mut input = [PollFd::new(&self.0, PollFlags::IN)];
         loop {
-            match poll(&mut input, patience.as_ref()) {
+            match poll(&mut input, timeout.as_ref()) {
                 Ok(0) => return Ok(Came::Silence),
                 Ok(_) if input[0].revents().intersects(PollFlags::HUP | PollFlags::ERR | PollFlags::NVAL) => {
                     return Ok(Came::Gone);
@@ -71,7 +71,7 @@ pub fn terminal_output() -> io::Result<File> {
 pub fn free_the_screen() -> ! {
     let output = io::stdout();
     loop {
-        thread::sleep(ENDING);
+        thread::sleep(EXIT_GRACE);
         let mut room = [PollFd::new(&output, PollFlags::OUT)];
         let is_full = poll(&mut room, Some(&Timespec::default())).is_ok() && room[0].revents().is_empty();
         // Stopping and restarting the output wakes the blocked writer. If the terminal is gone, there is nothing to do.

@@ -8,7 +8,7 @@ mod signals;
 
 pub use self::{
     clock::{CLOCK, thread_time},
-    files::{file_identity, for_all_to_read, free_space, refuse_large_files, sync_folder},
+    files::{file_identity, free_space, refuse_large_files, sync_folder, use_umask_permissions},
     input::{Input, free_the_screen, terminal_output},
     processes::own_group,
     signals::{die, listen, suspend},

@@ -31,11 +31,11 @@ const KNOWN: [i32; 19] = [
 #[cfg(target_os = "linux")]
 const REAL_TIME: std::ops::RangeInclusive<i32> = 34..=64;
 
-/// Catches every signal that can be caught and passes each to `hear` on a separate thread, until `hear` returns false.
+/// Catches every signal that can be caught and passes each to `on_signal` on a separate thread, until `on_signal` returns false.
 ///
 /// # Errors
 /// Fails if the system refuses the thread, or a handler for a signal that every system knows.
-pub fn listen(mut hear: impl FnMut(Signal) -> bool + Send + 'static) -> io::Result<()> {
+pub fn listen(mut on_signal: impl FnMut(Signal) -> bool + Send + 'static) -> io::Result<()> {
     let mut signals = catch()?;
     let listener = move || {
         for signal in signals.forever() {
@@ -44,7 +44,7 @@ pub fn listen(mut hear: impl FnMut(Signal) -> bool + Send + 'static) -> io::Resu
                 let _ = suspend();
                 continue;
             }
-            if !hear(meaning(signal)) {
+            if !on_signal(meaning(signal)) {
                 break;
             }
         }

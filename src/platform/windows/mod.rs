@@ -32,7 +32,7 @@ pub fn thread_time() -> Duration {
 }
 
 /// Does nothing: new files inherit the permissions of their folder.
-pub const fn for_all_to_read(_: &mut tempfile::Builder<'_, '_>) {}
+pub const fn use_umask_permissions(_: &mut tempfile::Builder<'_, '_>) {}
 
 /// Returns zero: the metadata contains no file number here, so callers depend on its time and length.
 pub const fn file_identity(_: &Metadata) -> u64 {
@@ -78,15 +78,15 @@ impl Input {
         Self
     }
 
-    /// Waits for an event, at most `patience` if it is given.
+    /// Waits for an event, at most `timeout` if it is given.
     ///
     /// # Errors
     /// Returns the error of the console.
-    pub fn next(&mut self, _: &mut [u8], patience: Option<Duration>) -> io::Result<Came> {
+    pub fn next(&mut self, _: &mut [u8], timeout: Option<Duration>) -> io::Result<Came> {
         if !io::stdin().is_terminal() {
             return Ok(Came::Gone);
         }
-        match patience {
+        match timeout {
             Some(time) if !crossterm::event::poll(time)? => Ok(Came::Silence),
             _ => crossterm::event::read().map(Came::Event),
         }
