@@ -58,7 +58,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         let asked = count as f64 * layouts as f64;
         let share = |which: usize| {
-            format!("{} {:.3} (told {:.3})", KNOWN[which], made[which] / asked, predicted[which] / asked)
+            format!("{} {:.3} (predicted {:.3})", KNOWN[which], made[which] / asked, predicted[which] / asked)
         };
         println!("{count} tables: made where the table is known {}", [0, 1, 2].map(share).join(", "));
     }

@@ -58,7 +58,7 @@ pub fn existing_run(name: &Path) -> Result<PathBuf, Failure> {
         });
     }
     Err(Failure::failed(format_args!(
-        "there is no run {}, neither here nor in {}; carom train --list shows the runs there are",
+        "there is no run {}, neither here nor in {}; carom train --list shows all runs",
         name.display(),
         runs.display()
     )))

@@ -81,7 +81,7 @@ fn tables(name: &str) -> Result<(Table, &'static str), Failure> {
     match itself.or_else(|| PRESETS.into_iter().find(of_its_size)) {
         Some(bundled) => Ok((table, bundled)),
         None => Err(Failure::wrong_input(format_args!(
-            "games are kept for tables of the size of a bundled one, and \"{}\" is {}; accepted are {}",
+            "games need a table of the size of a bundled one, and \"{}\" is {}; accepted are {}",
             table.name,
             size_words(&table),
             PRESETS.map(|name| format!("\"{name}\"")).join(", ")

@@ -63,7 +63,7 @@ impl Lock {
                 return Ok(lock);
             }
         }
-        Err(io::Error::new(io::ErrorKind::WouldBlock, "another program is changing what is kept; try again"))
+        Err(io::Error::new(io::ErrorKind::WouldBlock, "another program is changing the stored data; try again"))
     }
 
     /// Whether a process holds the lock of a folder; `None` if that is unknown because there is no lock file or the file system has no

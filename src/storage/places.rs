@@ -69,7 +69,7 @@ impl Places {
     /// Fails if the account has no home directory.
     pub fn of_player(player: &Player) -> io::Result<Self> {
         let players = Self::players().ok_or_else(|| {
-            io::Error::new(io::ErrorKind::NotFound, "this account has no home to keep players' files in")
+            io::Error::new(io::ErrorKind::NotFound, "this account has no home folder for players' files")
         })?;
         let account = Self::of_this_user();
         Ok(Self { runs: account.runs, ..Self::under(&players.join(player.folder())) })

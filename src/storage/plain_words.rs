@@ -20,7 +20,7 @@ const WORDS: [(&str, &str); 17] = [
     ("missing assignment between key-value pairs", "two values without a name between them"),
     ("extra assignment between key-value pairs", "a second `=`"),
     ("unexpected key or value", "more than one value"),
-    ("duplicate key", "a name that stands there already"),
+    ("duplicate key", "a name that is already used"),
 ];
 
 /// The replacement for unknown names in files. It is separate because training runs say "setting" instead.

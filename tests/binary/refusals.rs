@@ -38,7 +38,7 @@ fn settings_of_an_agent_are_refused_in_plain_words() {
         said.err
     };
     let again =
-        "the settings in own.toml: line 2, heads: a name that stands there already; accepted are lines like heads = 8";
+        "the settings in own.toml: line 2, heads: a name that is already used; accepted are lines like heads = 8";
     for (agent, text, words) in [
         ("ddpg", "# mine\nheads = \n", "the settings in own.toml: line 2, heads: "),
         ("ddpg", "heads = 8\nheads = 9\n", again),

@@ -102,10 +102,10 @@ fn usual(test: &Test) -> String {
 /// Returns a file of entries to fill in.
 pub fn template() -> String {
     let mut text = format!(
-        "# What was measured at a table, for carom calibrate.\n\
+        "# Measurements at a table, for carom calibrate.\n\
          # {COUNTING}\n\
-         # A number may have a unit: \"412 mm\" (with a tape, from the same rails) is surer than 1.2 by eye. How sure a mark is\n\
-         # may be said: sure = {{ stop = 0.2 }}. What is not known is left out; a test may be left out, or stand here more often.\n\n\
+         # A number may have a unit: \"412 mm\" (with a tape, from the same rails) is more exact than 1.2 by eye. The uncertainty\n\
+         # of a mark can be given: sure = {{ stop = 0.2 }}. Leave out unknown values; tests may be left out or repeated.\n\n\
          name = \"own\"\n"
     );
     for (number, test) in (1..).zip(PROTOCOL) {

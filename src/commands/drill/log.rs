@@ -192,7 +192,7 @@ impl Log {
             return Ok(json_line(&Logged { session: &self.session.id, score: record.into() })?);
         }
         if record.tried == 0 {
-            return line("taken back; nothing else is noted in this session");
+            return line("taken back; this session has no other attempts");
         }
         line(words(&record))
     }
@@ -223,7 +223,7 @@ impl Log {
         }
         refused_lines_result(refused)?;
         if lacked_undo && !io::stdin().is_terminal() {
-            return Err(Failure::failed("an undo had nothing to take back, as was told"));
+            return Err(Failure::failed("an undo had nothing to take back, as reported above"));
         }
         Ok(())
     }

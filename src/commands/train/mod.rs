@@ -215,7 +215,7 @@ fn train(mut run: Run, options: &TrainOptions<'_>) -> Result<(), Failure> {
     let learner = run.learner();
     if learner.is_finished() {
         print_note(format_args!(
-            "{} is finished: it has played {} shots (requested: {}); start a new run with its weights by --from",
+            "{} is finished: it has played {} shots (requested: {}); to start a new run with its weights, use --from",
             run.folder().display(),
             learner.shots(),
             learner.plan().shots

@@ -194,7 +194,7 @@ pub fn same_spec(args: &Args, folder: &Path) -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::failed(format_args!(
-        "the run in {} was started {}: --continue resumes a run that was started with the same settings; choose another folder by --run",
+        "the run in {} was started {}: --continue resumes a run that was started with the same settings; choose another folder with --run",
         folder.display(),
         differences.join("; ")
     )))

@@ -50,7 +50,7 @@ fn what_has_gone_is_told_where_one_more_undo_finds_nothing() {
     drill(folder.path(), &["log", "mine", "make", "miss"]);
     let undone = drill(folder.path(), &["log", "mine", "undo", "undo", "undo"]);
     assert_eq!(undone.code, Some(1));
-    assert!(undone.out.contains("taken back; nothing else is noted"), "{}", undone.out);
+    assert!(undone.out.contains("taken back; this session has no other attempts"), "{}", undone.out);
     assert!(undone.err.contains("there is no attempt at mine to take back"), "{}", undone.err);
 }
 
