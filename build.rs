@@ -1,5 +1,5 @@
-//! Tells the program what it is built from and for: the commit (from git, or from the note that a package of the crate has), and
-//! the target.
+//! Sets the build-time variables of the program: its version, its commit (from git, or from the note in a published package) and its
+//! target.
 
 use std::{
     fs,
@@ -7,14 +7,14 @@ use std::{
     process::Command,
 };
 
-/// What cargo notes in a package of the crate: the commit that it was made from.
+/// The file in which cargo records the commit that a published package was made from.
 const PACKAGED: &str = ".cargo_vcs_info.json";
 
-/// Letters of a commit's name that tell it from all others here; git shows as many.
+/// Length of an abbreviated commit hash; git displays as many characters.
 const SHORT: usize = 7;
 
 fn main() {
-    // Whatever goes into the program can make it "dirty".
+    // A change in any of these files can make the checkout "dirty".
     for part in ["build.rs", "Cargo.toml", "Cargo.lock", "src", "models"] {
         println!("cargo::rerun-if-changed={part}");
     }
@@ -32,21 +32,21 @@ fn main() {
     println!("cargo::rustc-env=CAROM_VERSION={version} ({source}, {target})");
 }
 
-/// What `git describe` says, where this folder is the top of a git checkout.
+/// Returns the output of `git describe` if this folder is the top of a git checkout.
 fn checked_out() -> Option<String> {
     let top = PathBuf::from(git(&["rev-parse", "--show-toplevel"])?);
-    // An unpacked archive may lie within somebody else's repository.
+    // The folder may be an unpacked archive inside an unrelated repository.
     if !is_same(&top, Path::new(".")) {
         return None;
     }
-    // Commits that change no file above still change the description. In a linked worktree this lies elsewhere.
+    // A commit that changes none of the files above still changes the description. A linked worktree keeps this log elsewhere.
     if let Some(log) = git(&["rev-parse", "--git-path", "logs/HEAD"]).filter(|log| Path::new(log).exists()) {
         println!("cargo::rerun-if-changed={log}");
     }
     git(&["describe", "--always", "--dirty", "--tags"])
 }
 
-/// The commit that a package of the crate was made from.
+/// Returns the commit that cargo recorded in the published package.
 fn packaged() -> Option<String> {
     let note = fs::read_to_string(PACKAGED).ok()?;
     println!("cargo::rerun-if-changed={PACKAGED}");
@@ -57,7 +57,7 @@ fn packaged() -> Option<String> {
     is_commit.then(|| format!("{}{dirty}", &commit[..SHORT]))
 }
 
-/// What git says to this, in a line; nothing where there is no git or no repository.
+/// Returns the single line that git prints; `None` if there is no git or no repository.
 fn git(arguments: &[&str]) -> Option<String> {
     let output = Command::new("git").args(arguments).output().ok().filter(|output| output.status.success())?;
     let line = String::from_utf8(output.stdout).ok()?.trim().to_owned();

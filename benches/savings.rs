@@ -1,8 +1,8 @@
-//! What each of the engine's savings brings: `cargo bench --bench savings`.
+//! Effect of each optimisation of the engine: `cargo bench --bench savings`.
 //!
-//! Four kinds of scene are scored under straight rail, with all savings and with each of them switched off in turn. The
-//! rounds are interleaved, so that a noisy machine hurts all alike, and the fastest one counts. In every row the cue ball
-//! must meet the same balls at the same times, to the last bit.
+//! Four kinds of scenes are scored under straight rail, with all optimisations and with each of them switched off in turn. The rounds are
+//! interleaved, so that noise of the machine affects all alike, and the fastest round counts. In every row the cue ball must meet the same
+//! balls at the same times, bit for bit.
 
 use std::{f64::consts::PI, ops::ControlFlow, time::Instant};
 
@@ -25,7 +25,7 @@ struct Scene {
     shots: Vec<(Layout, Impulse)>,
 }
 
-/// Watches for a point, and keeps a fingerprint of what the cue ball meets until then.
+/// Watches for a point, and computes a fingerprint of the cue ball's contacts until then.
 #[derive(Default)]
 struct Watch {
     tally: Tally,
@@ -53,7 +53,7 @@ impl Observer for Watch {
     }
 }
 
-/// The same, but keeps everything, asked or not.
+/// Like [`Watch`], but records everything, needed or not.
 #[derive(Default)]
 struct Hoarder {
     watch: Watch,
@@ -103,10 +103,10 @@ fn hoarded(scene: &Scene) -> u64 {
     scene.shots.iter().map(play).fold(0, u64::wrapping_add)
 }
 
-/// Plays a scene and returns a fingerprint of what happened.
+/// Plays a scene and returns a fingerprint of its events.
 type Play = fn(&Scene) -> u64;
 
-/// A set of savings of which the named ones are off.
+/// The set of optimisations without the named ones.
 macro_rules! without {
     ($($saving:ident),*) => {{
         struct Without;
@@ -156,7 +156,7 @@ fn main() {
             }
         }
     }
-    print!("{:34}", "without …: × dearer");
+    print!("{:34}", "without …: × slower");
     for scene in &scenes {
         print!("{:>16}", scene.name);
     }
@@ -175,7 +175,7 @@ fn main() {
     println!("in all rows the cue ball met the same balls at the same times, bit for bit");
 }
 
-/// Random shots at the centre of the ball from the possible ones of the layouts that `place` draws.
+/// Creates a scene of random shots at the centre of the ball, from valid layouts that `place` draws.
 fn scene(
     name: &'static str,
     preset: &str,
@@ -200,7 +200,7 @@ fn scene(
     Scene { name, table, shots }
 }
 
-/// Every ball more than a metre from the others.
+/// Every ball is more than a metre from the others.
 fn far_apart() -> Scene {
     scene("far apart", "textbook", 4000, |table, rng| {
         loop {
@@ -213,7 +213,7 @@ fn far_apart() -> Scene {
     })
 }
 
-/// All balls in a square of four diameters.
+/// All balls are in a square of four diameters.
 fn gathered() -> Scene {
     scene("gathered", "textbook", 4000, |table, rng| {
         let middle = Layout::random(table, rng).balls[0];
@@ -224,7 +224,7 @@ fn gathered() -> Scene {
     })
 }
 
-/// The object balls in two corners, where the cue ball hardly ever goes.
+/// The object balls are in two corners, where the cue ball hardly ever goes.
 fn alone() -> Scene {
     scene("one ball alone", "textbook", 4000, |table, rng| {
         let corner = table.reach();
@@ -232,7 +232,7 @@ fn alone() -> Scene {
     })
 }
 
-/// The thesis' table, on which bounces die out in resting contacts: only shots that have some.
+/// The thesis' table, on which bounces die out in resting contacts: only shots that have such contacts.
 fn chatter() -> Scene {
     let mut scene = scene("thesis chatter", "thesis", 400, Layout::random);
     let Scene { table, shots, .. } = &mut scene;
@@ -245,7 +245,7 @@ fn chatter() -> Scene {
     scene
 }
 
-/// Whether any ball came to rest against something that pressed it.
+/// Whether any ball came to rest against an object that presses it.
 struct Rests(bool);
 
 impl Observer for Rests {

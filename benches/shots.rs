@@ -1,8 +1,8 @@
 //! Shots per second on one core: `cargo bench --bench shots`.
 //!
-//! Random layouts and random strokes at the centre of the ball (phi over the whole circle, V 0.5 to 6 m/s), scored under
-//! r3 as in training, or recorded in full, and recommendations. Numbers are of this machine at this moment: compare with
-//! the baseline that criterion keeps (`-- --save-baseline NAME`, `-- --baseline NAME`), or two builds in one run.
+//! Random layouts and random strokes at the centre of the ball (phi over the whole circle, V 0.5 to 6 m/s) are scored under r3 as in
+//! training, or recorded in full. Recommendations are measured, too. The numbers depend on the machine and its load: compare them with a
+//! baseline that criterion stores (`-- --save-baseline NAME`, `-- --baseline NAME`), or compare two builds in one run.
 
 use std::{f64::consts::PI, hint::black_box, time::Duration};
 
@@ -28,7 +28,7 @@ fn random_shots(table: &Table, count: usize) -> Vec<(Layout, CueInputs)> {
         .collect()
 }
 
-/// One iteration is all shots, so that every measurement is of the same mixture.
+/// One iteration plays all shots, so that every measurement has the same mixture.
 fn shots(criterion: &mut Criterion) {
     for (name, count) in [("textbook", 20_000), ("thesis", 400)] {
         let table = Table::preset(name).expect("presets are valid");

@@ -1,8 +1,8 @@
-//! What the terminal program costs whoever looks at it over a slow link: bytes, frames, writes, processor time, and the time
-//! from a key to the picture that answers it. The tables go into `docs/performance.md`.
+//! Cost of the terminal program over a slow link: bytes, frames, writes, processor time, and the time from a key press to the resulting
+//! picture. The tables are published in `docs/performance.md`.
 //!
-//! `cargo bench --bench terminal` takes four minutes, on Linux: processor times, writes and memory come from `/proc`. The
-//! machine should have nothing else to do; the rows "beside two busy processes" see to that themselves.
+//! `cargo bench --bench terminal` takes four minutes, on Linux: processor times, writes and memory come from `/proc`. The machine should be
+//! idle; the rows "beside two busy processes" create their own load.
 
 mod pty;
 
@@ -15,16 +15,16 @@ use std::{
 use pty::{CAROM, Terminal, frames, part};
 
 const SIZES: [(u16, u16); 3] = [(80, 24), (120, 40), (200, 60)];
-/// The size of whatever is measured at one alone.
+/// The size for measurements at a single size.
 const USUAL: (u16, u16) = (120, 40);
-/// Starts of which the first picture is timed.
+/// Number of starts with a timed first picture.
 const STARTS: usize = 40;
-/// Keys of which the answer is timed.
+/// Number of timed key presses.
 const KEYS: usize = 150;
-/// How long nothing has to happen for what was asked to be done.
+/// Time without output after which a task counts as complete.
 const SILENCE: Duration = Duration::from_millis(1200);
 const IDLE: Duration = Duration::from_secs(10);
-/// What is shown once the first picture is there.
+/// Text on the first picture.
 const OPENING: &str = "white at x -710.0 mm";
 
 fn main() {
@@ -54,7 +54,7 @@ fn milliseconds(time: Duration) -> f64 {
     time.as_secs_f64() * 1e3
 }
 
-/// Bytes of the first picture, and the time to its end from before the process is started.
+/// Measures the bytes of the first picture, and the time from before the start of the process to its end.
 fn first_pictures() {
     heading(&["first picture", "bytes", "ms, median", "worst", "memory, MB"]);
     for size in SIZES {
@@ -80,7 +80,7 @@ fn first_pictures() {
     }
 }
 
-/// Bytes and processor time of screens on which nothing moves, all at the same time.
+/// Measures bytes and processor time of static screens, all at the same time.
 fn idle() {
     heading(&["idle for 10 s", "bytes", "% of a processor"]);
     let screens = [
@@ -102,7 +102,7 @@ fn idle() {
     };
     let mut opened: Vec<_> = screens.into_iter().flat_map(open).collect();
     for (.., terminal) in &mut opened {
-        // The end of the last picture is no idle byte.
+        // The end of the last picture does not count as idle output.
         terminal.take(SILENCE / 2);
     }
     let before: Vec<_> = opened.iter().map(|(.., terminal)| terminal.seconds()).collect();
@@ -114,7 +114,7 @@ fn idle() {
     }
 }
 
-/// Whole shots as they play: those that the coach finds from the opening, and one that is struck hard.
+/// Measures the playback of whole shots: those that the coach finds from the opening position, and one hard shot.
 fn playback() {
     heading(&[
         "playback, whole shot",
@@ -138,7 +138,7 @@ fn playback() {
                 terminal.send(key);
                 terminal.take(Duration::from_millis(100));
             }
-            // The coach thinks, and looks at the shot more closely.
+            // The coach thinks, and then analyses the shot.
             terminal.take_until_silent(2 * SILENCE);
             let before = (terminal.seconds(), terminal.writes_and_memory());
             terminal.send(" ");
@@ -163,7 +163,7 @@ fn playback() {
     }
 }
 
-/// Splits what is typed into keys: an escape sequence is one.
+/// Splits typed text into keys; an escape sequence is one key.
 fn keys_of(text: &str) -> Vec<&str> {
     let mut rest = text;
     let mut keys = Vec::new();
@@ -177,7 +177,7 @@ fn keys_of(text: &str) -> Vec<&str> {
     keys
 }
 
-/// What else changes the picture: a second of the coach's thinking, a ball that is dragged, a ball that a key moves.
+/// Measures other changes of the picture: a second of the coach's thinking, a dragged ball, a ball moved by a key.
 fn moments() {
     heading(&["bytes of", "a second of thinking", "a picture of a drag", "of a ball that a key moves"]);
     for size in SIZES {
@@ -196,7 +196,7 @@ fn moments() {
     }
 }
 
-/// Bytes of a picture on average, where something is typed 25 times a second.
+/// Returns the mean size of a picture in bytes, with 25 key presses per second.
 fn a_picture(terminal: &mut Terminal, times: usize, keys: impl Fn(usize) -> String) -> usize {
     let mut sizes = Vec::new();
     for n in 0..times {
@@ -206,7 +206,7 @@ fn a_picture(terminal: &mut Terminal, times: usize, keys: impl Fn(usize) -> Stri
     sizes.iter().sum::<usize>() / sizes.len().max(1)
 }
 
-/// A cell of the white ball, from 1: the leftmost one that is full of its colour.
+/// Returns a cell of the white ball, counted from 1: the leftmost one that is filled with its colour.
 fn white_ball(terminal: &Terminal) -> (u16, u16) {
     let (rows, columns) = terminal.screen().size();
     let (rows, columns) = (rows.get(), columns.get());
@@ -217,13 +217,13 @@ fn white_ball(terminal: &Terminal) -> (u16, u16) {
         })
     };
     let cells = (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row)));
-    // The tip's panel shows a white ball too, to the right of the table or below it.
+    // The tip panel shows a white ball, too, to the right of the table or below it.
     let (column, row) =
         cells.into_iter().filter(|(_, row)| *row < rows / 2 + 2).find(is_white).expect("the white ball");
     (column + 1, row + 1)
 }
 
-/// Two processes that do nothing but keep the processors busy.
+/// Two processes that keep the processors busy.
 struct Busy([Child; 2]);
 
 impl Busy {
@@ -241,31 +241,31 @@ impl Drop for Busy {
     }
 }
 
-/// Time from a key to the end of the frame that answers it.
+/// Measures the time from a key press to the end of the resulting frame.
 fn answers() {
     heading(&["from a key to its picture, 120×40", "median, ms", "99 %", "longest"]);
     for is_busy in [false, true] {
         let beside = if is_busy { ", beside two busy processes" } else { "" };
         let _busy = is_busy.then(Busy::start);
         let mut terminal = coach(USUAL);
-        tell(&format!("idle{beside}"), |n| {
+        print_times(&format!("idle{beside}"), |n| {
             let sent = terminal.send(["\u{1b}[C", "\u{1b}[D"][n % 2]);
             terminal.wait_until(|_| true) - sent
         });
         terminal.send("\r");
         terminal.take_until_silent(2 * SILENCE);
-        // At a quarter of the speed, for the shot to last.
+        // Play at a quarter of the speed, so that the shot lasts.
         terminal.send("-- ");
-        tell(&format!("in playback{beside}"), |_| next_view(&mut terminal));
+        print_times(&format!("in playback{beside}"), |_| next_view(&mut terminal));
         let mut terminal = Terminal::start(&[], USUAL, "think_ms = 60000\n");
         terminal.wait_for(OPENING);
         terminal.send("\r");
         terminal.wait_for("so far");
-        tell(&format!("as the coach thinks{beside}"), |_| next_view(&mut terminal));
+        print_times(&format!("as the coach thinks{beside}"), |_| next_view(&mut terminal));
     }
 }
 
-/// Asks for another view of the panels; the time until the title of the first one has changed.
+/// Switches the panels to another view and returns the time until the title of the first panel changes.
 fn next_view(terminal: &mut Terminal) -> Duration {
     let title = |screen: &vt100::Screen| screen.contents_between(30, 0, 30, 20);
     let before = title(terminal.screen());
@@ -273,10 +273,10 @@ fn next_view(terminal: &mut Terminal) -> Duration {
     terminal.wait_until(|screen| title(screen) != before) - sent
 }
 
-fn tell(name: &str, mut answer: impl FnMut(usize) -> Duration) {
+fn print_times(name: &str, mut answer: impl FnMut(usize) -> Duration) {
     let mut times: Vec<f64> = (0..KEYS)
         .map(|n| {
-            // At another moment between two frames each time.
+            // At a different phase between two frames each time.
             thread::sleep(Duration::from_millis(50 + 7 * n as u64 % 41));
             milliseconds(answer(n))
         })

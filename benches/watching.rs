@@ -1,7 +1,7 @@
-//! What it costs to be watched: `carom watch` in a pseudo-terminal beside `carom train`. Bytes and frames a second, the
-//! processor time of the watcher, and the training's own processor time a shot with the watcher and without.
+//! Cost of watching a run: `carom watch` in a pseudo-terminal while `carom train` runs. Measures bytes and frames per second, the processor
+//! time of the watcher, and the training's own processor time per shot with and without the watcher.
 //!
-//! `cargo bench --bench watching` takes four minutes. Processor times come from `/proc` and are left out elsewhere.
+//! `cargo bench --bench watching` takes four minutes. Processor times come from `/proc` and are left out on other systems.
 
 mod pty;
 
@@ -16,10 +16,10 @@ use carom::learning::run::status::RunStatus;
 
 use pty::{CAROM, Terminal, frames, part, seconds_of};
 
-/// Pairs of stretches with and without a watcher, and the length of each.
+/// Number of pairs of intervals with and without a watcher, and the length of each interval.
 const PAIRS: usize = 10;
 const STRETCH: Duration = Duration::from_secs(10);
-/// Time in which the first picture is painted and the first shots are replayed: it is told apart.
+/// Time in which the first picture is drawn and the first shots are replayed; it is reported separately.
 const SETTLING: Duration = Duration::from_secs(3);
 
 fn main() {
@@ -59,18 +59,18 @@ fn main() {
     }
 }
 
-/// A training that ends with the bench, however that ends.
+/// A training process; dropping this ends it.
 struct Training(Child);
 
 impl Drop for Training {
     fn drop(&mut self) {
-        // It may have ended already.
+        // The process may have ended already.
         let _ = self.0.kill();
         let _ = self.0.wait();
     }
 }
 
-/// The default agent in its usual schedule.
+/// Starts the default agent with its usual schedule.
 fn train(run: &Path) -> Child {
     let mut command = Command::new(CAROM);
     command.args(["train", "--steps", "5000000", "--run"]).arg(run).stdout(Stdio::null()).stderr(Stdio::null());
@@ -81,7 +81,7 @@ fn train(run: &Path) -> Child {
     child
 }
 
-/// The training's processor time a shot with a watcher, in terms of that without, in two stretches one after the other.
+/// Returns the ratio of the training's processor time per shot with a watcher to that without, in two successive intervals.
 fn ratio(run: &Path, training: u32) -> Option<f64> {
     let a_shot = || {
         let before = (seconds_of(training)?, RunStatus::read(run).ok()?.shots);
@@ -95,7 +95,7 @@ fn ratio(run: &Path, training: u32) -> Option<f64> {
     Some(a_shot()? / alone)
 }
 
-/// `carom watch` in a pseudo-terminal.
+/// Starts `carom watch` in a pseudo-terminal.
 fn watch(run: &Path, columns: u16, rows: u16) -> Terminal {
     Terminal::start(&["watch", &run.to_string_lossy()], (columns, rows), "")
 }

@@ -1,10 +1,9 @@
-//! What a calibration is worth: how often a player makes the coach's shots on a table that the coach knows exactly, knows by
-//! a calibration, or takes for `match`.
+//! Value of a calibration: how often a player makes the coach's shots on a table that the coach knows exactly, knows from a calibration, or
+//! assumes to be `match`.
 //!
-//! `cargo run --release --example calibrated -- 40 5 club` draws 40 tables from what real tables differ by and has a club
-//! player calibrate each. Of 5 layouts on each the coach is asked for a shot at three cushions, with each knowledge of the
-//! table; all of them are played on the drawn table with the player's errors. A number after the player is the seed of the
-//! first table.
+//! `cargo run --release --example calibrated -- 40 5 club` draws 40 random tables with the variation of real tables and lets a simulated
+//! club player calibrate each. On 5 layouts per table, the coach recommends a three-cushion shot with each of the three states of
+//! knowledge. All shots are played on the drawn table with the player's errors. A number after the player is the seed of the first table.
 
 use std::{env, error::Error, time::Duration};
 
@@ -16,13 +15,13 @@ use carom::{
     table::{Table, TableDoubt},
 };
 
-/// Simulations for each shot.
+/// Number of simulations for each shot.
 const SIMULATIONS: u64 = 60_000;
 
-/// Attempts at every shot.
+/// Number of attempts at every shot.
 const ATTEMPTS: usize = 1000;
 
-/// What the coach knows of the table.
+/// The coach's knowledge of the table.
 const KNOWN: [&str; 3] = ["exactly", "calibrated", "not at all"];
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -34,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let rule = Rule::ThreeCushion;
     let base = Table { name: "own".to_owned(), ..Table::default() };
     let certain = Doubt { table: 0.0, ..Doubt::FULL };
-    let (mut made, mut told) = ([0.0; 3], [0.0; 3]);
+    let (mut made, mut predicted) = ([0.0; 3], [0.0; 3]);
     for (count, seed) in (1..=tables).zip(first..) {
         let [truth, own] = calibrated(&base, &TableDoubt::of(&base), seed)?;
         let coaches = [(&truth, certain), (&own, Doubt::FULL), (&base, Doubt::FULL)]
@@ -52,14 +51,15 @@ fn main() -> Result<(), Box<dyn Error>> {
                     ..Request::default()
                 };
                 let advice = coach.recommend(&layout, &request)?;
-                told[which] += advice.make_probability.map_or(0.0, |made| made.rate);
+                predicted[which] += advice.make_probability.map_or(0.0, |made| made.rate);
                 let shooter = Shooter { skill, doubt: certain };
                 made[which] += make_probability(shooter, rule, &truth, &layout, &advice.cue, ATTEMPTS, !seed).rate;
             }
         }
         let asked = count as f64 * layouts as f64;
-        let share =
-            |which: usize| format!("{} {:.3} (told {:.3})", KNOWN[which], made[which] / asked, told[which] / asked);
+        let share = |which: usize| {
+            format!("{} {:.3} (predicted {:.3})", KNOWN[which], made[which] / asked, predicted[which] / asked)
+        };
         println!("{count} tables: made where the table is known {}", [0, 1, 2].map(share).join(", "));
     }
     Ok(())

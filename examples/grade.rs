@@ -1,8 +1,8 @@
-//! Measures how hard the exercises of a folder are, and writes it into their files.
+//! Measures the difficulty of the exercises in a folder and writes it into their files.
 //!
-//! `cargo run --release --example grade -- saves/` plays every shot 10,000 times with the errors of a beginner, a club player
-//! and a world-class one, rewrites par and grade, and puts the easiest first. With `--check` it writes nothing, and fails where a file is not what it would
-//! write, or where a shot does not show what its category teaches.
+//! `cargo run --release --example grade -- saves/` plays every shot 10,000 times with the errors of a beginner, a club player and a
+//! world-class player, rewrites par and grade, and sorts the exercises by grade. With `--check` it writes nothing; it fails if a file
+//! differs from what it would write, or if a shot does not show what its category teaches.
 
 use std::{
     env,
@@ -32,7 +32,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     Ok(if is_well { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// The JSON files of a folder, by name.
+/// Returns the JSON files of a folder, sorted by name.
 fn files(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let mut paths = entries.map(|entry| Ok(entry?.path())).collect::<Result<Vec<_>, std::io::Error>>()?;
@@ -41,7 +41,8 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     Ok(paths)
 }
 
-/// Measures the exercises of a file; `false` where a shot does not do what it should, or a check finds another text.
+/// Measures the exercises of a file; returns `false` if a shot does not show what its category teaches, or if a check finds a different
+/// text.
 fn grade(path: &Path, check: bool) -> Result<bool, Box<dyn Error>> {
     let named = |error: &dyn Error| format!("{}: {error}", path.display());
     let text = fs::read_to_string(path).map_err(|error| named(&error))?;

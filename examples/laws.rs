@@ -1,17 +1,17 @@
-//! How far each law of the rails is to be believed after the film, with its own best constants: what the doubt about `match` says.
+//! Weight of each rail model according to the filmed shots, with its own fitted constants: the source of the doubt about `match`.
 //!
-//! `cargo run --release --example laws` fits every law to both halves of the film, weighs them by the rails that they predict of the
-//! other half, and says what `src/table/match_doubt.toml` is made of. It takes some minutes.
+//! `cargo run --release --example laws` fits every model to both halves of the film, weighs the models by their predictions of the rails in
+//! the other half, and prints the content of `src/table/match_doubt.toml`. It takes a few minutes.
 
 use carom::{
     study::filmed::{bundled, weigh},
     table::{RailModel, Table},
 };
 
-/// The laws, that of `match` first.
+/// The rail models, that of `match` first.
 const LAWS: [RailModel; 4] = [RailModel::Smooth, RailModel::Nose, RailModel::Mathavan, RailModel::Equator];
 
-/// As many filmed meetings are taken to speak for all laws alike.
+/// Pseudo-count: this many filmed contacts count as predicted equally well by all models.
 const SURE: f64 = 20.0;
 
 fn main() {

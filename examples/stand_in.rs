@@ -1,8 +1,9 @@
-//! How often a player makes the coach's shots on a table that is not quite the coach's.
+//! Success of the coach's shots on a table that differs slightly from the coach's.
 //!
-//! `cargo run --release --example stand_in -- 46 three-cushion expert full 0` asks the coach for a shot from every other layout of the
-//! filmed shots on `match`, from the first on, then plays it with an expert's errors on stand-ins whose rails follow other models
-//! fitted to the same film. What the coach says of a shot should be what becomes of it there. `1` at the end takes the others.
+//! `cargo run --release --example stand_in -- 46 three-cushion expert full 0` asks the coach for a shot on `match` from every other layout
+//! of the filmed shots, starting with the first. It plays the shot with an expert's errors on stand-in tables whose rails follow other
+//! models, fitted to the same film. The predicted and the observed success rates should agree. With `1` at the end it uses the other
+//! layouts.
 
 use std::{env, error::Error, time::Duration};
 
@@ -13,10 +14,10 @@ use carom::{
     table::Table,
 };
 
-/// Simulations for each shot: about a quarter of a second on two cores.
+/// Number of simulations for each shot: about a quarter of a second on two cores.
 const SIMULATIONS: u64 = 60_000;
 
-/// Attempts at every shot.
+/// Number of attempts at every shot.
 const ATTEMPTS: usize = 400;
 
 fn main() -> Result<(), Box<dyn Error>> {

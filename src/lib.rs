@@ -1,12 +1,25 @@
 //! `carom` is a terminal coach for carom billiards: it shows the table, recommends how to strike and plays the shot.
 //!
-//! The rooms, from the ground up; each may use those above it, never those below: [`platform`] what operating systems do
-//! each in its own way, [`printing`] what goes out, [`storage`] files, [`statistics`] shares and fits, [`table`] what is
-//! played on, [`physics`] formulas, [`simulation`] when things happen, [`game`] what counts, [`player`] who plays,
-//! [`learning`] agents, [`coach`] recommendations, [`calibration`] a table of one's own, [`drills`] practice, [`study`] the
-//! program measuring itself, [`terminal`] screens, [`commands`] the command line.
+//! The modules, from the lowest layer to the highest. A module may use those before it, never those after it:
+//!
+//! - [`platform`] – operating-system services
+//! - [`printing`] – text output
+//! - [`storage`] – files
+//! - [`statistics`] – success rates and fits
+//! - [`table`] – the table and the positions of the balls
+//! - [`physics`] – formulas
+//! - [`simulation`] – detection and order of events
+//! - [`game`] – rules and rewards
+//! - [`player`] – skills and execution errors
+//! - [`learning`] – agents
+//! - [`coach`] – recommendations
+//! - [`calibration`] – the constants of a real table
+//! - [`drills`] – practice
+//! - [`study`] – measurements of the program itself
+//! - [`terminal`] – screens
+//! - [`commands`] – the command line
 
-// What may not be used stands in clippy.toml.
+// The disallowed macros and methods are listed in clippy.toml.
 #![cfg_attr(not(test), warn(clippy::disallowed_macros, clippy::disallowed_methods))]
 
 pub mod calibration;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Makes the pages of docs/ into a book, target/book, and checks its links. Files of the repository that pages lead to come along.
+# Builds the book target/book from the pages of docs/, and checks its links. Repository files that the pages link to are copied into it.
 # It needs mdbook.
-# Use: book.sh
+# Usage: book.sh
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
@@ -15,7 +15,7 @@ link = re.compile(r'(href|src)="(?![a-z]+:|//)([^"#]*)(#[^"]*)?"')
 
 
 def inside(found):
-    """A link that leads out of the book leads to a copy in it; pages of the repository stay what they are, text."""
+    """Redirects a link out of the book to a copy inside it; Markdown pages of the repository are copied as text."""
     kind, path, place = found.groups()
     if not path.startswith("../"):
         return found.group(0)

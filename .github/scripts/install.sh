@@ -1,9 +1,9 @@
 #!/bin/sh
-# Installs the newest release of carom for this user: downloads the archive for this machine, checks it, and copies the program
-# to ~/.local/bin, or to the folder that CAROM_BIN names. It changes nothing else.
+# Installs the newest release of carom for this user: downloads the archive for this machine, verifies it, and copies the program to
+# ~/.local/bin, or to the folder in CAROM_BIN. It changes nothing else.
 set -eu
 
-# The release workflow writes the repository in here.
+# The release workflow inserts the repository here.
 repository=${CAROM_REPOSITORY:-@REPOSITORY@}
 version=${CAROM_VERSION:-latest}
 folder=${CAROM_BIN:-$HOME/.local/bin}
@@ -25,7 +25,7 @@ command -v curl > /dev/null || fail "curl is needed to download it"
 
 server=${CAROM_SERVER:-https://github.com}
 if [ "$version" = latest ]; then
-    # The newest release answers with the place of its page, which ends with its name.
+    # The newest release redirects to the address of its page, which ends with its version.
     page=$(curl -fsSLI -o /dev/null -w '%{url_effective}' "$server/$repository/releases/latest") || fail "the newest release cannot be found"
     version=${page##*/v}
 fi

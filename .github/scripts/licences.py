@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes the licences of everything that is in the program: names, versions, licences and their texts, each text once.
+"""Writes the licences of all components of the program: names, versions, licences and their texts, each text once.
 
-Use: licences.py > FILE. It needs cargo and the sources of the dependencies, which cargo fetches.
+Usage: licences.py > FILE. It needs cargo and the sources of the dependencies, which cargo fetches.
 """
 
 import json
@@ -9,15 +9,15 @@ import pathlib
 import subprocess
 import sys
 
-# What files with a licence's text are called.
+# Names of files that contain a licence text.
 TEXTS = ("LICENSE", "LICENCE", "COPYING", "COPYRIGHT", "NOTICE", "UNLICENSE")
 
-# Data of others that the program holds.
+# Data of others that the program contains.
 FILMED = pathlib.Path("tests/data/filmed")
 
 
 def linked(metadata):
-    """The packages that the program links, on any system: no tools of the build, no derivations, not the program itself."""
+    """Returns the packages that the program links on any system: no build tools, no derive macros, not the program itself."""
     packages = {package["id"]: package for package in metadata["packages"]}
     nodes = {node["id"]: node for node in metadata["resolve"]["nodes"]}
     root = metadata["resolve"]["root"]
@@ -34,7 +34,7 @@ def linked(metadata):
 
 
 def texts(folder):
-    """The texts of the licences in a folder, those of C sources that a package brings along too."""
+    """Yields the licence texts in a folder, including those of bundled C sources."""
     for path in sorted(folder.rglob("*")):
         if path.is_file() and path.name.upper().startswith(TEXTS) and path.suffix.lower() in ("", ".md", ".txt"):
             yield path.read_text(errors="replace").replace("\r\n", "\n").strip()

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Packs the program of one target with its documents, and writes the checksum beside it.
-# Use: pack.sh TARGET VERSION FOLDER
+# Packs the program of one target with its documents, and writes the checksum next to the archive.
+# Usage: pack.sh TARGET VERSION FOLDER
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 target=$1

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Makes a .deb and a .rpm of the static program for each target that was built by static.sh: target/dist.
+# Builds a .deb and a .rpm of the static program for each target that static.sh has built: target/dist.
 # It needs `cargo install cargo-deb cargo-generate-rpm`.
-# Use: packages.sh [TARGET…]; by default x86_64 and aarch64 with musl.
+# Usage: packages.sh [TARGET…]; by default x86_64 and aarch64 with musl.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Builds static programs for Linux and packs them, with manual pages, completions, licence and checksums: target/dist.
-# They need no C library and run on any Linux of their processor.
-# Use: static.sh [TARGET…]; by default x86_64 and aarch64 with musl.
+# Builds static programs for Linux and packs them with manual pages, completions, licences and checksums: target/dist.
+# They need no C library and run on any Linux of their architecture.
+# Usage: static.sh [TARGET…]; by default x86_64 and aarch64 with musl.
 # It needs `pip install ziglang cargo-zigbuild` and `rustup target add` of the targets.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -12,13 +12,13 @@ version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 out=target/dist
 mkdir -p "$out"
 
-# Without the names of functions, which a program of this kind has no use for: 3 MB less.
+# Without function names, which are useless in a release build: this saves 3 MB.
 export CARGO_PROFILE_RELEASE_STRIP=symbols
 for target in "${targets[@]}"; do
     cargo zigbuild --release --locked --bin carom --target "$target"
 done
 
-# A program of this machine's processor writes the documents for all.
+# A program that runs on this machine writes the documents for all targets.
 own="target/$(uname -m)-unknown-linux-musl/release/carom"
 [ -x "$own" ] || own="target/${targets[0]}/release/carom"
 .github/scripts/documents.sh "$own" target/documents

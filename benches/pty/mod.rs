@@ -1,6 +1,6 @@
-//! A program in a pseudo-terminal, as the benches look at it: what it writes and when, and its processor time.
+//! A program in a pseudo-terminal, for benchmarks: its output with timestamps, and its processor time.
 
-// Each bench uses a part of it.
+// Each bench uses only a part of this module.
 #![allow(dead_code)]
 
 use std::{
@@ -15,27 +15,27 @@ use std::{
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
 use tempfile::TempDir;
 
-/// The program.
+/// Path of the program.
 pub const CAROM: &str = env!("CARGO_BIN_EXE_carom");
-/// What every frame begins and ends with (synchronized output).
+/// Start and end of every frame (synchronized output).
 const BEGIN: &[u8] = b"\x1b[?2026h";
 const END: &[u8] = b"\x1b[?2026l";
-/// Longest time that a picture is waited for.
+/// Timeout for an expected picture.
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// A program in a pseudo-terminal of its own, which ends with it.
+/// A program in its own pseudo-terminal; dropping this ends the program.
 pub struct Terminal {
     child: Box<dyn Child + Send + Sync>,
     writer: Box<dyn Write + Send>,
     output: Receiver<(Instant, Vec<u8>)>,
     screen: vt100::Parser,
     _master: Box<dyn MasterPty + Send>,
-    /// Settings and the last session: not those of whoever runs the bench.
+    /// Settings and the last session, separate from those of the user who runs the bench.
     _home: TempDir,
 }
 
 impl Terminal {
-    /// Starts `carom` with these arguments in a terminal of true colour, with `settings` in its configuration.
+    /// Starts `carom` with these arguments in a true-colour terminal, with `settings` as its configuration.
     pub fn start(arguments: &[&str], (columns, rows): (u16, u16), settings: &str) -> Self {
         let home = tempfile::tempdir().expect("a folder for the settings");
         fs::create_dir_all(home.path().join("config/carom")).expect("a folder for the settings");
@@ -70,24 +70,24 @@ impl Terminal {
         Self { child, writer, output, screen, _master: pair.master, _home: home }
     }
 
-    /// Its process.
+    /// Returns its process id.
     pub fn process(&self) -> u32 {
         self.child.process_id().expect("it has not been waited for")
     }
 
-    /// What it shows.
+    /// Returns the current screen.
     pub fn screen(&self) -> &vt100::Screen {
         self.screen.screen()
     }
 
-    /// Types `keys`; when that was.
+    /// Types `keys` and returns the time.
     pub fn send(&mut self, keys: &str) -> Instant {
         let now = Instant::now();
         self.writer.write_all(keys.as_bytes()).and_then(|()| self.writer.flush()).expect("it reads its keys");
         now
     }
 
-    /// What it writes next, and when that came; `None` if nothing does within `time`.
+    /// Returns its next output and the time of arrival; `None` if there is no output within `time`.
     pub fn next(&mut self, time: Duration) -> Option<(Instant, Vec<u8>)> {
         match self.output.recv_timeout(time) {
             Ok((at, bytes)) => {
@@ -99,7 +99,7 @@ impl Terminal {
         }
     }
 
-    /// All that it writes within `time`.
+    /// Returns all output within `time`.
     pub fn take(&mut self, time: Duration) -> Vec<u8> {
         let (end, mut all) = (Instant::now() + time, Vec::new());
         while let Some((_, bytes)) = self.next(end.saturating_duration_since(Instant::now())) {
@@ -108,7 +108,7 @@ impl Terminal {
         all
     }
 
-    /// All that it writes until it has been silent for `silence`; how long it went on, too.
+    /// Returns all output until there is none for `silence`, and the time until the last output.
     pub fn take_until_silent(&mut self, silence: Duration) -> (Vec<u8>, Duration) {
         let (start, mut last, mut all) = (Instant::now(), Instant::now(), Vec::new());
         while let Some((at, bytes)) = self.next(silence) {
@@ -118,7 +118,7 @@ impl Terminal {
         (all, last.saturating_duration_since(start))
     }
 
-    /// When the frame has come in which `is_there`.
+    /// Waits for a frame in which `is_there` is true, and returns the time of its arrival.
     pub fn wait_until(&mut self, is_there: impl Fn(&vt100::Screen) -> bool) -> Instant {
         let start = Instant::now();
         loop {
@@ -132,17 +132,17 @@ impl Terminal {
         }
     }
 
-    /// The same for a text.
+    /// Like [`Self::wait_until`], for a text on the screen.
     pub fn wait_for(&mut self, text: &str) -> Instant {
         self.wait_until(|screen| screen.contents().contains(text))
     }
 
-    /// User and system time of its process, s.
+    /// Returns user and system time of its process, s.
     pub fn seconds(&self) -> Option<f64> {
         seconds_of(self.process())
     }
 
-    /// How often its process has called the system to write, and its resident memory, MB.
+    /// Returns the number of write system calls of its process, and its resident memory, MB.
     pub fn writes_and_memory(&self) -> Option<(u64, f64)> {
         let number = |file: &str, name: &str| {
             let text = fs::read_to_string(format!("/proc/{}/{file}", self.process())).ok()?;
@@ -154,22 +154,22 @@ impl Terminal {
 
 impl Drop for Terminal {
     fn drop(&mut self) {
-        // It may have ended already.
+        // The process may have ended already.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
 }
 
-/// User and system time of a process, s; from `/proc`, and nothing elsewhere.
+/// Returns user and system time of a process, s, from `/proc`; `None` on systems without it.
 pub fn seconds_of(process: u32) -> Option<f64> {
-    // Ticks of a hundredth of a second on every Linux there is; the name before the last bracket may have blanks.
+    // A tick is a hundredth of a second on every existing Linux; the process name before the last bracket may contain spaces.
     let stat = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
     let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
     let ticks = |index: usize| fields.get(index)?.parse::<f64>().ok();
     Some((ticks(11)? + ticks(12)?) / 100.0)
 }
 
-/// Bytes of each frame, in order of size.
+/// Returns the sizes of the frames in bytes, sorted.
 pub fn frames(bytes: &[u8]) -> Vec<usize> {
     let begins = bytes.windows(BEGIN.len()).enumerate().filter(|(_, window)| *window == BEGIN).map(|(at, _)| at);
     let begins: Vec<usize> = begins.collect();
@@ -179,7 +179,7 @@ pub fn frames(bytes: &[u8]) -> Vec<usize> {
     frames
 }
 
-/// The element of an ordered list below which lies this share of it; that of an empty list is the type's own.
+/// Returns the quantile `share` of a sorted list; for an empty list the default value of the type.
 pub fn part<T: Copy + Default>(sorted: &[T], share: f64) -> T {
     let last = sorted.len().saturating_sub(1);
     sorted.get((share * last as f64).round() as usize).copied().unwrap_or_default()

@@ -1,9 +1,9 @@
-//! Fits the weights by which the coach tells easy layouts from hard ones (`src/coach/ease`), and says how well they do.
+//! Fits the weights with which the coach estimates the difficulty of layouts (`src/coach/ease`), and reports the quality of the fit.
 //!
-//! `cargo run --release --example ease -- 1600` plays innings on `match` until 1,600 layouts a rule are gathered, finds out of
-//! each how often a weak player and a strong one miss it with the shot of a short search, fits half
-//! of them and measures the fit on the other half. The searches end by simulations, so that the weights are the same on every
-//! machine whose networks round alike.
+//! `cargo run --release --example ease -- 1600` plays innings on `match` until it has 1,600 layouts for each rule. For each layout it
+//! estimates how often a weak and a strong player miss it with the shot of a short search. It fits one half of the layouts and measures the
+//! fit on the other half. The searches are limited by simulations, so that the weights are the same on every machine whose networks round
+//! alike.
 
 use std::{
     env,
@@ -20,16 +20,16 @@ use carom::{
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// Other layouts and errors than those that the coach is measured on.
+/// Another seed than that of the coach's measurements, so that layouts and errors differ.
 const SEED: u64 = 20_261;
 
-/// Simulations of a search: a tenth of a second.
+/// Number of simulations of a search: a tenth of a second.
 const SIMULATIONS: u64 = 20_000;
 
-/// Points after which an inning is broken off, so that no endless run of easy layouts fills the sample.
+/// Points after which an inning is stopped, so that a long run of easy layouts does not fill the sample.
 const MOST_POINTS: u32 = 12;
 
-/// Longer than anybody waits.
+/// A time limit that is never reached.
 const YEAR: Duration = Duration::from_secs(365 * 24 * 3600);
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Layouts as a strong player meets them: those that innings begin with, and those that the shots leave.
+/// Collects layouts as a strong player meets them: initial layouts of innings, and those that the shots leave.
 fn gather(coach: &Coach, rule: Rule, count: usize) -> Result<Vec<Layout>, Box<dyn Error>> {
     let request = Request { rule, plan: true, ..request(Ease::STRONG) };
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
@@ -72,7 +72,7 @@ fn gather(coach: &Coach, rule: Rule, count: usize) -> Result<Vec<Layout>, Box<dy
     Ok(layouts)
 }
 
-/// How often a layout is missed with the best shot of a short search.
+/// Estimates how often a layout is missed with the best shot of a short search.
 fn sample(coach: &Coach, layout: &Layout, rule: Rule) -> Result<Sample, Box<dyn Error>> {
     let missed = |skill| -> Result<f64, Box<dyn Error>> {
         let advice = coach.recommend(layout, &Request { rule, ..request(skill) })?;
@@ -86,7 +86,7 @@ fn request(skill: Skill) -> Request {
     Request { skill, doubt: Doubt::FULL, budget: YEAR, simulations: SIMULATIONS, seed: SEED, ..Request::default() }
 }
 
-/// Prints what layouts were like that were called easy or hard: fifths by the estimate, the easiest first.
+/// Prints the misses of layouts by estimated difficulty: fifths of the estimate, the easiest first.
 fn report(table: &Table, ease: Ease, samples: &[Sample]) {
     let mut sorted = samples.to_vec();
     sorted.sort_by(|one, other| ease.missed(table, &one.layout).total_cmp(&ease.missed(table, &other.layout)));

@@ -1,9 +1,8 @@
-//! Looks for the model shots of the exercises anew, by simulation on each exercise's own table.
+//! Searches new model shots for the exercises, by simulation on each exercise's own table.
 //!
-//! `cargo run --release --example model_shots -- saves/*.json` looks at every exercise whose shot does not show what its category
-//! teaches, or that players make less often than its par says; names behind the files restrict it to these exercises. Where
-//! the best shot from where the balls lie falls short of the par, ball 1 and ball 2 are moved by up to 0.15 m. `par` and
-//! `grade` are written by the example `grade` afterwards.
+//! `cargo run --release --example model_shots -- saves/*.json` treats every exercise whose shot does not show what its category teaches, or
+//! that players make less often than its par. Names after the files restrict it to these exercises. If the best shot from the present
+//! layout is below the par, ball 1 and ball 2 are moved by up to 0.15 m. Run the example `grade` afterwards: it writes `par` and `grade`.
 
 use std::{env, error::Error, fs, path::Path};
 
@@ -18,7 +17,7 @@ use search::{Found, best, best_of_places, cost, worth};
 
 mod search;
 
-/// How far the mean of the three players' shares may fall below the par before the balls are moved.
+/// How far the mean success of the three players may be below the par before the balls are moved.
 const SHORTFALL: f64 = 0.05;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -43,7 +42,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Gives the exercise the best shot that was found, and says what became of it.
+/// Gives the exercise the best shot that was found, and prints the change.
 fn renew(exercise: &mut Exercise) {
     let wanted = exercise.par.map_or(0.0, mean) - exercise.shot.map_or(0.0, |shot| cost(&shot));
     let present = exercise.shot.map_or(0.0, |shot| worth(exercise, &shot));
@@ -68,7 +67,7 @@ fn renew(exercise: &mut Exercise) {
     }
 }
 
-/// The mean of the three players' shares.
+/// Returns the mean success of the three players.
 fn mean(Par { beginner, club, world_class }: Par) -> f64 {
     (beginner + club + world_class) / 3.0
 }

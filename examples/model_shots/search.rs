@@ -1,4 +1,4 @@
-//! The search for a shot that shows what an exercise teaches and that players make often.
+//! Search for a shot that shows what an exercise teaches and that players make often.
 
 use std::f64::consts::PI;
 
@@ -13,36 +13,36 @@ use carom::{
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// Strokes (tip place and speed) that are tried from a place in every direction.
+/// Number of strokes (tip position and speed) that are tried from a layout in every direction.
 const STROKES: usize = 1500;
-/// How many of them on each of the moved places.
+/// Number of strokes for each moved layout.
 const STROKES_MOVED: usize = 200;
-/// Moved places that are tried.
+/// Number of moved layouts that are tried.
 const PLACES: usize = 80;
-/// Attempts a player by which shots are compared.
+/// Number of attempts per player to compare shots.
 const ATTEMPTS: usize = 300;
-/// Shots that are refined.
+/// Number of shots that are refined.
 const LEADERS: usize = 6;
-/// Speed up to which a shot costs nothing, m/s, and what each m/s more is worth in shares.
+/// Speed up to which a shot has no penalty, m/s, and the penalty of each m/s more, in success rate.
 const SOFT: f64 = 2.5;
 const POWER: f64 = 0.03;
-/// Steps of tip places to a ball radius, of directions to a degree, and of speeds to 1 m/s, in the files.
+/// Resolution of the files: tip positions per ball radius, directions per degree, and speeds per 1 m/s.
 const TIP: f64 = 20.0;
 const DEGREE: f64 = 10.0;
 const SPEED: f64 = 10.0;
 
-/// A shot that was found, and where the balls lie for it.
+/// A shot that was found, with its layout.
 pub struct Found {
-    /// Where the balls lie.
+    /// The layout.
     pub layout: Layout,
     /// The shot.
     pub shot: CueInputs,
-    /// Mean share that beginner, club player and expert make.
+    /// Mean success rate of beginner, club player and expert, minus the penalty.
     pub worth: f64,
 }
 
-/// Mean share that beginner, club player and expert make of this shot, of [`ATTEMPTS`] each, less what its power costs; 0 where it does not show what the exercise
-/// teaches. In `gather`, what an expert gathers is the least of it.
+/// Returns the mean success rate of this shot for beginner, club player and expert, with [`ATTEMPTS`] each, minus the penalty for its
+/// speed; 0 if it does not show what the exercise teaches. In `gather`, the rate at which an expert gathers the balls is an upper bound.
 pub fn worth(exercise: &Exercise, shot: &CueInputs) -> f64 {
     worth_of(exercise, shot, ATTEMPTS)
 }
@@ -52,23 +52,23 @@ fn worth_of(exercise: &Exercise, shot: &CueInputs, attempts: usize) -> f64 {
     let (Ok([]), Ok(table)) = (flaws(&shown).as_deref(), exercise.table()) else { return 0.0 };
     let shares = [Skill::BEGINNER, Skill::CLUB, Skill::EXPERT]
         .map(|skill| make_probability(skill, exercise.rule, &table, &exercise.layout, shot, attempts, 1).rate);
-    // Between shots that are made as often the softer one is to be learnt.
+    // Of shots with equal success, prefer to teach the softer one.
     let mean = shares.iter().sum::<f64>() / 3.0 - cost(shot);
     if exercise.category == Category::Gather {
         let gathered = gathered(exercise, &table, shot, attempts / 2);
-        // Nine attempts of ten are enough: the rest is worth what the point is.
+        // Nine of ten attempts are enough; beyond that, only the success rate counts.
         if gathered < 0.65 { 0.0 } else { mean.min(gathered / 0.9) }
     } else {
         mean
     }
 }
 
-/// What the power of a shot costs, in shares.
+/// Returns the penalty for the speed of a shot, in success rate.
 pub fn cost(shot: &CueInputs) -> f64 {
     POWER * (shot.speed - SOFT).max(0.0)
 }
 
-/// The share of an expert's attempts that make the point and gather the balls.
+/// Returns the share of an expert's attempts that make the point and gather the balls.
 fn gathered(exercise: &Exercise, table: &Table, shot: &CueInputs, attempts: usize) -> f64 {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
     let mut is_gathered = || {
@@ -80,7 +80,7 @@ fn gathered(exercise: &Exercise, table: &Table, shot: &CueInputs, attempts: usiz
     (0..attempts).filter(|_| is_gathered()).count() as f64 / attempts as f64
 }
 
-/// The best shot from where the balls lie.
+/// Returns the best shot from the exercise's layout.
 pub fn best(exercise: &Exercise, rng: &mut impl RngExt) -> Option<Found> {
     let mut leaders = candidates(exercise, STROKES, rng);
     leaders.truncate(LEADERS);
@@ -89,7 +89,7 @@ pub fn best(exercise: &Exercise, rng: &mut impl RngExt) -> Option<Found> {
     Some(Found { layout: exercise.layout, shot, worth })
 }
 
-/// The best shot where ball 1 and ball 2 may lie elsewhere, but for how far they moved; the first that reaches `enough`.
+/// Returns the best shot if ball 1 and ball 2 may be moved, smaller moves first; stops at the first shot that reaches `enough`.
 pub fn best_of_places(exercise: &Exercise, enough: f64, rng: &mut impl RngExt) -> Option<Found> {
     let table = exercise.table().ok()?;
     let mut leaders: Vec<(f64, Exercise)> = Vec::new();
@@ -123,12 +123,12 @@ pub fn best_of_places(exercise: &Exercise, enough: f64, rng: &mut impl RngExt) -
     most
 }
 
-/// Shots that show what the exercise teaches, the most often made first.
+/// Returns shots that show what the exercise teaches, the most successful first.
 fn candidates(exercise: &Exercise, strokes: usize, rng: &mut impl RngExt) -> Vec<(f64, CueInputs)> {
     let Ok(table) = exercise.table() else { return Vec::new() };
     let [cue_ball, first, _] = exercise.layout.balls;
     let way = first - cue_ball;
-    // Cushions before ball 1 come from anywhere; else what meets it directly.
+    // Shots with cushions before ball 1 may start in any direction, others only in directions that meet the ball directly.
     let banks = exercise
         .tags
         .iter()
@@ -143,17 +143,17 @@ fn candidates(exercise: &Exercise, strokes: usize, rng: &mut impl RngExt) -> Vec
     let middle = way.y.atan2(way.x).to_degrees();
     let mut found = Vec::new();
     for number in 0..strokes {
-        // Every other one is akin to the present stroke, which was chosen for what it teaches.
+        // Every other stroke is a variation of the present one, which was chosen for what it teaches.
         let present = exercise.shot.filter(|_| number % 2 == 0);
         let stroke = match present {
-            Some(shot) => akin(&shot, rng),
+            Some(shot) => variation_of(&shot, rng),
             None => random_stroke(exercise, rng),
         };
         let mut run: Vec<f64> = Vec::new();
         let directions = (2.0 * half.to_degrees() / step) as usize;
         for turn in 0..=directions {
             let phi = middle - half.to_degrees() + step * turn as f64;
-            let makes = stands_free(exercise, &table, &CueInputs { phi: phi.to_radians(), ..stroke })
+            let makes = with_raised_cue(exercise, &table, &CueInputs { phi: phi.to_radians(), ..stroke })
                 .is_some_and(|shot| scores(exercise.rule, &table, &exercise.layout, &shot));
             if makes && turn < directions {
                 run.push(phi);
@@ -166,23 +166,23 @@ fn candidates(exercise: &Exercise, strokes: usize, rng: &mut impl RngExt) -> Vec
         }
     }
     found.sort_by_key(|(width, _)| std::cmp::Reverse(*width));
-    let shots = found.iter().filter_map(|(_, shot)| stands_free(exercise, &table, shot));
+    let shots = found.iter().filter_map(|(_, shot)| with_raised_cue(exercise, &table, shot));
     let mut judged: Vec<(f64, CueInputs)> =
         shots.map(|shot| (worth_of(exercise, &shot, 40), shot)).filter(|(worth, _)| *worth > 0.0).take(60).collect();
     judged.sort_by(|a, b| b.0.total_cmp(&a.0));
     judged
 }
 
-/// The shot with the cue raised where it must be, to the next tenth of a degree; none where it has no room at 20 degrees, or at 85
-/// where the cue is raised for the shot's sake.
-fn stands_free(exercise: &Exercise, table: &Table, shot: &CueInputs) -> Option<CueInputs> {
+/// Returns the shot with the cue raised as far as necessary, rounded up to a tenth of a degree. `None` if it has no room at 20 degrees, or
+/// at 85 degrees for a jump or a massé.
+fn with_raised_cue(exercise: &Exercise, table: &Table, shot: &CueInputs) -> Option<CueInputs> {
     let raised = with_room(table, &exercise.layout, shot).ok()?;
     let theta = (raised.theta.to_degrees() * DEGREE - 1e-9).ceil() / DEGREE;
     let most = if exercise.category == Category::JumpAndMasse { 85.0 } else { 20.0 };
     (theta <= most).then(|| CueInputs { theta: theta.to_radians(), ..raised })
 }
 
-/// A tip place and a speed of the kind that the category is about.
+/// Draws a tip position and a speed that suit the category.
 fn random_stroke(exercise: &Exercise, rng: &mut impl RngExt) -> CueInputs {
     if exercise.category == Category::JumpAndMasse {
         return raised_stroke(exercise, rng);
@@ -203,7 +203,7 @@ fn random_stroke(exercise: &Exercise, rng: &mut impl RngExt) -> CueInputs {
     CueInputs { a, b, theta: 3.0_f64.to_radians(), phi: 0.0, speed: step(9, 56, SPEED) }
 }
 
-/// A stroke with the cue raised for a jump, a massé, or a rail, whose line passes the centre of the ball by less than half of its
+/// Draws a stroke with the cue raised for a jump, a massé, or a rail. Its line passes the centre of the ball by less than half of the
 /// radius.
 fn raised_stroke(exercise: &Exercise, rng: &mut impl RngExt) -> CueInputs {
     let is_tagged = |tag: &str| exercise.tags.iter().any(|other| other == tag);
@@ -219,8 +219,8 @@ fn raised_stroke(exercise: &Exercise, rng: &mut impl RngExt) -> CueInputs {
     CueInputs { a, b: b.min((1.0 - a * a).sqrt() - 1.0 / TIP), theta, phi: 0.0, speed }
 }
 
-/// A tip place and a speed near those of this shot.
-fn akin(shot: &CueInputs, rng: &mut impl RngExt) -> CueInputs {
+/// Draws a tip position and a speed near those of this shot.
+fn variation_of(shot: &CueInputs, rng: &mut impl RngExt) -> CueInputs {
     let mut near =
         |value: f64, unit: f64, most: i32| ((value * unit).round() + f64::from(rng.random_range(-most..=most))) / unit;
     let a = if shot.a == 0.0 { 0.0 } else { near(shot.a, TIP, 3) };
@@ -233,7 +233,7 @@ fn akin(shot: &CueInputs, rng: &mut impl RngExt) -> CueInputs {
     }
 }
 
-/// Climbs from this shot by single steps of what a file holds.
+/// Hill climbing from this shot, by single steps of the resolution of the files.
 fn refine(exercise: &Exercise, mut shot: CueInputs) -> (f64, CueInputs) {
     let mut worth = worth_of(exercise, &shot, ATTEMPTS);
     let rounded = |value: f64, unit: f64| (value * unit).round() / unit;
@@ -270,7 +270,8 @@ fn refine(exercise: &Exercise, mut shot: CueInputs) -> (f64, CueInputs) {
                     phi: rounded(shot.phi.to_degrees() + sign * phi / DEGREE, DEGREE).to_radians(),
                     speed: rounded(shot.speed + sign * speed / SPEED, SPEED),
                 };
-                let Some(next) = exercise.table().ok().and_then(|table| stands_free(exercise, &table, &next)) else {
+                let Some(next) = exercise.table().ok().and_then(|table| with_raised_cue(exercise, &table, &next))
+                else {
                     continue;
                 };
                 let reached = worth_of(exercise, &next, ATTEMPTS);

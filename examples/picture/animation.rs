@@ -1,4 +1,5 @@
-//! Screens as one moving SVG: CSS shows layer after layer, without a script. A layer paints the cells that have changed since the one below it.
+//! Screens as one animated SVG: CSS shows layer after layer, without a script. Each layer paints the cells that changed since the one below
+//! it.
 
 use std::fmt::Write;
 
@@ -12,9 +13,9 @@ pub struct Frame {
     pub seconds: f64,
 }
 
-/// The moving picture of `frames`, which begins anew when it has ended. All have the size of the first and 24-bit colours.
+/// Returns the animation of `frames`, which repeats forever. All frames must have the size of the first one and 24-bit colours.
 ///
-/// Where nothing moves, because the viewer cannot or the reader does not want it, frame `still` is shown.
+/// Frame `still` is shown if the viewer cannot animate or the reader prefers reduced motion.
 pub fn moving_picture(frames: &[Frame], still: usize, title: &str) -> String {
     let Some(first) = frames.first() else { return String::new() };
     let length: f64 = frames.iter().map(|frame| frame.seconds).sum();
@@ -23,7 +24,7 @@ pub fn moving_picture(frames: &[Frame], still: usize, title: &str) -> String {
     svg::push_cells(&mut layers, &first.screen, Some(page), |_| true);
     for (number, pair) in frames.windows(2).enumerate().map(|(before, pair)| (before + 1, pair)) {
         let changed = |index: usize| looks(&pair[0].screen.content[index]) != looks(&pair[1].screen.content[index]);
-        // Letters may reach a little into the cells beside them: these are painted too, or traces of the old text would stay.
+        // Letters may extend slightly into the neighbouring cells. These are painted, too, or traces of the old text would remain.
         let painted = |index: usize| {
             let column = index % usize::from(first.screen.area.width);
             changed(index)
@@ -46,7 +47,7 @@ pub fn moving_picture(frames: &[Frame], still: usize, title: &str) -> String {
     svg::document(&first.screen, title, &(style + &layers))
 }
 
-/// All of a cell that is painted.
+/// Returns everything about a cell that is visible.
 fn looks(cell: &Cell) -> (&str, svg::Style) {
     (cell.symbol(), svg::style(cell))
 }

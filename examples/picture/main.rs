@@ -1,8 +1,9 @@
-//! Draws the pictures of the documentation, and writes its table of keys: plays the real program without a terminal and writes its screens as SVG.
+//! Draws the pictures of the documentation and writes its table of keys: runs the real program without a terminal and writes its screens as
+//! SVG.
 //!
-//! `cargo run --release --example picture -- docs/` writes the same bytes each time, but for the times of the training that
-//! it shows; another processor may round the networks' numbers otherwise and so find another shot. File names behind the folder
-//! restrict it to these and those that are drawn with them.
+//! `cargo run --release --example picture -- docs/` writes the same bytes each time, except for the times of the training that it shows.
+//! Another processor may round the networks' numbers differently and find another shot. File names after the folder restrict the output to
+//! these files and those that are drawn together with them.
 
 mod animation;
 mod moving;
@@ -21,11 +22,11 @@ use ratatui::{Terminal, backend::TestBackend};
 
 const LOOK: Capabilities = Capabilities { depth: Depth::True, glyphs: Glyphs::Sextant, unicode: true };
 
-/// The balls, in metres: from here the coach finds a shot over three cushions between the two hits.
+/// The balls, in metres: from this layout the coach finds a shot with three cushions between the two hits.
 const LAYOUT: &str = "-0.57,-0.43 -1.11,-0.3 0.39,0.66";
-/// Simulations that the coach may use, so that it finds the same shot each time.
+/// Number of simulations of the coach: a fixed number, so that it finds the same shot each time.
 const SIMULATIONS: u64 = 300_000;
-/// Seconds after the second hit at which the picture is taken: the balls have parted, and the hit is still the news.
+/// Seconds between the second hit and the picture: the balls have separated, and the hit is still displayed.
 const AFTER_HIT: f64 = 0.06;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -71,14 +72,14 @@ fn press(app: &mut App, key: KeyCode) -> Option<Effect> {
     app.handle(&key.into())
 }
 
-/// Asks the coach and shows what it says, but for what that has cost: no two runs take the same time.
+/// Asks the coach and shows the answer without its cost, which differs from run to run.
 fn ask(app: &mut App) -> Result<(), Box<dyn Error>> {
     let question = press(app, Enter);
     answer(app, question, |_| {});
     if app.coach.shot().is_some_and(|shot| shot.solved) { Ok(()) } else { Err("the coach finds no point here".into()) }
 }
 
-/// Answers a question to the coach and all that follow from it; `heard` is called after every answer.
+/// Answers a request to the coach and all that follow from it; `heard` is called after every answer.
 fn answer(app: &mut App, mut question: Option<Effect>, mut heard: impl FnMut(&mut App)) {
     let mut worker = CoachWorker::unhurried(SIMULATIONS);
     while let Some(Effect::Ask(job)) = question.take() {
@@ -92,7 +93,7 @@ fn answer(app: &mut App, mut question: Option<Effect>, mut heard: impl FnMut(&mu
     }
 }
 
-/// Plays to shortly after the cue ball has met both object balls.
+/// Plays until shortly after the cue ball has met both object balls.
 fn play_to_the_point(app: &mut App) -> Result<(), Box<dyn Error>> {
     let shot = app.coach.shot().ok_or("there is no shot")?;
     let first_hit = |ball| {

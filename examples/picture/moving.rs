@@ -1,4 +1,4 @@
-//! The moving picture of the README: a ball is moved, the coach is asked, and the shot is played.
+//! The animation in the README: a ball is moved, the coach recommends a shot, and the shot is played.
 
 use std::error::Error;
 
@@ -22,20 +22,20 @@ use crate::{
     answer,
 };
 
-/// The screen's columns and rows.
+/// Columns and rows of the screen.
 const SIZE: (u16, u16) = (100, 30);
-/// Rows below the screen, for the key that is pressed and what it does.
+/// Rows below the screen, for the pressed key and what it does.
 const CAPTION: u16 = 2;
-/// The balls at first, in metres. Red is then moved to where it lies in the other pictures.
+/// Initial layout, in metres. Red is then moved to its position in the other pictures.
 const LAYOUT: &str = "-0.57,-0.43 -1.11,-0.3 0.09,0.46";
-/// Seconds between two pictures of a shot.
+/// Seconds between two frames of a shot.
 const STEP: f64 = 1.0 / 15.0;
-/// Seconds of the shot that are played at its own speed; what follows is played faster.
+/// Seconds of the shot that are played at real speed; the rest is played faster.
 const WATCHED: f64 = 2.6;
-/// How often `+` is pressed then.
+/// How often `+` is pressed for the rest.
 const FASTER: usize = 2;
 
-/// The moving picture as SVG.
+/// Returns the animation as SVG.
 pub fn picture(caps: Capabilities) -> Result<String, Box<dyn Error>> {
     let table = Table::default();
     let layout = Layout::parse(LAYOUT, &table)?;
@@ -58,7 +58,7 @@ pub fn picture(caps: Capabilities) -> Result<String, Box<dyn Error>> {
     Ok(moving_picture(&film.frames, still, "A ball is moved, the coach recommends a shot, and the shot is played"))
 }
 
-/// The program and what has been seen of it.
+/// The program and the frames that were drawn.
 struct Film {
     app: App,
     frames: Vec<Frame>,
@@ -67,7 +67,7 @@ struct Film {
 }
 
 impl Film {
-    /// Shows the screen as it is now.
+    /// Adds a frame with the current screen.
     fn show(&mut self, seconds: f64) -> Result<(), Box<dyn Error>> {
         let mut terminal = Terminal::new(TestBackend::new(SIZE.0, SIZE.1))?;
         terminal.draw(|frame| self.app.draw(frame))?;
@@ -81,14 +81,14 @@ impl Film {
         self.show(seconds)
     }
 
-    /// Shows the last picture so much longer.
+    /// Shows the last frame for this many seconds more.
     fn lengthen(&mut self, seconds: f64) {
         if let Some(last) = self.frames.last_mut() {
             last.seconds += seconds;
         }
     }
 
-    /// Asks the coach; the number of the picture with its advice.
+    /// Asks the coach, and returns the index of the frame with its advice.
     fn ask(&mut self) -> Result<usize, Box<dyn Error>> {
         self.caption = ("Enter", "asks the coach for a shot");
         let question = self.app.handle(&Enter.into());
@@ -129,7 +129,7 @@ impl Film {
     }
 }
 
-/// The screen with a line below it. The key is drawn like the open tab in the screen's first row.
+/// Returns the screen with a caption line below it. The key is drawn like the open tab in the first row of the screen.
 fn with_caption(screen: &Buffer, (key, words): (&str, &str)) -> Buffer {
     let mut area = screen.area;
     area.height += CAPTION;

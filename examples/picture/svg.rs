@@ -1,4 +1,4 @@
-//! A screen as SVG: what is made of rectangles becomes paths, since few fonts have it, and the rest text.
+//! A screen as SVG: block symbols become paths, because few fonts have them; everything else is text.
 
 use std::{collections::BTreeMap, fmt::Write};
 
@@ -9,20 +9,20 @@ use ratatui::{
     symbols::pixel::SEXTANTS,
 };
 
-/// A cell's width and height; both halves and thirds of them are whole numbers.
+/// Width and height of a cell; halves and thirds of both are whole numbers.
 const CELL: (u16, u16) = (12, 24);
-/// From a cell's top to the line that its text stands on.
+/// Distance from the top of a cell to the baseline of its text.
 const BASELINE: u16 = 18;
-/// At this size the usual monospace fonts are a cell wide or a little less; `textLength` does the rest.
+/// At this size, the usual monospace fonts are one cell wide or slightly narrower; `textLength` corrects the rest.
 const FONT_SIZE: u16 = 20;
 const FONTS: &str = "ui-monospace,'SF Mono',Menlo,Consolas,'DejaVu Sans Mono','Liberation Mono',monospace";
-/// Around the screen.
+/// Margin around the screen.
 const MARGIN: u16 = 14;
 
-/// Rectangles by their colour, 0xRRGGBB.
+/// Rectangles by colour, 0xRRGGBB.
 type Shapes = BTreeMap<u32, Vec<Rect>>;
 
-/// Text in one style without a gap of more than a blank.
+/// Text in one style, with no gap of more than one space.
 struct Words {
     column: u16,
     row: u16,
@@ -31,14 +31,14 @@ struct Words {
     text: String,
 }
 
-/// The picture of `screen`, which must be in 24-bit colours; `title` is what it shows.
+/// Returns the picture of `screen`, which must have 24-bit colours; `title` describes it.
 pub fn picture(screen: &Buffer, title: &str) -> String {
     let mut cells = String::new();
     push_cells(&mut cells, screen, Some(page(screen)), |_| true);
     document(screen, title, &cells)
 }
 
-/// An SVG document around what is drawn of a screen of this size and page colour.
+/// Returns an SVG document around `content`, for a screen of this size and page colour.
 pub fn document(screen: &Buffer, title: &str, content: &str) -> String {
     let (width, height) = (screen.area.width * CELL.0 + 2 * MARGIN, screen.area.height * CELL.1 + 2 * MARGIN);
     let (title, page) = (escaped(title), page(screen));
@@ -51,12 +51,12 @@ pub fn document(screen: &Buffer, title: &str, content: &str) -> String {
     )
 }
 
-/// The colour behind everything: the last cell is below all panels.
+/// Returns the background colour of the page: the last cell is below all panels.
 pub fn page(screen: &Buffer) -> u32 {
     screen.content.last().map_or(0, |cell| style(cell).back)
 }
 
-/// Draws those cells of `screen` whose index is `drawn`. What is behind them is left out where it has the colour `page`.
+/// Draws the cells of `screen` for which `drawn` is true. Backgrounds with the colour `page` are left out.
 pub fn push_cells(svg: &mut String, screen: &Buffer, page: Option<u32>, drawn: impl Fn(usize) -> bool) {
     let (mut backs, mut blocks, mut words) = (Shapes::new(), Shapes::new(), Vec::<Words>::new());
     for (index, cell) in screen.content.iter().enumerate().filter(|&(index, _)| drawn(index)) {
@@ -79,7 +79,7 @@ pub fn push_cells(svg: &mut String, screen: &Buffer, page: Option<u32>, drawn: i
     push_words(svg, words);
 }
 
-/// How a cell's symbol is drawn: its colour, the one behind it, both 0xRRGGBB, and its weight.
+/// Style of a cell: foreground and background colour, 0xRRGGBB, and weight.
 #[derive(PartialEq)]
 pub struct Style {
     front: u32,
@@ -99,7 +99,7 @@ pub fn style(cell: &Cell) -> Style {
     Style { front, back, bold: cell.modifier.contains(Modifier::BOLD) }
 }
 
-/// The rectangles that `symbol` consists of, if it does.
+/// Returns the rectangles of a block symbol; `None` for other symbols.
 fn parts(symbol: char) -> Option<Vec<Rect>> {
     let (width, height) = CELL;
     let line = |thickness| vec![Rect::new(0, (height - thickness) / 2, width, thickness)];
@@ -108,7 +108,7 @@ fn parts(symbol: char) -> Option<Vec<Rect>> {
         '▄' => Some(vec![Rect::new(0, height / 2, width, height / 2)]),
         '─' => Some(line(2)),
         '━' => Some(line(4)),
-        // The blank, the full block and the halves beside each other are among them.
+        // The table includes the space, the full block and the left and right halves.
         _ => SEXTANTS.iter().position(|&sextant| sextant == symbol).map(|bits| {
             let part = |n: u16| Rect::new(n % 2 * width / 2, n / 2 * height / 3, width / 2, height / 3);
             (0..6).filter(|n| bits >> n & 1 == 1).map(part).collect()
@@ -116,7 +116,7 @@ fn parts(symbol: char) -> Option<Vec<Rect>> {
     }
 }
 
-/// Adds a symbol to the words that it belongs to. Signs that many fonts take from another, wider one stand alone.
+/// Appends a symbol to the text that it continues. Symbols that many fonts take from another, wider font stay separate.
 fn add_symbol(words: &mut Vec<Words>, symbol: Words) {
     let is_sign = |text: &str| text.chars().any(|letter| letter >= '\u{2000}');
     if let Some(last) = words.last_mut().filter(|last| {
@@ -134,7 +134,7 @@ fn add_symbol(words: &mut Vec<Words>, symbol: Words) {
     words.push(symbol);
 }
 
-/// Makes as few rectangles of them as joining rows, and then equal rows, can.
+/// Merges adjacent rectangles of a row, and then equal rows, to reduce their number.
 fn merge(rects: &mut Vec<Rect>) {
     rects.sort_by_key(|rect| (rect.y, rect.height, rect.x));
     rects.dedup_by(|next, last| {
@@ -150,7 +150,7 @@ fn merge(rects: &mut Vec<Rect>) {
     });
 }
 
-/// One path a colour, with crisp edges: smooth ones would leave seams between neighbours at most scales.
+/// Draws one path per colour, with crisp edges: antialiased ones would leave seams between neighbours at most scales.
 fn push_shapes(svg: &mut String, shapes: Shapes) {
     let shapes: Vec<_> = shapes.into_iter().filter(|(_, rects)| !rects.is_empty()).collect();
     if shapes.is_empty() {

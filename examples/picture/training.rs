@@ -1,4 +1,4 @@
-//! A run as it trains: it is trained for a minute, and watched.
+//! A screen of a run in progress: the run is trained for a minute and watched.
 
 use std::{
     error::Error,
@@ -18,13 +18,13 @@ use carom::{
 };
 use crossterm::event::KeyCode::{Char, Enter};
 
-/// Shots that are planned, and those after which the picture is taken.
+/// Number of planned shots, and the number after which the picture is taken.
 const PLANNED: u64 = 300_000;
 const TAKEN: u64 = 150_000;
-/// Seconds of the replay before the picture: the balls are on their way.
+/// Seconds of the replay before the picture: the balls are moving then.
 const REPLAYED: f64 = 1.3;
 
-/// The screen of a run that is half through.
+/// Returns the screen of a run that is half complete.
 pub fn screen(caps: Capabilities) -> Result<App, Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let runs = folder.path().join("runs");
@@ -34,7 +34,7 @@ pub fn screen(caps: Capabilities) -> Result<App, Box<dyn Error>> {
     let mut run = Run::create(&place, learner, Schedule::new(10_000, 1_000), None)?;
     let mut camera = Camera { runs, place, caps, app: None };
     let is_taken = std::cell::Cell::new(false);
-    // The run stops at the first turn after the picture, which is taken while it trains.
+    // The picture is taken while the run trains; the run stops at the next iteration.
     let limits = Limits { time: None, stop: &|| is_taken.get() };
     run.train(&limits, &mut Watching { camera: &mut camera, is_taken: &is_taken })?;
     camera.app.ok_or("the run ended before the picture")?
@@ -62,7 +62,7 @@ impl Camera {
     }
 }
 
-/// What a follower of the run sees.
+/// Shows what a follower of the run sees.
 fn show(app: &mut App, place: &Path, table: &Table) -> Result<(), Box<dyn Error>> {
     let mut update = Follower::new(place).look().ok_or("nothing is to be seen of the run")?;
     let reel = update.examples.take().map(|examples| Reel::record(&examples, table));
@@ -82,7 +82,7 @@ impl Watcher for Watching<'_> {
         if record.held_out_reward.is_some() {
             eprintln!("trained {} of {TAKEN} shots for the picture", record.shots);
         }
-        // Not at a measurement: it is to be seen training.
+        // Not at a measurement: the picture should show the run while it trains.
         if record.shots > TAKEN && record.held_out_reward.is_none() && !self.is_taken.get() {
             self.is_taken.set(true);
             self.camera.app = Some(self.camera.take());

@@ -1,4 +1,4 @@
-//! `carom accuracy`: error against run time, measured by the program itself.
+//! `carom accuracy`: measures the error of the simulator against its run time.
 
 use std::{
     io::Write,
@@ -8,7 +8,7 @@ use std::{
 use super::{
     Failure,
     input::{seed, table_named, whole},
-    output::{check_place, plural, tell},
+    output::{check_place, plural, print_note},
 };
 use crate::{
     printing::{self, ProgressLine},
@@ -17,54 +17,54 @@ use crate::{
     table::{JUDGED, Table},
 };
 
-/// Measure how exact the simulator is and what that costs.
+/// Measure the accuracy and the run time of the simulator.
 ///
-/// The engine, other root finders, single precision and fixed time steps are set against what the reference engine makes of the same
-/// shots with 32 digits, the truth, and all against reference shots of 50 digits. It takes minutes; with --quick it takes seconds. Where neither --quick nor --shots
-/// nor --table is given, the stability table follows.
+/// The engine, other root finders, single precision and fixed time steps are compared with the reference engine, which plays the same shots
+/// with 32 digits and counts as the truth. All of them are compared with reference shots of 50 digits. This takes minutes, with --quick
+/// seconds. Without --quick, --shots and --table, the stability table follows.
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct Args {
     /// Few shots and no time steps below 1e-4 s: seconds instead of minutes.
     #[arg(long)]
     quick: bool,
-    /// Number of random shots on each table. Default: 1000, or 96 with --quick; with --stability 100000, or 10000
+    /// Number of random shots on each table. Default: 1000, or 96 with --quick; with --stability 100000, or 10000 with --quick
     #[arg(long, value_parser = whole(1..=1_000_000_000_u32))]
     shots: Option<u32>,
-    /// Seed of the shots. Default: 2026, or 1 in the stability table
+    /// Seed of the shots. Default: 2026, or 1 for the stability table
     #[arg(long, value_parser = seed)]
     seed: Option<u64>,
-    /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file; where balls leave its cloth, strokes of up to 60
-    /// degrees are studied too. Default: textbook and thesis, and such strokes on match
+    /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file. If its balls can leave the cloth,
+    /// strokes of up to 60 degrees are studied, too. Default: textbook and thesis, and such strokes on match
     #[arg(long, value_name = "NAME")]
     table: Option<String>,
-    /// Play the stability table only: a hundred thousand random, ten thousand adversarial and a thousand shots of each
-    /// stiff or extreme case on each table, or a tenth of them with --quick. --shots sets the random ones.
+    /// Play only the stability table: a hundred thousand random, ten thousand adversarial and a thousand shots of each stiff or extreme
+    /// case on each table, or a tenth of them with --quick. --shots sets the number of random shots.
     #[arg(long, conflicts_with = "table")]
     stability: bool,
-    /// Replay filmed shots of real balls instead, on several models of the table: how far each is from the film. A --table must have
-    /// the filmed one's length, width and balls.
+    /// Replay filmed shots of real balls instead, on several models of the table, and report how far each model is from the film. A --table
+    /// must have the length, width and balls of the filmed one.
     #[arg(long, conflicts_with_all = ["stability", "shots", "seed", "quick"])]
     filmed: bool,
-    /// With --filmed, fit the constants of cloth and rails to the film, and to each half of it to judge them on the other.
+    /// With --filmed, fit the constants of cloth and rails to the film. Then fit them to each half of it and test them on the other half.
     #[arg(long, requires = "filmed", conflicts_with_all = ["stability", "shots", "quick", "out"])]
     fit: bool,
-    /// Write files into this folder: accuracy.csv, error-vs-time.svg and error-vs-condition.svg, and stability.md where that table is
-    /// played; with --filmed filmed.csv and filmed.svg.
+    /// Write files into this folder: accuracy.csv, error-vs-time.svg and error-vs-condition.svg, and stability.md if the stability table is
+    /// played; with --filmed: filmed.csv and filmed.svg.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Print one JSON object for each reference file, each table and each method instead of the text.
+    /// Print JSON instead of text: one object for each reference file, each table and each method.
     #[arg(long)]
     json: bool,
 }
 
-/// Seed of the shots that are studied where none is given.
+/// Default seed of the studied shots.
 const SEED: u64 = 2026;
 
-/// Most shots whose every method is studied: all of them are kept.
+/// Maximum number of shots that are studied with every method: all of them are kept in memory.
 const MOST_STUDIED: u32 = 1_000_000;
 
-/// The page of the stability table.
+/// File name of the stability table.
 const STABILITY: &str = "stability.md";
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
@@ -91,7 +91,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             "--shots {shots} is more than can be studied; accepted are 1 to {MOST_STUDIED}, and more with --stability"
         )));
     }
-    let tables = args.table.as_ref().map_or_else(judged, |name| table_named(name).map(with_flights))?;
+    let tables = args.table.as_ref().map_or_else(default_tables, |name| table_named(name).map(with_flights))?;
     let references = study::check_references();
     let measured = tables.into_iter().map(|(table, steepest)| measure(args, table, steepest));
     let studies = measured.collect::<Result<Vec<_>, _>>()?;
@@ -115,22 +115,22 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     out.flush()?;
     drop(out);
-    // The stability table has tables and numbers of shots of its own.
+    // The stability table has its own tables and numbers of shots.
     if args.quick || args.shots.is_some() || args.table.is_some() {
-        tell("The stability table was not played: --stability plays it, in minutes; with --quick a tenth of it.");
+        print_note("The stability table was not played: --stability plays it, in minutes; with --quick a tenth of it.");
         return Ok(());
     }
     play_stability(args, &stability::Plan::REPORT)
 }
 
-/// A table of the size of the filmed one.
+/// Returns the table called `name` if it has the size of the filmed one.
 fn filmed_table(name: &str) -> Result<Table, Failure> {
     let table = table_named(name)?;
     filmed::check_size(&table).map_err(Failure::wrong_input)?;
     Ok(table)
 }
 
-/// What models of the table reach on the film.
+/// Reports how far several models of the table are from the film.
 fn replay_film(args: &Args) -> Result<(), Failure> {
     let film = filmed::bundled();
     let models = match &args.table {
@@ -138,7 +138,7 @@ fn replay_film(args: &Args) -> Result<(), Failure> {
         None => filmed::models(),
     };
     let judged = |(name, table): &(String, Table)| {
-        tell(format_args!("playing the film on {name} ..."));
+        print_note(format_args!("playing the film on {name} ..."));
         filmed::judge(name, table, &film)
     };
     let rows: Vec<_> = models.iter().map(judged).collect();
@@ -157,7 +157,7 @@ fn replay_film(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Constants that come nearest to the film: all of it, and each half judged on the other.
+/// Fits constants to the whole film, and to each half of it to test them on the other half.
 fn fit_film(args: &Args) -> Result<(), Failure> {
     let film = filmed::bundled();
     let table = args.table.as_deref().map_or_else(|| Ok(Table::default()), filmed_table)?;
@@ -168,7 +168,7 @@ fn fit_film(args: &Args) -> Result<(), Failure> {
     let parts = [("the whole film", &film, &film), ("every other shot", &even, &odd), ("the other shots", &odd, &even)];
     let mut out = printing::stdout().exact(args.json);
     for (used, fit_on, judge_on) in parts {
-        tell(format_args!("fitting {used} ..."));
+        print_note(format_args!("fitting {used} ..."));
         let fitted = filmed::fit_constants(&table, model, fit_on);
         let name = format!("fitted to {used}");
         let row = filmed::judge(&name, &fitted.table, judge_on);
@@ -183,7 +183,7 @@ fn fit_film(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The stability table, which tells of each stiff or extreme case how many shots fail and why.
+/// Plays the stability table, which reports for each stiff or extreme case how many shots fail and why.
 fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
     let plan = stability::Plan { seed: args.seed.unwrap_or(plan.seed), ..*plan };
     let mut out = printing::stdout().exact(args.json);
@@ -197,7 +197,7 @@ fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
         } else {
             writeln!(out, "{}", row.line())?;
         }
-        // What is interrupted has told what it found.
+        // Flush each row, so that an interrupted run has reported its results so far.
         out.flush()?;
         rows.push(row);
     }
@@ -210,22 +210,22 @@ fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
     }
 }
 
-/// The tables that are judged where none is named: two with usual strokes, and one with steep ones whose balls fly.
-fn judged() -> Result<Vec<(Table, Steepest)>, Failure> {
+/// Returns the default tables: two with ordinary strokes, and one with steep strokes that make balls fly.
+fn default_tables() -> Result<Vec<(Table, Steepest)>, Failure> {
     let flat = JUDGED.into_iter().map(|name| Ok((table_named(name)?, Steepest::USUAL)));
     flat.chain([Ok((Table::default(), Steepest::FLIGHTS))]).collect()
 }
 
-/// A table with usual strokes, and with steep ones where balls leave its cloth.
+/// Returns the table with ordinary strokes and, if balls can leave its cloth, again with steep ones.
 fn with_flights(table: Table) -> Vec<(Table, Steepest)> {
     let flying = table.flight.is_some().then(|| (table.clone(), Steepest::FLIGHTS));
     [(table, Steepest::USUAL)].into_iter().chain(flying).collect()
 }
 
-/// Every method on one table.
+/// Runs every method on one table.
 ///
 /// # Errors
-/// Where the truth of no shot is known, by which methods could be judged.
+/// Fails if no shot has a known truth to compare the methods with.
 fn measure(args: &Args, table: Table, steepest: Steepest) -> Result<Study, Failure> {
     let (shots, finest, rounds, steps) = if args.quick { (96, 1e-4, 2, 1.5e6) } else { (1000, 1e-6, 3, 4e7) };
     let shots = args.shots.map_or(shots, |shots| shots as usize);
@@ -237,7 +237,7 @@ fn measure(args: &Args, table: Table, steepest: Steepest) -> Result<Study, Failu
     line.clear();
     if study.summary.judged.count == 0 {
         return Err(Failure::failed(format_args!(
-            "none of the {all} shots on \"{}\" can be judged: {}; a level table whose rails have another model than \"mathavan\" would do",
+            "none of the {all} shots on \"{}\" can be judged: {}; use a level table whose rail model is not \"mathavan\"",
             study.summary.table,
             study.why_unjudged()
         )));
@@ -245,7 +245,7 @@ fn measure(args: &Args, table: Table, steepest: Steepest) -> Result<Study, Failu
     Ok(study)
 }
 
-/// Whole files or none, at the very end: an interruption before leaves nothing half written.
+/// Writes each file atomically at the very end, so that an earlier interruption leaves no partial files.
 fn write_files(folder: &Path, studies: &[Study]) -> Result<(), Failure> {
     let files = [
         ("accuracy.csv", study::csv(studies)),
@@ -259,6 +259,6 @@ fn write_file(folder: &Path, name: &str, text: &str) -> Result<(), Failure> {
     let path = folder.join(name);
     write_atomic(&path, text.as_bytes())
         .map_err(|error| Failure::failed(format_args!("{} cannot be written: {error}", path.display())))?;
-    tell(format_args!("wrote {}", path.display()));
+    print_note(format_args!("wrote {}", path.display()));
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! `carom bench`: what this machine does in a second.
+//! `carom bench`: measures the speed of this machine.
 
 use std::{io::Write, time::Duration};
 
@@ -13,10 +13,10 @@ use crate::{
 
 /// Measure the speed of this machine.
 ///
-/// Measured are shots, recommendations and network updates a second. It takes about twenty seconds.
+/// The figures are shots, recommendations and network updates per second. This takes about twenty seconds.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Seconds for each figure.
+    /// Seconds of measurement for each figure.
     #[arg(long, default_value_t = 1.0)]
     seconds: f64,
     /// Print one JSON object.
@@ -24,14 +24,14 @@ pub struct Args {
     json: bool,
 }
 
-/// Longest time for a figure, s.
+/// Longest measurement of a figure, s.
 const LONGEST: f64 = 3600.0;
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let accepted = args.seconds > 0.0 && args.seconds <= LONGEST;
     let time = Duration::try_from_secs_f64(args.seconds).ok().filter(|_| accepted).ok_or_else(|| {
         Failure::wrong_input(format_args!(
-            "--seconds {} is no time to measure; accepted is above 0 and at most {LONGEST}",
+            "--seconds {} is not a valid time; accepted is above 0 and at most {LONGEST}",
             number(args.seconds)
         ))
     })?;
@@ -56,14 +56,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A figure for people to read.
+/// Formats a figure as a line of text.
 fn words(figure: &Figure) -> String {
     let threads = if figure.threads == 1 { "1 thread".to_owned() } else { format!("{} threads", figure.threads) };
     let line = format!("{:<18} {:<7} {threads:<10} {:>12} /s", figure.what, figure.table, grouped(figure.per_second));
     figure.sizes.as_ref().map_or_else(|| line.clone(), |sizes| format!("{line}  {sizes}"))
 }
 
-/// A number with thousands set apart.
+/// Formats a number with spaces between thousands.
 fn grouped(number: f64) -> String {
     HumanCount(number.round() as u64).to_string().replace(',', " ")
 }

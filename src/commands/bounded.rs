@@ -1,4 +1,4 @@
-//! One shot within bounds: of time, and of what numbers can hold. A table may be stiff beyond any use and still be a table.
+//! Simulation of one shot with bounds on run time and numbers: a valid table can still be too stiff to compute.
 
 use std::time::Duration;
 
@@ -11,26 +11,26 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Longest time that one shot may take. The slowest on a table that exists take some milliseconds.
+/// Longest run time of one shot. The slowest shots on real tables take a few milliseconds.
 const LONGEST: Duration = Duration::from_secs(5);
 
-/// Most steps of one shot: some seconds of them.
+/// Maximum number of time steps of one shot: a few seconds of computing.
 const MOST_STEPS: f64 = 4e6;
 
-/// Plays a shot from event to event.
+/// Plays a shot with the event-driven engine.
 ///
 /// # Errors
-/// What is wrong with the layout, the stroke or the motion; and where it takes too long or its numbers get out of hand.
+/// Fails if the layout, the stroke or the motion is invalid, if computing takes too long, or if numbers overflow.
 pub fn play(table: &Table, layout: &Layout, start: Start<'_>) -> Result<Recording, Failure> {
     let (recording, is_over) =
         Recording::within_bounds(table, layout, start, LONGEST, u32::MAX).map_err(Failure::wrong_input)?;
-    finite(table, recording, is_over, "")
+    check_finite(table, recording, is_over, "")
 }
 
-/// Plays a shot in fixed steps.
+/// Plays a shot in fixed time steps.
 ///
 /// # Errors
-/// As [`play`].
+/// As for [`play`].
 pub fn play_in_steps(
     table: &Table,
     layout: &Layout,
@@ -55,10 +55,10 @@ pub fn play_in_steps(
     };
     let (recording, (stepped, is_over)) =
         Recording::played_by(table, layout, Start::Stroke(cue), play).map_err(Failure::wrong_input)?;
-    Ok((finite(table, recording, is_over, "larger time steps or ")?, stepped))
+    Ok((check_finite(table, recording, is_over, "larger time steps or ")?, stepped))
 }
 
-/// The number of two digits that is nearest above a positive `value`.
+/// Rounds a positive `value` up to two significant digits.
 fn rounded_up(value: f64) -> f64 {
     let unit = 10.0_f64.powf(value.log10().floor() - 1.0);
     let two_digits = |times: f64| format!("{:.1e}", times * unit).parse().unwrap_or(f64::INFINITY);
@@ -67,13 +67,17 @@ fn rounded_up(value: f64) -> f64 {
     if nearest < value { two_digits(times + 1.0) } else { nearest }
 }
 
-/// The recording, if it is a whole one with finite numbers; `else_would` names what else but a table that is less stiff would help.
-fn finite(table: &Table, recording: Recording, is_over: bool, else_would: &str) -> Result<Recording, Failure> {
+/// Returns the recording if it is complete and its numbers are finite. `other_remedies` names remedies besides a less stiff table.
+fn check_finite(
+    table: &Table,
+    recording: Recording,
+    is_over: bool,
+    other_remedies: &str,
+) -> Result<Recording, Failure> {
     let name = &table.name;
     if is_over {
         return Err(Failure::failed(format_args!(
-            "the shot takes more than {} s to compute on \"{name}\" and is given up; {else_would}a table that is less stiff \
-             would do",
+            "the shot takes more than {} s to compute on \"{name}\" and was stopped; use {other_remedies}a less stiff table",
             LONGEST.as_secs()
         )));
     }
@@ -81,7 +85,7 @@ fn finite(table: &Table, recording: Recording, is_over: bool, else_would: &str) 
         return Ok(recording);
     }
     Err(Failure::failed(format_args!(
-        "the shot's numbers do not stay finite on \"{name}\"; a table with less friction between balls or on cushions would do"
+        "the shot's numbers do not stay finite on \"{name}\"; use a table with less friction between balls or on cushions"
     )))
 }
 

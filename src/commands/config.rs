@@ -1,20 +1,20 @@
-//! `carom config`: what can be set once and for all, how it is set now, and whether the file is right.
+//! `carom config`: displays the settings, their meaning and their current values, and checks the settings file.
 
 use std::io::Write;
 
 use super::{
     Failure,
-    output::{plural, tell},
+    output::{plural, print_note},
 };
 use crate::{printing, terminal::Settings};
 
-/// Show every setting with what it means and accepts, as a file to begin with.
+/// Show every setting with its meaning and accepted values, as a file to start from.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Print only where the file is.
+    /// Print only the path of the settings file.
     #[arg(long)]
     path: bool,
-    /// Print nothing but what is wrong with the file.
+    /// Print only the mistakes in the file.
     #[arg(long, conflicts_with = "path")]
     check: bool,
 }
@@ -30,7 +30,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         write!(out, "# {}\n{}", path.display(), settings.document())?;
     }
     for complaint in &complaints {
-        tell(format_args!("{}: {complaint}", path.display()));
+        print_note(format_args!("{}: {complaint}", path.display()));
     }
     match complaints.len() {
         0 => Ok(()),

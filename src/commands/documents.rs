@@ -1,4 +1,4 @@
-//! `carom completions` and `carom man`: what shells and `man` know of the command line, from its own description.
+//! `carom completions` and `carom man`: shell completions and manual pages, generated from the definition of the command line.
 
 use std::io::Write;
 
@@ -15,10 +15,10 @@ pub struct Completions {
     shell: Shell,
 }
 
-/// Print the manual page, or that of a subcommand.
+/// Print the manual page of carom or of a subcommand.
 #[derive(Debug, clap::Args)]
 pub struct Man {
-    /// The subcommand, like "recommend"; without, the program itself.
+    /// The subcommand, such as "recommend"; without it, the program itself.
     #[arg(num_args = 0..)]
     command: Vec<String>,
 }
@@ -26,7 +26,7 @@ pub struct Man {
 pub(super) fn completions(args: &Completions) -> Result<(), Failure> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "carom", &mut script);
-    // Not into the pipe itself: a reader that has gone would be a panic there.
+    // Not directly to the pipe: clap_complete panics if the reader has closed it.
     Ok(printing::stdout().exact(true).write_all(&script)?)
 }
 

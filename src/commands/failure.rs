@@ -1,10 +1,10 @@
-//! How a command ends when it cannot do what was asked: one sentence and an exit code. docs/command-line.md has the rule.
+//! The failure of a command: one sentence and an exit code. docs/command-line.md states the rule.
 
 use std::{fmt::Display, io};
 
 use crate::{learning::PolicyError, platform::UNFINISHED, storage::without_numbers};
 
-/// A sentence for the user and the process' exit code.
+/// A sentence for the user and the exit code of the process.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{message}")]
 pub struct Failure {
@@ -13,40 +13,40 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// What was asked for is acceptable, but cannot be done: what a name or a path stands for is not there or cannot be read, or something
-    /// went wrong: exit code 1.
+    /// The request is acceptable but cannot be fulfilled: a named thing or a path is missing or unreadable, or an operation failed. Exit
+    /// code 1.
     pub fn failed(message: impl Display) -> Self {
         Self { message: without_numbers(message.to_string()), code: 1 }
     }
 
-    /// The command line, a line of the input or what a file holds is not acceptable, whatever there is on this machine: exit code 2.
+    /// The command line, an input line or the content of a file is not acceptable, on any machine. Exit code 2.
     pub fn wrong_input(message: impl Display) -> Self {
         Self { message: without_numbers(message.to_string()), code: 2 }
     }
 
-    /// What was begun can go on by the same command.
+    /// The work was stopped and can be resumed by the same command. Exit code 75.
     pub fn unfinished(message: impl Display) -> Self {
         Self { message: message.to_string(), code: UNFINISHED }
     }
 
-    /// All is said already.
+    /// Everything was already reported: there is no further message.
     pub const fn said(code: u8) -> Self {
         Self { message: String::new(), code }
     }
 
-    /// The process' exit code.
+    /// Returns the exit code of the process.
     pub const fn code(&self) -> u8 {
         self.code
     }
 
-    /// Whether there is nothing to say: it is said already, or the reader of the output has closed it.
+    /// Whether there is no message, because it was already reported or because the reader closed the output.
     pub fn is_silent(&self) -> bool {
         self.message.is_empty()
     }
 }
 
 impl From<PolicyError> for Failure {
-    /// A file that cannot be read is another thing than one that holds no policy.
+    /// An unreadable file gives another exit code than a file without a valid policy.
     fn from(error: PolicyError) -> Self {
         match error {
             PolicyError::Read { .. } => Self::failed(error),
@@ -58,7 +58,7 @@ impl From<PolicyError> for Failure {
 }
 
 impl From<io::Error> for Failure {
-    /// An error in writing the output. A closed pipe (`carom simulate | head`) is no failure of ours.
+    /// An error in writing the output. A closed pipe (`carom simulate | head`) does not count as a failure.
     fn from(error: io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {
             Self::said(0)

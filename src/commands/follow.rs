@@ -1,13 +1,13 @@
-//! `carom follow`: look on while another player plays.
+//! `carom follow`: shows the table of another player.
 
 use std::sync::atomic::Ordering;
 
 use super::{
     Failure, failure,
-    output::{json_line, line, tell},
+    output::{json_line, line, print_note},
 };
 use crate::{
-    platform::stop_when_told,
+    platform::stop_on_signal,
     printing,
     storage::{Places, Player},
     terminal::{self, Seat, Settings, ShownTable, Sight, all_shown, follow_in_lines},
@@ -15,25 +15,25 @@ use crate::{
 
 /// Follow the table of another player of this account, live.
 ///
-/// They have to allow it (F on their screen). On a terminal it is the same picture as theirs; elsewhere a line is printed for
-/// whatever is new.
+/// The other player must allow it (F on their screen). On a terminal you see the same picture as they do; elsewhere, each change is printed
+/// as a line.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The player. Left out: who shows their table now.
+    /// The player. Without a name, the players who show their table now are listed.
     #[arg(value_name = "PLAYER")]
     followed: Option<Player>,
-    /// Plain lines, on a terminal too.
+    /// Print plain lines, even on a terminal.
     #[arg(long)]
     plain: bool,
-    /// Every change as JSON on standard output.
+    /// Print every change as JSON to standard output.
     #[arg(long)]
     json: bool,
 }
 
 pub(super) fn run(args: &Args, seat: Seat) -> Result<(), Failure> {
     let Some(player) = &args.followed else { return list(args.json) };
-    // Nobody is told who has a folder here and who has not.
-    let hidden = || Failure::failed(format_args!("{player} shows no table now; carom follow lists who does"));
+    // The message is the same for players with and without a folder, so that it does not reveal who has one.
+    let hidden = || Failure::failed(format_args!("{player} shows no table now; carom follow lists the players who do"));
     let folder = Places::of_player(player).map_err(Failure::failed)?.shown;
     if matches!(ShownTable::look(&folder), Sight::Nothing) {
         return Err(hidden());
@@ -44,7 +44,7 @@ pub(super) fn run(args: &Args, seat: Seat) -> Result<(), Failure> {
     if !args.plain && !args.json && terminal::is_there() {
         return terminal::follow(player.name(), &folder, &settings, seat).map_err(failure);
     }
-    let stop = stop_when_told(None).map_err(Failure::failed)?;
+    let stop = stop_on_signal(None).map_err(Failure::failed)?;
     follow_in_lines(
         player.name(),
         &folder,
@@ -54,12 +54,12 @@ pub(super) fn run(args: &Args, seat: Seat) -> Result<(), Failure> {
         &mut printing::stdout().exact(args.json),
     )?;
     if !stop.load(Ordering::Relaxed) {
-        tell(format_args!("{player} shows the table no more"));
+        print_note(format_args!("{player} no longer shows the table"));
     }
     Ok(())
 }
 
-/// Who shows their table now.
+/// Lists the players who show their table now.
 fn list(json: bool) -> Result<(), Failure> {
     let shown = all_shown();
     for player in &shown {
@@ -70,7 +70,7 @@ fn list(json: bool) -> Result<(), Failure> {
         }
     }
     if shown.is_empty() {
-        tell("nobody shows their table now: a player does by F on the coach's screen");
+        print_note("nobody shows their table now; a player can do so with the key F on the coach's screen");
     }
     Ok(())
 }

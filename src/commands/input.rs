@@ -1,4 +1,4 @@
-//! What subcommands read alike: tables, layouts and files of JSON Lines.
+//! Input that several subcommands share: tables, layouts, numbers and files of JSON Lines.
 
 use std::{
     collections::HashMap,
@@ -15,8 +15,8 @@ use serde_json::json;
 
 use super::{
     Failure,
-    output::tell,
-    question::{Keys, question},
+    output::print_note,
+    request::{Keys, parse_request},
 };
 use crate::{
     game::{Reward, Rule},
@@ -26,7 +26,7 @@ use crate::{
     table::{CueBall, Layout, PRESETS, Table, TableError},
 };
 
-/// A bundled table, the one in the TOML file at the path `name`, or the user's own of that name.
+/// Returns the bundled table, the table in the TOML file at the path `name`, or the user's own table of that name.
 pub fn table_named(name: &str) -> Result<Table, Failure> {
     match Table::preset(name) {
         Err(error @ TableError::Unknown(_)) => {
@@ -39,35 +39,35 @@ pub fn table_named(name: &str) -> Result<Table, Failure> {
     }
 }
 
-/// The bundled table of this name, for what is saved by it and must mean the same to everybody.
+/// Returns the bundled table of this name. Stored positions refer to a table by name, so the name must mean the same to everybody.
 pub fn bundled_table(name: &str) -> Result<Table, Failure> {
     Table::preset(name).map_err(|_| {
         Failure::wrong_input(format_args!(
-            "positions and games of practice lie on bundled tables, and \"{name}\" is none; accepted are {}",
+            "positions are saved for bundled tables only, and \"{name}\" is not one; accepted are {}",
             PRESETS.map(|name| format!("\"{name}\"")).join(", ")
         ))
     })
 }
 
-/// The table in a TOML file.
+/// Reads the table in a TOML file.
 pub fn table_in(file: &Path) -> Result<Table, Failure> {
     let text = storage::read_text(file, storage::SMALL)
         .map_err(|error| Failure::failed(format_args!("{} cannot be read: {error}", file.display())))?;
     Table::from_file(file, &text).map_err(|error| Failure::wrong_input(format_args!("{}: {error}", file.display())))
 }
 
-/// Says what speaks against a policy on a table and, where it shall make points, under a rule.
+/// Prints notes about a policy that was trained on another table or, if `rule` is given, for another reward.
 pub fn note_doubts(policy: &Policy, table: &Table, rule: Option<Rule>) {
     let Origin { reward, table: trained_on, .. } = policy.origin();
     if let Some(rule) = rule.filter(|rule| *reward != Reward::for_rule(*rule)) {
-        tell(format_args!("note: this policy was trained for {reward}; of the rule \"{rule}\" it knows nothing"));
+        print_note(format_args!("note: this policy was trained for {reward}; of the rule \"{rule}\" it knows nothing"));
     }
     if !policy.knows(table) {
-        tell(format_args!("note: this policy was trained on \"{trained_on}\", not on \"{}\"", table.name));
+        print_note(format_args!("note: this policy was trained on \"{trained_on}\", not on \"{}\"", table.name));
     }
 }
 
-/// The table and the balls of a single shot; a batch brings its own.
+/// The table and the balls of a single shot; each line of a batch has its own.
 #[derive(Debug, clap::Args)]
 pub struct PositionArgs {
     /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
@@ -75,14 +75,14 @@ pub struct PositionArgs {
     table: String,
     /// The balls, cue ball first: "x,y x,y x,y" in metres from the centre. Default: the opening position
     ///
-    /// Diamonds from the lower left corner are accepted too: "2d,2d 6d,2d 2d,2.5d". In what is printed white is the cue ball,
-    /// yellow the opponent's ball, and red the third: 0, 1 and 2 in JSON.
+    /// Diamonds from the lower left corner are accepted, too: "2d,2d 6d,2d 2d,2.5d". In the output, white is the cue ball, yellow the
+    /// opponent's ball, and red the third ball. In JSON they are 0, 1 and 2.
     #[arg(long, allow_hyphen_values = true, conflicts_with = "batch")]
     layout: Option<String>,
 }
 
 impl PositionArgs {
-    /// What is described; the layout is checked.
+    /// Returns the table and the validated layout.
     pub fn read(&self) -> Result<(Table, Layout), Failure> {
         let table = table_named(&self.table)?;
         let opening = Layout::opening(&table);
@@ -92,7 +92,8 @@ impl PositionArgs {
         };
         let layout = Layout::parse(text, &table).map_err(Failure::wrong_input)?;
         if layout.validate(&table).is_err() {
-            // What is wrong with diamonds is said in diamonds. Numbers without a unit are metres, whoever else may mean diamonds with them.
+            // Errors in diamonds are reported in diamonds. Numbers without a unit are metres here; other parts of the program may read them
+            // as diamonds.
             opening.with_positions(text, &table, CueBall::White, 0).map_err(Failure::wrong_input)?;
             layout.validate(&table).map_err(Failure::wrong_input)?;
         }
@@ -100,8 +101,8 @@ impl PositionArgs {
     }
 }
 
-/// What reads a whole number in a range. Whatever else is given is refused by that range: clap tells of none where a number that
-/// has no sign would be negative.
+/// Returns a clap parser for a whole number in a range. It names the range in every refusal; clap's own message does not if an unsigned
+/// number is negative.
 pub fn whole<T: FromStr + PartialOrd + Display + Clone>(
     range: RangeInclusive<T>,
 ) -> impl Fn(&str) -> Result<T, String> + Clone {
@@ -113,7 +114,7 @@ pub fn whole<T: FromStr + PartialOrd + Display + Clone>(
     }
 }
 
-/// The same with no upper end.
+/// Like [`whole`], without an upper bound.
 pub fn whole_from<T: FromStr + PartialOrd + Display + Clone>(least: T) -> impl Fn(&str) -> Result<T, String> + Clone {
     move |text| {
         let number = text.parse().ok().filter(|number| *number >= least);
@@ -121,29 +122,29 @@ pub fn whole_from<T: FromStr + PartialOrd + Display + Clone>(least: T) -> impl F
     }
 }
 
-/// A seed, as [`whole`] reads it.
+/// Parses a seed.
 pub fn seed(text: &str) -> Result<u64, String> {
     whole(0..=u64::MAX)(text)
 }
 
-/// The time that `--minutes` gives, fractions of a minute too.
+/// Converts the value of `--minutes`, which may be fractional.
 ///
 /// # Errors
-/// What is no number above 0, or more than a thousand years.
+/// Fails for a number that is not above 0, and for more than a thousand years.
 pub fn minutes(value: f64) -> Result<Duration, Failure> {
     if value > 0.0 && value <= MOST_MINUTES {
         return Ok(Duration::from_secs_f64(60.0 * value));
     }
     Err(Failure::wrong_input(format_args!(
-        "--minutes {value:?} is no time; accepted is a number above 0 and at most {MOST_MINUTES:e}"
+        "--minutes {value:?} is not a valid time; accepted is a number above 0 and at most {MOST_MINUTES:e}"
     )))
 }
 
-/// Longest time that is waited for, minutes: a thousand years.
+/// Longest accepted time, minutes: a thousand years.
 const MOST_MINUTES: f64 = 5e8;
 
-/// Answers every line of JSON Lines in `file` (`-` is the standard input) on the standard output, in order. A line that
-/// is refused gets an `error` and the rest go on; the command then ends as wrong input.
+/// Answers every line of the JSON Lines in `file` (`-` is the standard input) on the standard output, in the same order. A refused line is
+/// answered with `error`, and the following lines are still processed; the command then ends with exit code 2.
 pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
     file: &str,
     mut answer: impl FnMut(Q) -> Result<A, Failure>,
@@ -160,17 +161,17 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
     loop {
         index += 1;
         let unreadable = |error| Failure::failed(format_args!("{file} cannot be read at line {index}: {error}"));
-        let question = match next_line(&mut reader, &mut line).map_err(unreadable)? {
+        let request = match next_line(&mut reader, &mut line).map_err(unreadable)? {
             NextLine::End => break,
             NextLine::Line if line.trim_ascii().is_empty() => continue,
             NextLine::Line => {
-                question(&line).map_err(|reason| format!("line {index} is not a valid JSON question: {reason}"))
+                parse_request(&line).map_err(|reason| format!("line {index} is not a valid JSON request: {reason}"))
             }
             NextLine::TooLong => Err(format!("line {index} is too long; accepted are up to {LONGEST_LINE} bytes")),
         };
         lines += 1;
         let answered =
-            question.and_then(|question| answer(question).map_err(|failure| format!("line {index}: {failure}")));
+            request.and_then(|request| answer(request).map_err(|failure| format!("line {index}: {failure}")));
         match answered {
             Ok(answer) => printing::json_line(&mut out, &answer)?,
             Err(error) => {
@@ -179,7 +180,7 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
             }
         }
         if file == "-" {
-            // A program at the other end of a pipe waits for this answer before its next question.
+            // A program at the other end of a pipe waits for this answer before it sends the next request.
             out.flush()?;
         }
     }
@@ -192,19 +193,19 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
     Ok(())
 }
 
-/// Something that is made once for every table's name.
+/// A cache of one value per table name.
 pub struct ByTable<T, F> {
     make: F,
     made: HashMap<String, T>,
 }
 
 impl<T, F: Fn(Table) -> Result<T, Failure>> ByTable<T, F> {
-    /// Makes with `make`.
+    /// Creates an empty cache whose values are computed by `make`.
     pub fn new(make: F) -> Self {
         Self { make, made: HashMap::new() }
     }
 
-    /// What belongs to the table called `name`.
+    /// Returns the value for the table called `name`.
     pub fn get(&mut self, name: &str) -> Result<&T, Failure> {
         if !self.made.contains_key(name) {
             let made = (self.make)(table_named(name)?)?;

@@ -1,4 +1,4 @@
-//! Runs, policies and skills by the names that people call them.
+//! Look-up of runs, policies and skills by name.
 
 use std::path::{Path, PathBuf};
 
@@ -19,21 +19,21 @@ use crate::{
     table::Table,
 };
 
-/// The word for the run that was last training.
+/// The name for the run that was trained most recently.
 pub const LATEST: &str = "latest";
 
-/// The file or folder `name`, or the folder called so among the user's runs.
+/// Returns the file or folder `name`, or the folder of that name among the user's runs.
 fn run_named(name: &Path) -> Option<PathBuf> {
     [name.to_owned(), Places::of_this_user().runs.join(name)].into_iter().find(|path| path.exists())
 }
 
-/// The policy that the user has kept under this name.
+/// Returns the file of the policy that the user has saved under this name.
 fn kept_policy(name: &Path) -> Option<PathBuf> {
     kept::find(&Places::of_this_user().policies, name.to_str()?)
 }
 
-/// That there is nothing of this name, and what would be accepted.
-fn nothing(what: &str, accepted: &str) -> Failure {
+/// Reports that nothing of this name exists, and what would be accepted.
+fn not_found(what: &str, accepted: &str) -> Failure {
     let bundled: Vec<_> = bundled_names().collect();
     Failure::failed(format_args!(
         "there is {what}, neither here nor among the runs in {}; accepted are a run (its folder or its name), {accepted} a policy (its \
@@ -43,10 +43,10 @@ fn nothing(what: &str, accepted: &str) -> Failure {
     ))
 }
 
-/// The folder of a run that is there: here, or among the user's runs, or the user's latest for `latest`.
+/// Returns the folder of an existing run: the path itself, a name among the user's runs, or the most recent run for `latest`.
 ///
 /// # Errors
-/// Where there is no such folder.
+/// Fails if there is no such folder.
 pub fn existing_run(name: &Path) -> Result<PathBuf, Failure> {
     if let Some(folder) = run_named(name) {
         return Ok(folder);
@@ -58,25 +58,25 @@ pub fn existing_run(name: &Path) -> Result<PathBuf, Failure> {
         });
     }
     Err(Failure::failed(format_args!(
-        "there is no run {}, neither here nor in {}; carom train --list shows the runs there are",
+        "there is no run {}, neither here nor in {}; carom train --list shows all runs",
         name.display(),
         runs.display()
     )))
 }
 
-/// What weights to start from are read from.
+/// Source of the initial weights of a training run.
 pub enum Source {
-    /// A file, or a run's folder.
+    /// A file or the folder of a run.
     Path(PathBuf),
     /// A bundled policy.
     Bundled(&'static str),
 }
 
-/// What `--from` names: a file or folder, a run of the user's, a kept policy or a bundled one, for a run on `table` under `rule` where
-/// it is just `bundled`.
+/// Returns the source that `--from` names: a file or folder, one of the user's runs, a saved policy or a bundled one. The name `bundled`
+/// means the bundled policy for a run on `table` under `rule`.
 ///
 /// # Errors
-/// Where there is none.
+/// Fails if nothing of this name exists.
 pub fn weights_named(name: &Path, table: &Table, rule: Rule) -> Result<Source, Failure> {
     if name == Path::new(BUNDLED) {
         let found = bundled_policy(table, rule, false)?.bundled_name();
@@ -86,13 +86,14 @@ pub fn weights_named(name: &Path, table: &Table, rule: Rule) -> Result<Source, F
         return Ok(Source::Path(path));
     }
     let bundled = bundled_names().find(|bundled| name == Path::new(bundled)).map(Source::Bundled);
-    bundled.ok_or_else(|| nothing(&format!("nothing called {} to start from", name.display()), "a checkpoint file and"))
+    bundled
+        .ok_or_else(|| not_found(&format!("nothing called {} to start from", name.display()), "a checkpoint file and"))
 }
 
-/// The bundled policy for `rule` on `table` and a player who `errs` or does not.
+/// Returns the bundled policy for `rule` on `table`, for a player with execution errors if `errs`.
 ///
 /// # Errors
-/// Where none is bundled for this table.
+/// Fails if no policy is bundled for this table.
 pub fn bundled_policy(table: &Table, rule: Rule, errs: bool) -> Result<Policy, Failure> {
     let bundled = Policy::bundled_for(table, rule, errs).ok_or_else(|| {
         Failure::wrong_input(format_args!(
@@ -103,17 +104,17 @@ pub fn bundled_policy(table: &Table, rule: Rule, errs: bool) -> Result<Policy, F
     Ok(bundled?)
 }
 
-/// The policy in the file `name`, the one that the user has kept under this name, that of the run in the folder `name`, or the bundled
-/// one of this name.
+/// Returns the policy in the file `name`, the one that the user has saved under this name, that of the run `name`, or the bundled policy of
+/// this name.
 ///
 /// # Errors
-/// Where there is none, or none that can be used.
+/// Fails if there is none, or if it cannot be used.
 pub fn policy_called(name: &str) -> Result<Policy, Failure> {
     let path = Path::new(name);
-    // A run's folder may be called as a kept policy is.
+    // A run's folder may have the same name as a saved policy, which takes precedence.
     let file = Some(path.to_owned()).filter(|path| path.is_file());
     let Some(found) = file.or_else(|| kept_policy(path)).or_else(|| run_named(path)) else {
-        let bundled = Policy::bundled_called(name).ok_or_else(|| nothing(&format!("no policy {name}"), "and"))?;
+        let bundled = Policy::bundled_called(name).ok_or_else(|| not_found(&format!("no policy {name}"), "and"))?;
         return Ok(bundled?);
     };
     if found.is_dir() {
@@ -131,7 +132,7 @@ pub fn policy_called(name: &str) -> Result<Policy, Failure> {
     Ok(Policy::load(&found)?)
 }
 
-/// The policy in a run's folder.
+/// Returns the policy in a run's folder.
 fn policy_of_run(folder: &Path) -> Result<Policy, Failure> {
     let (file, shown) = (folder.join(POLICY), folder.display());
     if file.exists() {
@@ -147,23 +148,23 @@ fn policy_of_run(folder: &Path) -> Result<Policy, Failure> {
     }))
 }
 
-/// The agent whose runs write policies.
+/// The only agent whose runs write policies.
 const WRITES_POLICIES: &str = "ddpg";
 
-/// Why a run of another agent has no policy.
+/// Explains why a run of another agent has no policy.
 fn no_policies_of(agent: &str) -> String {
     format!(
         "its agent is {agent}, and only the agent {WRITES_POLICIES} writes policies: as RUN/{POLICY}, in the folder of its run"
     )
 }
 
-/// The word for the skill that the user has kept.
+/// The name for the skill that the user has saved.
 const OWN: &str = "own";
 
-/// The skill called `name`, or the user's own for `own`.
+/// Returns the skill called `name`, or the user's own skill for `own`.
 ///
 /// # Errors
-/// Where there is none.
+/// Fails if there is none.
 pub fn skill_called(name: &str) -> Result<Skill, Failure> {
     if name == OWN {
         return own_skill()?.ok_or_else(|| {
@@ -178,10 +179,10 @@ pub fn skill_called(name: &str) -> Result<Skill, Failure> {
     })
 }
 
-/// The skill that the user has kept.
+/// Returns the skill that the user has saved, if any.
 ///
 /// # Errors
-/// Where its file cannot be read.
+/// Fails if its file cannot be read.
 pub fn own_skill() -> Result<Option<Skill>, Failure> {
     let own = Store::new(&Places::of_this_user()).own_skill().map_err(Failure::failed)?;
     Ok(own.map(|own| own.skill))

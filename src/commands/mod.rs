@@ -1,4 +1,4 @@
-//! The command line, one file a subcommand.
+//! The command line, one file for each subcommand.
 
 mod accuracy;
 mod bench;
@@ -15,9 +15,9 @@ mod input;
 mod lookup;
 mod output;
 mod play;
-mod question;
 mod recommend;
 mod reproduce;
+mod request;
 mod simulate;
 mod table;
 mod train;
@@ -29,7 +29,7 @@ use std::{any::TypeId, error::Error, ffi::OsString, io::Write};
 use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 pub use failure::Failure;
-use output::{of_refused_lines, tell};
+use output::{print_note, refused_lines_result};
 
 use crate::{
     platform,
@@ -38,8 +38,8 @@ use crate::{
     terminal::{Seat, Settings, TerminalError},
 };
 
-/// Where sshd puts what a client has asked for, if a key may run one command only.
-const ASKED_OVER_SSH: &str = "SSH_ORIGINAL_COMMAND";
+/// Variable in which sshd stores the command of the client, if the client's key is restricted to one command.
+const SSH_REQUEST: &str = "SSH_ORIGINAL_COMMAND";
 
 /// A terminal coach for carom billiards.
 #[derive(Debug, Parser)]
@@ -50,14 +50,14 @@ pub struct Cli {
     /// Table of the terminal program: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
     #[arg(long)]
     table: Option<String>,
-    /// Talk in lines instead of a screen: for screen readers, and terminals that cannot draw.
+    /// Use plain lines instead of a screen: for screen readers, and for terminals that cannot draw.
     #[arg(long)]
     plain: bool,
-    /// For a machine that players share: no training is started, the coach thinks for a second at most, and no files are read or
-    /// written but those of the player (docs/club.md).
+    /// For a machine that players share: no training can be started, the coach thinks for at most one second, and only the player's own
+    /// files are read or written (docs/club.md).
     #[arg(long)]
     guest: bool,
-    /// Whose settings, practice and last session these are: letters, digits, "-" and "_". Each player has a folder of their own.
+    /// The player whose settings, practice and last session are used: letters, digits, "-" and "_". Each player has a separate folder.
     #[arg(long, value_name = "NAME")]
     player: Option<Player>,
 }
@@ -84,24 +84,24 @@ enum Command {
 }
 
 impl Cli {
-    /// What the command line says.
+    /// Parses the command line.
     ///
     /// # Errors
-    /// Where it is wrong or asks for help, which is said then.
+    /// Fails if it is wrong or asks for help; the message is already printed then.
     pub fn read() -> Result<Self, Failure> {
-        let asked = std::env::var(ASKED_OVER_SSH).unwrap_or_default();
-        Self::parsed(std::env::args_os()).and_then(|cli| cli.asked(&asked)).map_err(|answer| {
-            // A value that is right and whose file cannot be read is no wrong input.
+        let request = std::env::var(SSH_REQUEST).unwrap_or_default();
+        Self::parsed(std::env::args_os()).and_then(|cli| cli.with_ssh_request(&request)).map_err(|answer| {
+            // A value that is well-formed but whose file cannot be read is not wrong input.
             if let Some(failure) = answer.source().and_then(|source| source.downcast_ref::<Failure>())
                 && failure.code() != 2
             {
                 return failure.clone();
             }
-            let words = std::env::args_os().chain([asked.clone().into()]);
+            let words = std::env::args_os().chain([request.clone().into()]);
             let is_safe = words.into_iter().all(|word| !word.to_string_lossy().chars().any(is_hidden));
             let is_unicode = printing::is_unicode(|name| std::env::var(name).ok());
             let said = match answer.use_stderr() {
-                // clap repeats what it was given as it is, between the codes of its own bold words, and spells nothing.
+                // clap prints arguments unescaped, between its own escape codes for bold words, and does not transliterate.
                 _ if is_safe && is_unicode => answer.print(),
                 true => write!(printing::stderr(), "{}", answer.render()),
                 false => write!(printing::stdout(), "{}", answer.render()),
@@ -109,44 +109,44 @@ impl Cli {
             let code = u8::try_from(answer.exit_code()).unwrap_or(2);
             match said.and_then(|()| printing::stdout().flush()) {
                 Err(error) if code == 0 => error.into(),
-                // Of what is wrong nobody may be left to tell.
+                // The error output may be closed, too; the exit code still reports the error.
                 _ => Failure::said(code),
             }
         })
     }
 
-    /// What these words say, the program's name first.
+    /// Parses the words of a command line, starting with the program's name.
     fn parsed(words: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Result<Self, clap::Error> {
         let mut command = with_negative_numbers(Self::command());
         let mut matches = command.try_get_matches_from_mut(words)?;
         Self::from_arg_matches_mut(&mut matches).map_err(|error| error.format(&mut command))
     }
 
-    /// The same with what a guest has asked for behind `ssh`: another player may be followed so, and nothing else be done.
-    fn asked(self, words: &str) -> Result<Self, clap::Error> {
+    /// Applies the command that a guest gave to `ssh`: a guest may follow another player and do nothing else.
+    fn with_ssh_request(self, words: &str) -> Result<Self, clap::Error> {
         let words: Vec<&str> = words.split_whitespace().collect();
         if !self.guest || words.first() != Some(&"follow") {
             return Ok(self);
         }
-        let asked = Self::parsed(["carom"].iter().chain(&words))?;
-        Ok(Self { command: asked.command, ..self })
+        let request = Self::parsed(["carom"].iter().chain(&words))?;
+        Ok(Self { command: request.command, ..self })
     }
 
-    /// Whose files are read and written.
+    /// Returns the seat that determines which files are read and written.
     fn seat(&self) -> Result<Seat, Failure> {
         let player = self.player.clone().or_else(|| self.guest.then(Player::default));
         let Some(player) = player else { return Ok(Seat::of_this_user()) };
         Seat::of_player(&player, self.guest).map_err(Failure::failed)
     }
 
-    /// The terminal program, with the player's settings.
+    /// Opens the full-screen program, or plain mode, with the player's settings.
     fn open(self) -> Result<(), Failure> {
-        // A player's folder is made for whoever can play.
+        // Check the terminal first: a player's folder is created only for somebody who can play.
         if !self.plain {
             crate::terminal::need_terminal(self.guest).map_err(failure)?;
         }
         let seat = self.seat()?;
-        // A table on the command line is that of whoever runs the machine.
+        // The operator of the machine chose the table on the command line, so it is read before a guest is confined to their folder.
         let named = self.table.as_deref().map(input::table_named).transpose()?;
         seat.take(None).map_err(|error| {
             let folder = seat.places.own.display();
@@ -158,20 +158,20 @@ impl Cli {
         let table = named.map_or_else(|| input::table_named(&settings.table), Ok)?;
         if self.plain {
             if let Some(news) = notice(&seat.places) {
-                tell(format_args!("note: {news}"));
+                print_note(format_args!("note: {news}"));
             }
             for complaint in &complaints {
-                tell(format_args!("{}: {complaint}", path.display()));
+                print_note(format_args!("{}: {complaint}", path.display()));
             }
-            return of_refused_lines(crate::terminal::talk(table, &settings, &seat.places).map_err(failure)?);
+            return refused_lines_result(crate::terminal::talk(table, &settings, &seat.places).map_err(failure)?);
         }
         crate::terminal::run(table, &settings, &complaints, seat).map_err(failure)
     }
 
-    /// Does what the command line asks for.
+    /// Runs the command.
     ///
     /// # Errors
-    /// A [`Failure`] with its sentence and exit code.
+    /// Returns a [`Failure`] with its sentence and exit code.
     pub fn run(self) -> Result<(), Failure> {
         platform::refuse_large_files().map_err(Failure::failed)?;
         match self.command {
@@ -197,8 +197,8 @@ impl Cli {
     }
 }
 
-/// The command with options of numbers that take negative ones for numbers, and not for options that nobody knows: what is out
-/// of range is then refused by its range.
+/// Makes numeric options of the command accept negative numbers as values, instead of reading them as unknown options. A value out of range
+/// is then refused with the accepted range.
 fn with_negative_numbers(command: clap::Command) -> clap::Command {
     let numbers = [TypeId::of::<f64>(), TypeId::of::<u64>(), TypeId::of::<u32>(), TypeId::of::<u8>()];
     let with_negative = |option: Arg| {
@@ -210,7 +210,7 @@ fn with_negative_numbers(command: clap::Command) -> clap::Command {
 
 fn failure(error: TerminalError) -> Failure {
     match error {
-        // A pipe that is closed is no failure.
+        // A closed pipe does not count as a failure.
         TerminalError::Io(error) => error.into(),
         other => Failure::wrong_input(other),
     }

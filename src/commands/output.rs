@@ -1,4 +1,4 @@
-//! What subcommands print alike.
+//! Output that several subcommands share.
 
 use std::{
     fmt::Display,
@@ -20,13 +20,13 @@ use crate::{
     terminal::Settings,
 };
 
-/// Says a sentence on standard error. A terminal that is gone, with an ssh connection for one, ends no work: there is
-/// no reader any more, that is all.
-pub fn tell(sentence: impl Display) {
+/// Prints a sentence to the standard error. Errors are ignored: if the terminal is gone, such as after a broken ssh connection, the work
+/// continues without a reader.
+pub fn print_note(sentence: impl Display) {
     let _ = writeln!(printing::stderr(), "{sentence}");
 }
 
-/// Refuses, before anything is worked out, to write into `folder` where nothing can be written; the first file would be `path`.
+/// Refuses a `folder` that is not writable, before anything is computed; `path` is the first file to be written there.
 pub fn check_place(folder: &Path, path: &Path) -> Result<(), Failure> {
     match folder_state(folder).refusal {
         Some(refusal) => Err(Failure::failed(format_args!("{} cannot be written: {refusal}", path.display()))),
@@ -34,11 +34,11 @@ pub fn check_place(folder: &Path, path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// The next line of the standard input, without blanks at its ends; none where the input has ended. A user at the terminal is asked for it.
-/// The inner failure is that of a line that is too long: others may follow it.
+/// Reads the next line of the standard input and trims it; `None` at the end of the input. At a terminal, `words` is the prompt. The inner
+/// failure is a line that is too long; more lines may follow it.
 pub fn ask(words: &str) -> Result<Option<Result<String, Failure>>, Failure> {
     if io::stdin().is_terminal() {
-        // Nobody reads a prompt that cannot be written.
+        // A prompt that cannot be written has no reader.
         let _ = printing::stderr().write_all(words.as_bytes());
     }
     let mut line = Vec::new();
@@ -52,39 +52,39 @@ pub fn ask(words: &str) -> Result<Option<Result<String, Failure>>, Failure> {
     }
 }
 
-/// A line on the standard output; a text of several is shown as one.
+/// Prints one line to the standard output; line breaks in `text` are escaped.
 pub fn line(text: impl Display) -> Result<(), Failure> {
     Ok(writeln!(printing::stdout(), "{}", OneLine(text))?)
 }
 
-/// A shot as the command line takes it.
+/// Formats a shot in the form that the command line accepts.
 pub fn shot_text(cue: &CueInputs) -> String {
     let CueInputs { a, b, theta, speed, .. } = *cue;
     format!("{a:.4},{b:.4},{:.3},{},{speed:.3}", theta.to_degrees(), cue.phi_text(3))
 }
 
-/// How often a player of this skill makes a shot, with the 95 % interval.
+/// States how often a player of this skill makes a shot, with the 95 % interval.
 pub fn chance_words(skill: Skill, rate: f64, [low, high]: [f64; 2]) -> String {
     let [rate, low, high] = [rate, low, high].map(|share| 100.0 * share);
     format!("a player of skill \"{skill}\" makes it {rate:.1} % of the time ({low:.1} to {high:.1} %)")
 }
 
-/// The end of a command that has refused so many lines of its input. A person at a terminal has seen why and has typed others; a
-/// program that pipes them in is told by the exit code.
+/// Returns the result of a command that refused `refused` lines of its input. A person at a terminal has seen the reasons and can retype
+/// the lines; a program learns it from the exit code.
 ///
 /// # Errors
-/// Where lines of a pipe or a file were refused.
-pub fn of_refused_lines(refused: usize) -> Result<(), Failure> {
+/// Fails if lines of a pipe or a file were refused.
+pub fn refused_lines_result(refused: usize) -> Result<(), Failure> {
     if refused == 0 || io::stdin().is_terminal() {
         return Ok(());
     }
-    Err(Failure::wrong_input(format_args!("{} refused; each was told why", plural(refused, "line"))))
+    Err(Failure::wrong_input(format_args!("{} refused; the reasons are above", plural(refused, "line"))))
 }
 
-/// A path with a mistake in it must not make folders that nobody looks into.
+/// Refuses a path in a missing folder: a mistyped path must not create folders that nobody looks into.
 ///
 /// # Errors
-/// Where the folder of `file` is not there.
+/// Fails if the folder of `file` does not exist.
 pub fn need_folder(file: &Path) -> Result<(), Failure> {
     match file.parent() {
         Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
@@ -95,27 +95,27 @@ pub fn need_folder(file: &Path) -> Result<(), Failure> {
     }
 }
 
-/// A number of things.
+/// Formats a count with its noun in the singular or plural.
 pub fn plural(count: usize, thing: &str) -> String {
     format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }
 
-/// For whom and by which rule is answered or played where the command line alone decides.
-pub fn whom_words(skill: Skill, rule: Rule) -> String {
+/// States the skill and the rule, for commands in which only the command line sets them.
+pub fn player_and_rule_words(skill: Skill, rule: Rule) -> String {
     format!(
         "For a player of skill \"{skill}\" under the rule {rule}; --skill and --rule choose others. The screen's skill and rule are not used."
     )
 }
 
-/// The units that the user has chosen; a file with mistakes is the business of `carom config --check`.
+/// Returns the units that the user has chosen. Mistakes in the settings file are ignored here: `carom config --check` reports them.
 pub fn units() -> Units {
     Settings::load(&Settings::path()).0.units
 }
 
-/// The equivalent ball impulse for people to read, with speeds where distances are told in `unit`.
+/// Formats the equivalent ball impulse, with speeds in the unit that belongs to the length `unit`.
 pub fn impulse_words(impulse: &Impulse, unit: LengthUnit) -> String {
     let (factor, symbol) = unit.speed();
-    // Adding zero takes the sign from a rounded minus zero.
+    // Adding zero removes the sign of a rounded minus zero.
     let tidy = |x: f64| (1e3 * x).round() / 1e3 + 0.0;
     let (v, w) = ((factor * impulse.velocity).to_array().map(tidy), impulse.spin.to_array().map(tidy));
     let lift = match tidy(factor * impulse.lift) {
@@ -126,12 +126,12 @@ pub fn impulse_words(impulse: &Impulse, unit: LengthUnit) -> String {
     format!("impulse: V0 = ({x:.3}, {y:.3}, {lift}) {symbol}, w0 = ({:.3}, {:.3}, {:.3}) rad/s", w[0], w[1], w[2])
 }
 
-/// A line of JSON on the standard output.
+/// Prints a line of JSON to the standard output.
 pub fn json_line(value: &impl Serialize) -> io::Result<()> {
     printing::json_line(&mut printing::stdout().exact(true), value)
 }
 
-/// A table on the standard output, as [`columns`] sets it.
+/// Prints a table to the standard output, laid out by [`columns`].
 pub fn print_table<const COLUMNS: usize>(
     heads: [&str; COLUMNS],
     rows: impl IntoIterator<Item = [String; COLUMNS]>,
@@ -141,7 +141,7 @@ pub fn print_table<const COLUMNS: usize>(
     columns(&rows, numbers).iter().try_for_each(line)
 }
 
-/// Rows of cells as lines, as wide as a terminal shows them, whatever the cells hold; the columns in `numbers` stand to the right.
+/// Formats rows of cells as lines with aligned columns, measured in terminal columns. The columns in `numbers` are right-aligned.
 pub fn columns<const COLUMNS: usize>(rows: &[[String; COLUMNS]], numbers: &[usize]) -> Vec<String> {
     let rows: Vec<_> = rows.iter().map(|row| row.each_ref().map(|cell| OneLine(cell).to_string())).collect();
     let width = |cell: &str| Span::raw(cell).width();

@@ -1,4 +1,4 @@
-//! `carom play`: innings, each stroke from where the one before left the balls.
+//! `carom play`: innings, in which each stroke starts where the previous one left the balls.
 
 use super::{
     Failure,
@@ -11,43 +11,42 @@ use crate::{
     table::{CueBall, Layout, PRESETS, Side, Table},
 };
 
-/// What a game is called among exercises.
+/// Name of a game in the list of exercises.
 const GAME: &str = "game";
 
 /// Play innings from the opening position.
 ///
-/// A miss ends an inning, and the next begins where the balls lie; with --both or --against-coach it is the other side's, which plays
-/// with the other ball. Strokes are read line by line from the standard input:
-/// words like "red 1/2 right, 1.5 left, 3 lengths", "a,b,theta,phi,V", or the word coach. At the end average and high run are printed.
+/// A miss ends an inning, and the next one starts where the balls stopped. With --both or --against-coach, the other side then plays with
+/// the other ball. Strokes are read line by line from the standard input: words like "red 1/2 right, 1.5 left, 3 lengths",
+/// "a,b,theta,phi,V", or the word coach. At the end, average and high run are printed.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// What counts as a point: straight, one-cushion or three-cushion.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
-    /// Innings.
+    /// Number of innings.
     #[arg(long, default_value_t = 10, value_parser = whole(1..=10_000_u32))]
     innings: u32,
-    /// Strokes after which it ends in any case, with a note where innings are left.
+    /// Maximum number of strokes; if innings are left then, a note says so.
     #[arg(long, default_value_t = 1000, value_parser = whole(1..=MOST_STROKES))]
     strokes: u32,
-    /// Where the balls lie at first, cue ball first: "x,y x,y x,y" in metres from the centre, or in diamonds from the lower
-    /// left corner ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position.
+    /// Initial positions of the balls, cue ball first: "x,y x,y x,y" in metres from the centre, or in diamonds from the lower left corner
+    /// ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position.
     #[arg(long, allow_hyphen_values = true)]
     layout: Option<String>,
-    /// The side of the opponent's ball at which the cue ball stands at first, on tables where the player may choose: left or
-    /// right.
+    /// Initial side of the cue ball next to the opponent's ball, on tables where the player may choose: left or right.
     #[arg(long, default_value = "left", conflicts_with = "layout")]
     side: Side,
     /// The ball that you play with: white or yellow.
     #[arg(long, default_value = "white")]
     ball: CueBall,
-    /// Play a match of two: after a miss the other side goes on with the other ball, from where the balls lie.
+    /// Play a match of two sides: after a miss, the other side continues with the other ball from where the balls stopped.
     #[arg(long)]
     both: bool,
-    /// The same, and the coach plays the other side.
+    /// Like --both, and the coach plays the other side.
     #[arg(long, conflicts_with = "coach")]
     against_coach: bool,
-    /// Have the coach play.
+    /// Let the coach play.
     #[arg(long)]
     coach: bool,
     #[command(flatten)]
@@ -68,12 +67,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let goal = if is_match { Goal::Match { innings, against_coach } } else { Goal::Game { innings } };
     let mut session = args.options.session(goal, vec![game])?;
     session.cue_ball = args.ball;
-    args.options.tell_whom(&session, args.rule);
+    args.options.print_player(&session, args.rule);
     let workspace = Workspace::open();
     play(&workspace.store, session, &args.options, strokes(args.coach), args.strokes as usize)
 }
 
-/// The table called `name`, and the bundled one of its size, on which the balls lie at the same places: itself where it is one.
+/// Returns the table called `name` and a bundled table of the same size, on which positions are the same. A bundled table is its own
+/// counterpart.
 fn tables(name: &str) -> Result<(Table, &'static str), Failure> {
     let table = table_named(name)?;
     let itself = PRESETS.into_iter().find(|preset| *preset == table.name);
@@ -81,7 +81,7 @@ fn tables(name: &str) -> Result<(Table, &'static str), Failure> {
     match itself.or_else(|| PRESETS.into_iter().find(of_its_size)) {
         Some(bundled) => Ok((table, bundled)),
         None => Err(Failure::wrong_input(format_args!(
-            "games are kept for tables of the size of a bundled one, and \"{}\" is {}; accepted are {}",
+            "games need a table of the size of a bundled one, and \"{}\" is {}; accepted are {}",
             table.name,
             size_words(&table),
             PRESETS.map(|name| format!("\"{name}\"")).join(", ")

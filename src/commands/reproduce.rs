@@ -1,4 +1,4 @@
-//! `carom reproduce`: the thesis' learning curves.
+//! `carom reproduce`: retrains the thesis' agents and draws their learning curves.
 
 use std::{io::Write, path::PathBuf, sync::atomic::Ordering, thread};
 
@@ -7,10 +7,10 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::{
     Failure,
     input::{seed, table_named, whole, whole_from},
-    output::{check_place, tell},
+    output::{check_place, print_note},
 };
 use crate::{
-    platform::stop_when_told,
+    platform::stop_on_signal,
     printing,
     storage::write_atomic,
     study::reproduction::{Drawn, FIGURES, Figure, Measure, Session, SessionError, csv, picture, summary},
@@ -18,26 +18,26 @@ use crate::{
 
 /// Train the thesis' agents again and draw its learning curves.
 ///
-/// These are figures 21 to 25 and 28 to 30, Q-learning, and DDPG with r2. Each is drawn for three readings of the word
-/// "episode": one shot, 20 shots, or until a miss. Two figures more have several seeds: DDPG by its noise, with three from --seed
-/// on, and the thesis' future work, hindsight and demonstrations, with five beyond these (4 to 8 for --seed 1: seeds 1 to 3 took
-/// part in choosing its settings).
+/// These are figures 21 to 25 and 28 to 30, Q-learning, and DDPG with r2. Each is drawn for three readings of the word "episode": one shot,
+/// 20 shots, or until a miss. Two more figures use several seeds. Figure "noise" compares exploration noise of DDPG with three seeds from
+/// --seed on. Figure "future-work" covers the thesis' future work, hindsight and demonstrations, with the five seeds after these (4 to 8
+/// for --seed 1: seeds 1 to 3 were used to choose its settings).
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Only this figure: q-learning, 21, 22, 23, 24, 25, 28, r2, 29, 30, noise or future-work. May be given several times.
+    /// Only this figure: q-learning, 21, 22, 23, 24, 25, 28, r2, 29, 30, noise or future-work. Can be repeated.
     #[arg(long = "figure", value_name = "NAME")]
     figures: Vec<String>,
-    /// Shots of a training whose episodes are one shot; games get a quarter of them. Default: 50,000 for q-learning, 200,000 to
+    /// Number of shots of a training whose episodes are one shot; games get a quarter of them. Default: 50,000 for q-learning, 200,000 to
     /// 400,000 for the others
     #[arg(long, value_name = "SHOTS", value_parser = whole_from(1_u64))]
     episodes: Option<u64>,
-    /// Seed of everything random: the same seed gives the same curves.
+    /// Seed of all random numbers: the same seed gives the same curves.
     #[arg(long, default_value_t = 1, value_parser = seed)]
     seed: u64,
     /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
     #[arg(long, default_value = "thesis")]
     table: String,
-    /// Trainings at a time. The curves do not depend on it. Default: one on each processor
+    /// Number of trainings at the same time. The curves do not depend on it. Default: one on each processor
     #[arg(long, value_parser = whole(1..=1024_u16))]
     jobs: Option<u16>,
     /// Folder for a CSV and an SVG file of each figure.
@@ -60,7 +60,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         threads: args.jobs.map_or_else(processors, usize::from),
         table: table_named(&args.table)?,
     };
-    let stop = stop_when_told(Some(1)).map_err(Failure::failed)?;
+    let stop = stop_on_signal(Some(1)).map_err(Failure::failed)?;
     let bar = progress(session.shots());
     let mut done = 0;
     let played = |shots| {
@@ -87,17 +87,17 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Writes a figure's files and says where its curves ended.
+/// Writes the files of a figure and prints the final values of its curves.
 fn write(args: &Args, drawn: &Drawn) -> std::io::Result<()> {
     let curves: Vec<_> = drawn.curves.iter().collect();
     let name = drawn.figure.file_name();
-    // Random play earns a reward; it has no Q and no loss.
+    // Random play has a reward, but neither Q-values nor a loss.
     let random = (drawn.figure.measure == Measure::MeanReward).then_some(drawn.random);
     write_atomic(&args.out.join(format!("{name}.csv")), csv(drawn).as_bytes())?;
     write_atomic(&args.out.join(format!("{name}.svg")), picture(&drawn.figure, &curves, random)?.as_bytes())?;
     let mut out = printing::stdout();
     for line in summary(drawn) {
-        // A reader that has gone away must not end the training.
+        // A closed output must not end the training.
         let _ = writeln!(out, "{line}");
     }
     Ok(())
@@ -105,7 +105,7 @@ fn write(args: &Args, drawn: &Drawn) -> std::io::Result<()> {
 
 fn progress(shots: u64) -> ProgressBar {
     if !printing::is_watched() {
-        tell(format_args!("training for {shots} shots"));
+        print_note(format_args!("training for {shots} shots"));
         return ProgressBar::hidden();
     }
     let template = "{elapsed_precise} {wide_bar} {human_pos}/{human_len} shots, {eta} left";

@@ -1,4 +1,4 @@
-//! `carom simulate`: one shot as a list of events, or a file of shots.
+//! `carom simulate`: plays one shot as a list of events, or a file of shots.
 
 use std::io::{self, Write};
 
@@ -10,8 +10,8 @@ use super::{
     Failure, bounded,
     input::{ByTable, PositionArgs, answer_lines},
     lookup::skill_called,
-    output::{chance_words, impulse_words, shot_text, tell, units},
-    question::{Key, Keys, RuleName},
+    output::{chance_words, impulse_words, print_note, shot_text, units},
+    request::{Key, Keys, RuleName},
     typed_stroke::TypedStroke,
 };
 use crate::{
@@ -24,62 +24,63 @@ use crate::{
     table::{BALL_NAMES, BALLS, CueBall, Layout, Table},
 };
 
-/// Attempts by which it is told how often a player makes the shot.
+/// Number of attempts that are simulated to estimate how often a player makes the shot.
 const ATTEMPTS: usize = 4000;
 
-/// The time step that is taken where none is given, s: some hundred pictures a second.
+/// Default time step, s: about a hundred frames per second.
 const DEFAULT_STEP: f64 = 0.01;
 
-/// Simulate one shot, or a file of them.
+/// Simulate one shot or a file of shots.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     #[command(flatten)]
     position: PositionArgs,
-    /// What counts as a point: straight, one-cushion or three-cushion. In a batch, of lines that name no `rule`.
+    /// What counts as a point: straight, one-cushion or three-cushion. In a batch, for lines without `rule`.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
     /// The shot: "a,b,theta,phi,V" in ball radii, degrees and m/s, or words like "red 1/2 right, 1.5 left, 3 lengths".
     #[arg(long, allow_hyphen_values = true, required_unless_present = "batch")]
     shot: Option<String>,
-    /// Say how often this player makes the shot: perfect, expert, world-class, national, club, beginner, own, an average at
+    /// Report how often this player makes the shot: perfect, expert, world-class, national, club, beginner, own, an average at
     /// three-cushion like 0.6, or standard errors.
     #[arg(long, conflicts_with = "batch", value_parser = skill_called)]
     skill: Option<Skill>,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
-    /// List also where balls begin to roll, stop, and rest against something; --json always does.
+    /// Also list when balls begin to roll, stop, or rest against something; --json always does.
     #[arg(long)]
     rolls: bool,
-    /// Tell where the balls are and how they move so long after the stroke, s: "0.5,1,2".
+    /// Report the positions and motions of the balls at these times after the stroke, s: "0.5,1,2".
     #[arg(long, value_name = "SECONDS", value_delimiter = ',', value_parser = moment)]
     at: Vec<f64>,
-    /// JSON Lines of shots with `preset`, `layout` and `cue`, or `impulse` (velocity, spin of the cue ball) in its place; "-" reads the standard input.
+    /// JSON Lines of shots with `preset`, `layout` and `cue`, or instead of `cue` an `impulse` (velocity and spin of the cue ball); "-"
+    /// reads the standard input.
     #[arg(long, value_name = "FILE", conflicts_with = "shot", value_parser = NonEmptyStringValueParser::new())]
     batch: Option<String>,
-    /// How time goes on: from event to event, or in the fixed steps of thesis 3.1, to see what they miss.
+    /// How time advances: from event to event, or in the fixed steps of thesis 3.1, to see what they miss.
     #[arg(long, value_enum, default_value_t = Method::Events)]
     method: Method,
-    /// With --method steps, the time step, s. Default: 0.01
+    /// With --method steps: the time step, s. Default: 0.01
     #[arg(long, value_name = "SECONDS")]
     dt: Option<f64>,
-    /// With --method steps, locate within the step what is seen at its end.
+    /// With --method steps: locate events within the step at whose end they are detected.
     #[arg(long)]
     locate: bool,
 }
 
-/// Reads one of the moments of `--at`, s.
+/// Parses one of the times of `--at`, s.
 fn moment(text: &str) -> Result<f64, String> {
     let seconds = text.trim().parse().ok().filter(|seconds: &f64| seconds.is_finite() && *seconds >= 0.0);
     seconds.ok_or_else(|| "accepted are seconds after the stroke, 0 or more, like \"0.5,1,2\"".to_owned())
 }
 
-/// How time goes on.
+/// How time advances.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Method {
     /// From one event to the next.
     Events,
-    /// In fixed steps.
+    /// In fixed time steps.
     Steps,
 }
 
@@ -110,13 +111,13 @@ impl Keys for BatchLine {
     const FORM: &'static str = "preset (the table, like \"match\"), layout, and cue or impulse; rule may be left out";
 }
 
-/// A motion of the cue ball in the place of a stroke, as a film shows it.
+/// An initial motion of the cue ball, in place of a stroke; for filmed shots.
 #[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 struct GivenImpulse {
-    /// Along x, y and, if a third is given, upwards, m/s.
+    /// Velocity along x, y and, if there is a third number, upwards, m/s.
     velocity: Vec<f64>,
-    /// About x, y and the vertical, rad/s.
+    /// Spin about x, y and the vertical, rad/s.
     spin: [f64; 3],
 }
 
@@ -133,7 +134,7 @@ impl GivenImpulse {
             [x, y] | [x, y, 0.0] => Ok(Impulse::on_cloth(DVec2::new(x, y), spin)),
             [x, y, lift] if table.flight.is_some() => Ok(Impulse { velocity: DVec2::new(x, y), spin, lift }),
             [_, _, up] => Err(Failure::wrong_input(format_args!(
-                "impulse.velocity has {} m/s upwards; accepted is 0, for balls stay on the cloth of \"{}\": a section \
+                "impulse.velocity has {} m/s upwards; accepted is 0, because balls stay on the cloth of \"{}\": a section \
                  [flight] in a table's file lets them leave it",
                 number(up),
                 table.name
@@ -157,7 +158,7 @@ impl BatchLine {
                 Ok(SimulateAnswer::of(&played, &outcome(&played), cue.is_miscue(table), cue_room, &args.at))
             }
             (None, Some(_)) if steps.is_some() => {
-                Err(Failure::wrong_input("--method steps plays a cue, not an impulse"))
+                Err(Failure::wrong_input("--method steps needs a cue, not an impulse"))
             }
             (None, Some(given)) => {
                 let played = (bounded::play(table, &self.layout, Start::Motion(&given.impulse(table)?))?, None);
@@ -169,17 +170,17 @@ impl BatchLine {
     }
 }
 
-/// An event, and where a ball was that met a cushion.
+/// An event with positions that the event itself does not contain: of a ball at a cushion, and heights.
 #[derive(Serialize)]
 struct PlacedEvent {
     #[serde(flatten)]
     event: Event,
     #[serde(skip_serializing_if = "Option::is_none")]
     at: Option<DVec2>,
-    /// How high over the cloth the balls are, in their order, m; absent where all of them lie on it.
+    /// Heights of the event's balls over the cloth, in their order, m; absent if all of them are on it.
     #[serde(skip_serializing_if = "Option::is_none")]
     z: Option<Vec<f64>>,
-    /// The greatest height of a jump, m, and how far away it first comes down.
+    /// Greatest height of a jump, m, and the distance to its first landing.
     #[serde(skip_serializing_if = "Option::is_none")]
     height: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -202,7 +203,7 @@ impl PlacedEvent {
     }
 }
 
-/// The balls at a moment that was asked for: as numbers, and for people to read.
+/// The state of the balls at a requested time, as numbers or as text.
 #[derive(Serialize)]
 struct Moment {
     t: f64,
@@ -226,7 +227,7 @@ impl Moment {
     }
 }
 
-/// A ball that has left the table.
+/// A ball that left the table.
 #[derive(Serialize)]
 struct BallOff {
     ball: &'static str,
@@ -239,24 +240,24 @@ struct SimulateAnswer {
     rule: Rule,
     /// Whether the shot makes the point.
     point: bool,
-    /// Which foul there was, in words.
+    /// Description of the foul, if there was one.
     #[serde(skip_serializing_if = "Option::is_none")]
     foul: Option<String>,
-    /// Cushions that the cue ball met before the second object ball; absent where it does not meet both.
+    /// Number of cushion contacts of the cue ball before the second object ball; absent if it does not meet both balls.
     #[serde(skip_serializing_if = "Option::is_none")]
     cushions_before_second: Option<u32>,
-    /// The stroke, where it was said in words.
+    /// The inputs of a stroke that was given in words.
     #[serde(skip_serializing_if = "Option::is_none")]
     cue: Option<CueInputs>,
-    /// How often the player of `--skill` makes it, with the 95 % interval.
+    /// How often the player of `--skill` makes the shot, with the 95 % interval.
     #[serde(skip_serializing_if = "Option::is_none")]
     make_probability: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     make_interval: Option<[f64; 2]>,
-    /// What the stroke gave the cue ball.
+    /// The impulse that the stroke gave the cue ball.
     impulse: GivenImpulse,
     events: Vec<PlacedEvent>,
-    /// The balls at the moments that were asked for.
+    /// The balls at the requested times.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     moments: Vec<Moment>,
     #[serde(rename = "final")]
@@ -265,24 +266,24 @@ struct SimulateAnswer {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     off_table: Vec<BallOff>,
     duration: f64,
-    /// Whether a real tip slips off; the stroke is played all the same.
+    /// Whether a real tip would slip off; the stroke is simulated nevertheless.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     miscue: bool,
-    /// On a table that says how much room the cue needs.
+    /// Present if the table defines how much room the cue needs.
     #[serde(skip_serializing_if = "Option::is_none")]
     cue_room: Option<CueRoom>,
     #[serde(flatten)]
     steps: Option<Stepped>,
 }
 
-/// How low the cue can be held.
+/// The lowest possible elevation of the cue.
 #[derive(Debug, Serialize)]
 struct CueRoom {
-    /// Whether it can be held as the stroke has it.
+    /// Whether the cue has room at the elevation of the stroke.
     has_room: bool,
-    /// The least elevation, degrees; null where there is none that would do.
+    /// Least possible elevation, degrees; null if no elevation is possible.
     least_theta_deg: Option<f64>,
-    /// What it passes over, or what is in the way.
+    /// The obstacle that the cue passes over, or that is in the way.
     over: Option<String>,
 }
 
@@ -300,7 +301,7 @@ impl CueRoom {
         })
     }
 
-    /// What a player who wants to play the stroke has to know; nothing where the cue has room.
+    /// Returns a warning about an obstacle; `None` if the cue has room.
     fn note(&self) -> Option<String> {
         let over = self.over.as_deref().filter(|_| !self.has_room)?;
         Some(match self.least_theta_deg {
@@ -342,30 +343,30 @@ impl SimulateAnswer {
     }
 }
 
-/// A shot, and what the steps did if there were any.
+/// A simulated shot, with step statistics if it was played in time steps.
 type Played = (Recording, Option<Stepped>);
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let steps = steps_of(args)?;
     if let Some(file) = &args.batch {
         let mut tables = ByTable::new(Ok);
-        return answer_lines(file, |question: BatchLine| {
-            let table = tables.get(&question.preset)?;
-            question.answer(table, args, steps)
+        return answer_lines(file, |line: BatchLine| {
+            let table = tables.get(&line.preset)?;
+            line.answer(table, args, steps)
         });
     }
     let (table, layout) = args.position.read()?;
-    // clap demands a shot where there is no batch.
+    // clap requires a shot if there is no batch.
     let typed = TypedStroke::read(args.shot.as_deref().unwrap_or_default())?;
     let cue = typed.on(&table, &layout, CueBall::White)?;
     if matches!(typed, TypedStroke::Said(_)) {
-        tell(format_args!("note: the shot is \"{}\"", shot_text(&cue)));
+        print_note(format_args!("note: the shot is \"{}\"", shot_text(&cue)));
     }
     let played = play(&table, &layout, &cue, steps)?;
     let miscue = cue.is_miscue(&table);
     if miscue {
-        tell(format_args!(
-            "note: a real tip slips off here: a² + b² is {:.3}, on \"{}\" it holds up to {}",
+        print_note(format_args!(
+            "note: a real tip would slip off (miscue): a² + b² is {:.3}; the limit on \"{}\" is {}",
             cue.tip_offset_squared(),
             table.name,
             number(table.miscue_limit)
@@ -373,7 +374,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let cue_room = CueRoom::of(&table, &layout, &cue);
     if let Some(note) = cue_room.as_ref().and_then(CueRoom::note) {
-        tell(format_args!("note: {note}"));
+        print_note(format_args!("note: {note}"));
     }
     let verdict = Verdict::of(args.rule, &table, &layout, &played.0);
     let chance = args.skill.map(|skill| {
@@ -401,7 +402,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The steps that are asked for.
+/// Returns the time steps that were requested, if any.
 fn steps_of(args: &Args) -> Result<Option<Steps>, Failure> {
     match args.method {
         Method::Steps => {
@@ -424,14 +425,14 @@ fn play(table: &Table, layout: &Layout, cue: &CueInputs, steps: Option<Steps>) -
     }
 }
 
-/// The shot for people to read.
+/// Describes the shot as text.
 fn describe(out: &mut impl Write, args: &Args, (recording, stepped): &Played, verdict: &Verdict) -> io::Result<()> {
     let length = units().length;
     let (in_a_metre, per_second) = length.speed();
     writeln!(out, "{}", impulse_words(recording.impulse(), length))?;
     writeln!(out, "{:>12}  {:<18}  {:<13}  {:<6}  white, the cue ball", "t, s", "event", "balls", "rail")?;
-    let is_told = |event: &&Event| args.rolls || recording.is_told(event);
-    for event in recording.events().iter().filter(is_told) {
+    let is_shown = |event: &&Event| args.rolls || recording.is_told(event);
+    for event in recording.events().iter().filter(is_shown) {
         let (first, second) = event.kind.balls();
         let first = BALL_NAMES[first];
         let balls = second.map_or_else(|| first.to_owned(), |second| format!("{first} {}", BALL_NAMES[second]));
@@ -452,7 +453,7 @@ fn describe(out: &mut impl Write, args: &Args, (recording, stepped): &Played, ve
         }
     }
     if stepped.is_some_and(|stepped| !stepped.at_rest) {
-        writeln!(out, "given up while balls still jitter, the last event after {:.6} s:", recording.duration())?;
+        writeln!(out, "stopped while balls still jitter, the last event after {:.6} s:", recording.duration())?;
     } else {
         writeln!(out, "all still after {:.6} s:", recording.duration())?;
     }

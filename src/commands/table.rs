@@ -1,4 +1,4 @@
-//! `carom table`: the tables that there are, and whether a file describes one.
+//! `carom table`: lists and displays tables, and checks table files.
 
 use std::{io::Write, path::PathBuf};
 
@@ -7,7 +7,7 @@ use clap::Subcommand;
 use super::{
     Failure,
     input::{table_in, table_named},
-    output::tell,
+    output::print_note,
 };
 use crate::{
     printing,
@@ -19,23 +19,23 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub struct Args {
     #[command(subcommand)]
-    order: Option<Order>,
+    command: Option<TableCommand>,
     /// Print one JSON object a line.
     #[arg(long, global = true)]
     json: bool,
 }
 
 #[derive(Debug, Subcommand)]
-enum Order {
+enum TableCommand {
     /// List the bundled tables and your own (the default).
     List,
-    /// Show a table as TOML, which is also the way to begin a file of one's own.
+    /// Show a table as TOML, which can be the start of your own table file.
     Show {
         /// "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
         #[arg(default_value = "match")]
         table: String,
     },
-    /// Read a table file and say what is wrong with it.
+    /// Check a table file and report what is wrong with it.
     Check {
         /// The TOML file.
         file: PathBuf,
@@ -43,12 +43,12 @@ enum Order {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let mut out = printing::stdout().exact(args.json || matches!(args.order, Some(Order::Show { .. })));
-    match args.order.as_ref().unwrap_or(&Order::List) {
-        Order::List => {
+    let mut out = printing::stdout().exact(args.json || matches!(args.command, Some(TableCommand::Show { .. })));
+    match args.command.as_ref().unwrap_or(&TableCommand::List) {
+        TableCommand::List => {
             let bundled = PRESETS.iter().map(|name| Table::preset(name).map_err(Failure::failed));
             let own = Places::of_this_user().own_tables();
-            // By the names by which they are found.
+            // Listed by file name, because tables are looked up by that.
             let named = |file: &PathBuf| {
                 let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
                 if PRESETS.contains(&name.as_str()) {
@@ -63,7 +63,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
                 let table = match table {
                     Ok(table) => table,
                     Err(failure) => {
-                        tell(format_args!("note: {failure}"));
+                        print_note(format_args!("note: {failure}"));
                         continue;
                     }
                 };
@@ -74,7 +74,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
                 }
             }
         }
-        Order::Show { table } => {
+        TableCommand::Show { table } => {
             let table = table_named(table)?;
             if args.json {
                 printing::json_line(&mut out, &table)?;
@@ -82,22 +82,22 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
                 write!(out, "{}", toml::to_string(&table).map_err(Failure::failed)?)?;
             }
         }
-        Order::Check { file } => {
+        TableCommand::Check { file } => {
             let table = table_in(file)?;
             if args.json {
                 printing::json_line(&mut out, &table)?;
             } else {
-                writeln!(out, "{} can be played on: {}", file.display(), line(&table))?;
+                writeln!(out, "{} is a valid table: {}", file.display(), line(&table))?;
             }
         }
     }
     Ok(())
 }
 
-/// The table in a few words.
+/// Describes the table in one line.
 fn line(table: &Table) -> String {
     let Table { name, length, width, radius, .. } = table;
-    // A calibration tells more digits than it knows.
+    // A calibration has more digits than its accuracy.
     let [rolling, rails] = [table.rolling_friction, table.rail_restitution].map(|value| (1e4 * value).round() / 1e4);
     format!(
         "{name}: {length} x {width} m between the noses, balls of {} mm, rolling friction {rolling}, cushions {rails}",

@@ -1,4 +1,4 @@
-//! A stroke as it is typed: its five inputs, or in a player's words.
+//! A typed stroke: its five inputs, or a description in a player's words.
 
 use super::Failure;
 use crate::{
@@ -7,20 +7,20 @@ use crate::{
     table::{CueBall, Layout, Table},
 };
 
-/// A stroke as it is typed.
+/// A typed stroke.
 #[derive(Clone, Copy, Debug)]
 pub enum TypedStroke {
-    /// By its inputs.
+    /// Given by its inputs.
     Inputs(CueInputs),
-    /// In words, which mean a stroke only where balls lie.
+    /// Given in words, which define a stroke only for given positions of the balls.
     Said(SpokenStroke),
 }
 
 impl TypedStroke {
-    /// Reads `"a,b,theta,phi,V"`, or words like `"red 1/2 right, 1.5 left, 3 lengths"`.
+    /// Parses `"a,b,theta,phi,V"`, or words like `"red 1/2 right, 1.5 left, 3 lengths"`.
     ///
     /// # Errors
-    /// What is no stroke, or has an input outside its range.
+    /// Fails if the text is not a stroke, or if an input is outside its range.
     pub fn read(text: &str) -> Result<Self, Failure> {
         let parts = || text.split(',');
         let numbers = parts().filter(|part| part.trim().parse::<f64>().is_ok()).count();
@@ -36,10 +36,10 @@ impl TypedStroke {
         })
     }
 
-    /// The stroke where the balls lie so, for who plays with `cue_ball`.
+    /// Returns the stroke for this layout and the player who plays with `cue_ball`.
     ///
     /// # Errors
-    /// What words leave out, or what cannot be played.
+    /// Fails if the words are incomplete, or if the stroke cannot be played.
     pub fn on(self, table: &Table, layout: &Layout, cue_ball: CueBall) -> Result<CueInputs, Failure> {
         match self {
             Self::Inputs(cue) => Ok(cue),
@@ -48,8 +48,8 @@ impl TypedStroke {
     }
 }
 
-/// The inputs of a stroke. What is refused is named as it was typed: it is computed in radians, and a number that is none has no
-/// square.
+/// Parses the inputs of a stroke. An error repeats the number as it was typed, because validation uses radians and squared offsets, which
+/// may not be finite.
 fn inputs(text: &str) -> Result<CueInputs, Failure> {
     let cue = CueInputs::parse(text).map_err(Failure::wrong_input)?;
     cue.validate().map_err(|error| {

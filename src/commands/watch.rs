@@ -1,4 +1,4 @@
-//! `carom watch`: look at a run that trains here or elsewhere.
+//! `carom watch`: follows a training run of this or another process.
 
 use std::{
     io::{self, Write},
@@ -11,7 +11,7 @@ use std::{
 use super::{
     Failure,
     lookup::{LATEST, existing_run},
-    output::{json_line, tell},
+    output::{json_line, print_note},
     train::{line, print_runs},
 };
 use crate::{
@@ -21,30 +21,30 @@ use crate::{
         metrics::Record,
         status::Phase,
     },
-    platform::stop_when_told,
+    platform::stop_on_signal,
     printing::{self, OneLine, shell_word},
     terminal,
 };
 
-/// Time between two looks at the run.
+/// Time between two reads of the run's files.
 const INTERVAL: Duration = Duration::from_millis(200);
 
-/// Time for which a run has to be over before that is believed.
+/// Time for which a run must appear to be over before that is believed.
 const GRACE: Duration = Duration::from_secs(1);
 
-/// Watch a run, live while it trains and also after its end.
+/// Watch a training run, live or after its end.
 ///
-/// On a terminal the training screen opens, whose keys can pause and stop the run; elsewhere a line is printed for every
-/// measurement until the run has ended. Looking only reads the run's files, and leaving never disturbs it.
+/// On a terminal the training screen opens, whose keys can pause and stop the run. Elsewhere a line is printed for every measurement until
+/// the run ends. Watching only reads the files of the run, and leaving never disturbs it.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The run: its folder, its name among the user's runs, or "latest". Left out, or a folder of several runs: a list to
-    /// choose from.
+    /// The run: its folder, its name among the user's runs, or "latest". Without it, or with a folder of several runs, a list to choose
+    /// from is shown.
     run: Option<PathBuf>,
-    /// Plain lines, on a terminal too.
+    /// Print plain lines, even on a terminal.
     #[arg(long)]
     plain: bool,
-    /// Every line of metrics as JSON on standard output, from the first on.
+    /// Print every line of metrics as JSON to standard output, from the first one on.
     #[arg(long)]
     json: bool,
 }
@@ -59,13 +59,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     match folder {
         Some(folder) if is_run => {
             if args.run.as_deref() == Some(Path::new(LATEST)) {
-                tell(format_args!("watching the run in {}", folder.display()));
+                print_note(format_args!("watching the run in {}", folder.display()));
             }
             follow(&folder, args.json)
         }
         folder => {
             if print_runs(folder.as_deref(), args.json)? {
-                tell(match folder {
+                print_note(match folder {
                     None => "choose one of them: carom watch NAME, or carom watch latest".to_owned(),
                     Some(folder) => {
                         let name = folder.join("NAME");
@@ -78,12 +78,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// Prints what the run does until it has ended.
+/// Prints the progress of the run until it ends.
 fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
-    let stop = stop_when_told(None).map_err(Failure::failed)?;
+    let stop = stop_on_signal(None).map_err(Failure::failed)?;
     let (mut follower, mut followed) = (Follower::new(folder), Followed::new(folder));
     let (mut before, mut over) = (Condition::Unknown, None::<Instant>);
-    // Of a run that goes on from an earlier checkpoint the lines come again, alike.
+    // A run that resumes from an earlier checkpoint writes the same lines again; they are printed only once.
     let mut printed = 0;
     while !stop.load(Ordering::Relaxed) {
         if let Some(update) = follower.look() {
@@ -95,18 +95,18 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
             }
             printed = update.records.last().map_or(printed, |record| record.shots.max(printed));
             for notice in update.notices.iter().flatten() {
-                tell(format_args!("note: {}", OneLine(notice)));
+                print_note(format_args!("note: {}", OneLine(notice)));
             }
             followed.apply(update);
         }
         let condition = followed.condition;
-        // A run that has just been taken up again is over until it says otherwise.
+        // A run that was just resumed appears to be over until it updates its status.
         over = condition.is_over().then(|| over.unwrap_or_else(Instant::now));
         let is_settled = over.is_none_or(|since| since.elapsed() >= GRACE);
-        // A measurement is reported by its line.
+        // A measurement is already reported by its own line.
         if is_settled && condition != Condition::Is(Phase::Measuring) && !condition.is_like(before) {
             before = condition;
-            tell(OneLine(followed.sentence()));
+            print_note(OneLine(followed.sentence()));
         }
         if over.is_some() && is_settled {
             break;
@@ -115,13 +115,13 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
     }
     match followed.condition {
         Condition::Died | Condition::Removed | Condition::Is(Phase::Failed) => {
-            Err(Failure::failed(format_args!("the run has not ended well: {}", followed.condition)))
+            Err(Failure::failed(format_args!("the run did not end well: {}", followed.condition)))
         }
         _ => Ok(()),
     }
 }
 
-/// A line of metrics: all of them as JSON, those with a measurement for people.
+/// Prints a line of metrics: every line as JSON, or only those with a measurement as text.
 fn print(record: &Record, json: bool) -> io::Result<()> {
     if json {
         return json_line(record);

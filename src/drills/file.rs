@@ -193,7 +193,7 @@ mod tests {
         assert!(newer.contains("version 7") && newer.contains("1 to 1"), "{newer}");
         assert!(said(r#"{"format": "pool", "version": 1}"#).contains("\"pool\""));
         assert!(said("half a fi").contains(
-            "this is not a file of exercises: line 1, column 1 is no JSON; accepted is a JSON file as carom drill"
+            "this is not a file of exercises: line 1, column 1 is not JSON; accepted is a JSON file as carom drill"
         ));
         for text in ["[1,2]", "3", r#"{"version": 1}"#, r#"{"format": 3, "version": 1}"#] {
             assert!(said(text).contains("does not begin with a \"format\""), "{}", said(text));

@@ -1,6 +1,6 @@
-//! What operating systems do each in its own way, under the same names on all of them: files, signals, the terminal, processes.
+//! Operating-system services under the same names on every system: files, signals, the terminal, processes.
 //!
-//! `unix` is what everything is tested on. `windows` builds; what of it could not be tried is said in `docs/install.md`.
+//! `unix` is the tested implementation. `windows` compiles; `docs/install.md` lists what is untested there.
 
 pub mod parallel;
 mod stop;
@@ -13,36 +13,36 @@ mod system;
 mod threads;
 
 pub use self::{
-    stop::{UNFINISHED, outlive_hang_up, stop_when_told},
+    stop::{UNFINISHED, outlive_hang_up, stop_on_signal},
     system::{
-        CAN_SUSPEND, CLOCK, Input, NEEDS_TERM, die, file_identity, for_all_to_read, free_space, free_the_screen,
-        listen, own_group, refuse_large_files, suspend, sync_folder, terminal_output, thread_time,
+        CAN_SUSPEND, CLOCK, Input, NEEDS_TERM, die, file_identity, free_space, free_the_screen, listen, own_group,
+        refuse_large_files, suspend, sync_folder, terminal_output, thread_time, use_umask_permissions,
     },
     threads::{limit_threads, threads},
 };
 
-/// A signal, by what the screen does about it.
+/// A signal, classified by how the screen reacts to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Signal {
-    /// The terminal has another size.
+    /// The terminal was resized.
     Resized,
-    /// The program goes on after it was stopped.
+    /// The program was continued after a stop.
     Continued,
-    /// The program shall stop until it is continued.
+    /// The program must stop until it is continued.
     Stop,
-    /// The program ends; the number is the system's.
+    /// The program must end; the number is the system's signal number.
     End(i32),
 }
 
-/// What comes of waiting for the terminal's input.
+/// Result of waiting for terminal input.
 #[derive(Debug)]
 pub enum Came {
-    /// So many bytes.
+    /// Number of bytes read.
     Bytes(usize),
-    /// What the system itself has made of the input.
+    /// An event that the system itself decoded.
     Event(crossterm::event::Event),
-    /// Nothing came in time.
+    /// The timeout expired without input.
     Silence,
-    /// There will be no more: the terminal is gone.
+    /// The terminal is gone: there will be no more input.
     Gone,
 }

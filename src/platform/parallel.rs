@@ -1,4 +1,4 @@
-//! Work on several threads at once, with results in the order of the items whoever works on them.
+//! Parallel work on several threads. The results have the order of the items, whichever thread computes them.
 
 use std::{
     convert::Infallible,
@@ -12,17 +12,17 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::threads;
 
-/// Threads beside the one that has work which may use all that this process has. They sleep where there is none.
+/// Worker threads in addition to the calling thread, shared by all calls that may use every thread of this process. They sleep when idle.
 static OTHERS: OnceLock<Option<ThreadPool>> = OnceLock::new();
 
-/// How many of them have work.
+/// Number of shared workers that are busy.
 static BUSY: AtomicUsize = AtomicUsize::new(0);
 
-/// One of the others, which is free again when this is dropped.
+/// A reserved shared worker; dropping this releases it.
 struct Helper;
 
 impl Helper {
-    /// All of `count` others that are free. Who waits for one that is not may wait for hours: other work may be a whole training.
+    /// Reserves all free workers among `count`. It never waits for a busy one, which may be occupied for hours by a whole training run.
     fn all_free(count: usize) -> Vec<Self> {
         let busy = BUSY.fetch_max(count, Ordering::Relaxed);
         (busy..count).map(|_| Self).collect()
@@ -35,19 +35,20 @@ impl Drop for Helper {
     }
 }
 
-/// `work` on every item, on up to `count` threads, of which this is one; on this one alone where others cannot be started.
+/// Applies `work` to every item on up to `count` threads, including the calling one; on the calling thread alone if no others can be
+/// started.
 pub fn map<T: Sync, R: Send>(count: usize, items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let Ok(results) = try_map(count, items, |item| Ok::<_, Infallible>(work(item)));
     results
 }
 
-/// [`map`] with work that can fail: after a failure no other item is begun.
+/// Like [`map`] for work that can fail: after a failure, no further item is started.
 ///
-/// This thread works, too. One that only wakes others and sleeps leaves it to the operating system to find a free processor for them: in every
-/// fourth search of 30 ms on two processors, one of them stayed idle to the end.
+/// The calling thread works, too. If it only woke the others and slept, the operating system would have to find a free processor for each:
+/// in every fourth search of 30 ms on two processors, one processor stayed idle to the end.
 ///
 /// # Errors
-/// One of the failures.
+/// Returns one of the failures.
 pub fn try_map<T: Sync, R: Send, E: Send>(
     count: usize,
     items: &[T],
@@ -101,7 +102,7 @@ pub fn try_map<T: Sync, R: Send, E: Send>(
     Ok(all.into_iter().map(|(_, result)| result).collect())
 }
 
-/// `work` on one thread, and with it what libraries would share out between several.
+/// Runs `work` on one thread, including the parts that libraries would otherwise spread over several threads.
 pub fn alone<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     match start(1) {
         Some(pool) => pool.install(work),
@@ -126,7 +127,7 @@ mod tests {
     #[test]
     fn results_come_in_the_order_of_the_work() {
         let items: Vec<u64> = (0..1000).collect();
-        // The first items take longest.
+        // The first items are the slowest.
         let slow = |item: &u64| (0..(1000 - item) * 50).fold(*item, |sum, n| sum ^ n ^ (n + 1) ^ (n + 1) ^ n);
         for count in [0, 1, threads(), 4] {
             assert_eq!(map(count, &items, slow), items, "on {count} threads");
@@ -135,7 +136,7 @@ mod tests {
 
     #[test]
     fn all_threads_work_at_once_and_one_of_them_is_the_one_that_has_the_work() {
-        // More than the shared ones, which other tests may use.
+        // More than the shared workers, which other tests may occupy.
         let count = threads() + 1;
         let together = Barrier::new(count);
         let who = map(count, &vec![(); count], |()| {

@@ -1,4 +1,4 @@
-//! Long commands that are told to stop: they finish what they are at, and a second word ends them at once.
+//! Clean stop of long commands: on the first signal they finish the current step; a second signal can end them at once.
 
 use std::{
     io,
@@ -10,14 +10,14 @@ use signal_hook::{
     flag,
 };
 
-/// The exit code of a command whose work can go on by the same command, as schedulers know it (`EX_TEMPFAIL` of sysexits.h).
+/// Exit code of a command that was stopped and can be resumed by the same command; schedulers know it (`EX_TEMPFAIL` of sysexits.h).
 pub const UNFINISHED: u8 = 75;
 
-/// A flag that Ctrl-C and TERM set. With a code, a second one ends the process at once, with that.
+/// Returns a flag that SIGINT (Ctrl-C) and SIGTERM set. With `at_once`, a second signal ends the process immediately with that exit code.
 ///
 /// # Errors
-/// Where the system refuses a handler.
-pub fn stop_when_told(at_once: Option<u8>) -> io::Result<Arc<AtomicBool>> {
+/// Fails if the system refuses a signal handler.
+pub fn stop_on_signal(at_once: Option<u8>) -> io::Result<Arc<AtomicBool>> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
         if let Some(code) = at_once {
@@ -28,10 +28,10 @@ pub fn stop_when_told(at_once: Option<u8>) -> io::Result<Arc<AtomicBool>> {
     Ok(stop)
 }
 
-/// Goes on where the terminal is hung up, as when an ssh connection breaks.
+/// Lets the process survive SIGHUP, the signal of a closed terminal, such as a broken ssh connection.
 ///
 /// # Errors
-/// Where the system refuses a handler.
+/// Fails if the system refuses a signal handler.
 #[cfg_attr(windows, allow(clippy::unnecessary_wraps, reason = "other systems can fail"))]
 pub fn outlive_hang_up() -> io::Result<()> {
     #[cfg(unix)]

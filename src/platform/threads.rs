@@ -1,17 +1,17 @@
-//! How many threads this process uses at once.
+//! The number of threads that this process uses at once.
 
 use std::{num::NonZero, sync::OnceLock, thread};
 
-/// What the process was limited to.
+/// The limit set by [`limit_threads`], if any.
 static LIMIT: OnceLock<usize> = OnceLock::new();
 
-/// Threads for work that can be shared out: as many as the machine runs at once, or fewer where that was asked for.
+/// Returns the number of threads for parallel work: the hardware parallelism, or the limit if that is smaller.
 pub fn threads() -> usize {
     let runs = thread::available_parallelism().map_or(1, NonZero::get);
     LIMIT.get().map_or(runs, |limit| runs.min(*limit))
 }
 
-/// Uses at most so many threads from now on. The second call changes nothing.
+/// Limits the process to at most `most` threads from now on. A second call has no effect.
 pub fn limit_threads(most: usize) {
     LIMIT.get_or_init(|| most.max(1));
 }

@@ -1,13 +1,13 @@
-//! Dates and times, for the notes in files and the names of runs.
+//! Dates and times, for records in files and the names of runs.
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// Now in UTC as `2026-11-20T14:30:05Z`.
+/// Returns the current time in UTC as `2026-11-20T14:30:05Z`.
 pub fn now() -> String {
     moment(SystemTime::now())
 }
 
-/// A moment in UTC as `2026-11-20T14:30:05Z`; 1970 where it lies before.
+/// Returns a time in UTC as `2026-11-20T14:30:05Z`; times before 1970 become the start of 1970.
 pub fn moment(time: SystemTime) -> String {
     let seconds = time.duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
     let (year, month, day) = date(seconds / 86_400);
@@ -15,20 +15,19 @@ pub fn moment(time: SystemTime) -> String {
     format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
 }
 
-/// Now in UTC as `20261120-143005`, which sorts by time and is a file name everywhere.
+/// Returns the current time in UTC as `20261120-143005`, which sorts by time and is a valid file name everywhere.
 pub fn timestamp() -> String {
     timestamp_of(SystemTime::now())
 }
 
-/// A moment in the form of [`timestamp`]; 1970 where it lies before.
+/// Returns a time in the form of [`timestamp`]; times before 1970 become the start of 1970.
 pub fn timestamp_of(time: SystemTime) -> String {
     moment(time).replace(['-', ':', 'Z'], "").replace('T', "-")
 }
 
-/// Year, month and day of the Gregorian calendar, `days` after 1970-01-01 (Hinnant, "chrono-compatible low-level date
-/// algorithms").
+/// Returns year, month and day of the Gregorian calendar, `days` after 1970-01-01 (Hinnant, "chrono-compatible low-level date algorithms").
 const fn date(days: u64) -> (u64, u64, u64) {
-    // Years are counted from March, so that the leap day comes last, in eras of 400 years from the year 0 on.
+    // Years start in March here, so that the leap day is the last day. Eras have 400 years and start in the year 0.
     let days = days + 719_468;
     let (era, day_of_era) = (days / 146_097, days % 146_097);
     let year_of_era = (day_of_era - day_of_era / 1_460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;

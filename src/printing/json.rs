@@ -1,4 +1,4 @@
-//! JSON that a terminal can be shown: what it would obey is escaped by JSON's own rules.
+//! JSON that is safe to show on a terminal: control characters are escaped by JSON's own rules.
 
 use std::io::{self, Write};
 
@@ -7,25 +7,25 @@ use serde_json::{Serializer, ser::Formatter};
 
 use super::visible::{is_hidden, parts};
 
-/// Writes `value` as a line of JSON, or nothing of it.
+/// Writes `value` as one line of JSON, or nothing if it fails.
 ///
 /// # Errors
-/// What the output answers, or a value that JSON has no form for.
+/// Returns the error of the output, or of a value that JSON cannot represent.
 pub fn json_line(out: &mut impl Write, value: &impl Serialize) -> io::Result<()> {
     writeln!(out, "{}", json_text(value)?)
 }
 
-/// `value` as JSON, for outputs that take a line at once.
+/// Returns `value` as JSON text, for outputs that accept a whole line at once.
 ///
 /// # Errors
-/// A value that JSON has no form for.
+/// Fails for a value that JSON cannot represent.
 pub fn json_text(value: &impl Serialize) -> io::Result<String> {
     let mut bytes = Vec::new();
     value.serialize(&mut Serializer::with_formatter(&mut bytes, Escaping))?;
     String::from_utf8(bytes).map_err(io::Error::other)
 }
 
-/// The compact form. `serde_json` escapes the control characters below the blank; this one the rest too.
+/// Compact JSON. `serde_json` escapes only the control characters below the space; this formatter escapes the others, too.
 struct Escaping;
 
 impl Formatter for Escaping {

@@ -1,9 +1,9 @@
-//! What goes out to people and to other programs: every word on the standard output, the standard error and in the log.
+//! Text output for people and for other programs: the standard output, the standard error and the log.
 //!
-//! Names in files, arguments and answers of the system are written by anybody. A terminal obeys some characters instead of
-//! showing them (escape sequences change its title or its clipboard, and bidirectional marks turn text around), so none of
-//! those goes out: [`stdout`] and [`stderr`] are the only doors, clippy refuses the others (`clippy.toml`), and both show
-//! such a character as what it is. Where the locale has no UTF-8 they spell what they are given, but for JSON and what is meant for a file.
+//! Names in files, arguments and system messages are untrusted. A terminal obeys some characters instead of showing them: escape sequences
+//! change its title or its clipboard, and bidirectional marks reverse text. Therefore all output goes through [`stdout`] and [`stderr`],
+//! which escape such characters; clippy forbids other ways (`clippy.toml`). If the locale has no UTF-8, both also transliterate text to
+//! ASCII, except JSON and text meant for a file.
 
 mod calendar;
 mod json;

@@ -1,17 +1,17 @@
-//! Numbers as people write them.
+//! Numbers in the form in which people write them.
 
-/// A number as it stands in a file: very large and very small ones by their powers of ten.
+/// Formats a number as it appears in a file: very large and very small ones with a power of ten.
 pub fn number(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
 }
 
-/// The number that somebody has typed, with a decimal point or, as half of the world writes, a comma.
+/// Parses a number that somebody typed, with a decimal point or a decimal comma.
 pub fn typed_number(text: &str) -> Option<f64> {
     text.trim().replace(',', ".").parse().ok()
 }
 
-/// The number with `decimals` digits, never as minus zero.
+/// Formats the number with `decimals` digits, never as minus zero.
 pub fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     if text.starts_with('-') && !text.bytes().any(|byte| (b'1'..=b'9').contains(&byte)) {

@@ -1,4 +1,4 @@
-//! A line that tells how far a long run is.
+//! A progress line for long runs.
 
 use std::{
     fmt::Display,
@@ -8,13 +8,13 @@ use std::{
 
 use super::{clear_line, is_watched, redraw_line, stderr};
 
-/// Time between two lines where nobody sits before them.
-const SELDOM: Duration = Duration::from_secs(60);
+/// Time between two lines if the output is not a terminal.
+const LINE_INTERVAL: Duration = Duration::from_secs(60);
 
-/// Time between two on a terminal, where one replaces the other.
-const OFTEN: Duration = Duration::from_millis(200);
+/// Time between two updates on a terminal, where each replaces the one before.
+const REDRAW_INTERVAL: Duration = Duration::from_millis(200);
 
-/// Writes progress to the standard error output: one line that changes on a terminal, else a line a minute.
+/// Writes progress to the standard error: one line that is updated on a terminal, otherwise one line per minute.
 #[derive(Debug)]
 pub struct ProgressLine {
     started: Instant,
@@ -30,18 +30,18 @@ impl Default for ProgressLine {
 }
 
 impl ProgressLine {
-    /// Shows how far the run is, unless that has just been done.
+    /// Shows the progress, unless it was shown very recently.
     pub fn show(&mut self, progress: impl Display) {
-        if self.shown.elapsed() < if self.terminal { OFTEN } else { SELDOM } {
+        if self.shown.elapsed() < if self.terminal { REDRAW_INTERVAL } else { LINE_INTERVAL } {
             return;
         }
         self.shown = Instant::now();
         let line = format!("{} s, {progress}", self.started.elapsed().as_secs());
-        // A terminal that is gone is no reason to end the run.
+        // A closed terminal is no reason to end the run.
         let _ = if self.terminal { redraw_line(line) } else { writeln!(stderr(), "{line}") };
     }
 
-    /// Takes the line away.
+    /// Removes the line.
     pub fn clear(&self) {
         if self.terminal {
             let _ = clear_line();

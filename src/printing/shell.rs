@@ -1,7 +1,6 @@
-//! Words as a shell takes them.
+//! Quoting for the shell.
 
-/// `word` as a shell takes it as one argument: in quotes where it needs them, and a name that begins with a hyphen as a path, which is
-/// no option.
+/// Returns `word` as one shell argument: quoted if necessary, and with `./` before a leading hyphen, so that it is not read as an option.
 pub fn shell_word(word: &str) -> String {
     let is_plain = |letter: char| letter.is_alphanumeric() || "-_./".contains(letter);
     let word = if word.starts_with('-') { format!("./{word}") } else { word.to_owned() };

@@ -1,4 +1,4 @@
-//! The doors to the outside, which show control characters instead of sending them.
+//! The standard output and the standard error, with control characters escaped.
 
 use std::{
     fmt::Display,
@@ -8,75 +8,74 @@ use std::{
 use crossterm::terminal::size;
 
 use super::{
-    spelling::{is_wanted, spelt},
+    spelling::{needs_ascii, spelt},
     visible::{is_hidden, parts},
     wrapping::Wrapping,
 };
 
-/// Takes an output's text in, and gives it on with everything shown that a terminal would obey. New lines and tabs
-/// pass; bytes that are no UTF-8 become U+FFFD.
+/// A writer that passes text on with all control characters escaped. New lines and tabs pass; bytes that are not UTF-8 become U+FFFD.
 #[derive(Debug)]
 pub struct Shown<W: Write> {
     inner: W,
-    /// The beginning of a character whose end has not been written yet.
-    begun: Vec<u8>,
-    /// Whether text is spelt in ASCII.
+    /// The first bytes of a character whose remaining bytes have not been written yet.
+    incomplete: Vec<u8>,
+    /// Whether text is transliterated to ASCII.
     spells: bool,
-    /// Where lines are to break between words.
+    /// Line wrapping between words; `None` if lines are not wrapped.
     wrapping: Option<Wrapping>,
 }
 
-/// The standard output.
+/// Returns the standard output.
 #[expect(clippy::disallowed_methods, reason = "this is the door that the lint leads to")]
 pub fn stdout() -> Shown<StdoutLock<'static>> {
     Shown::at_terminal(io::stdout().lock())
 }
 
-/// The standard error.
+/// Returns the standard error.
 #[expect(clippy::disallowed_methods, reason = "this is the door that the lint leads to")]
 pub fn stderr() -> Shown<StderrLock<'static>> {
     Shown::at_terminal(io::stderr().lock())
 }
 
-/// Whether somebody watches the standard error.
+/// Whether the standard error is a terminal.
 #[expect(clippy::disallowed_methods, reason = "nothing is written")]
 pub fn is_watched() -> bool {
     io::stderr().is_terminal()
 }
 
-/// Writes `text` over the line that stands at the terminal on the standard error.
+/// Writes `text` over the current terminal line of the standard error.
 ///
 /// # Errors
-/// What the output answers.
+/// Returns the error of the output.
 pub fn redraw_line(text: impl Display) -> io::Result<()> {
     clear_line()?;
     write!(stderr(), "{text}")
 }
 
-/// Empties the line that stands at the terminal on the standard error.
+/// Clears the current terminal line of the standard error.
 ///
 /// # Errors
-/// What the output answers.
+/// Returns the error of the output.
 pub fn clear_line() -> io::Result<()> {
     stderr().inner.write_all(b"\r\x1b[K")
 }
 
 impl<W: Write + IsTerminal> Shown<W> {
-    /// Spelt as the locale asks for, and where somebody reads it at a terminal, as wide as that.
+    /// Transliterates if the locale requires it; wraps lines at the width of the terminal if `inner` is one.
     fn at_terminal(inner: W) -> Self {
         let size = inner.is_terminal().then(size).and_then(Result::ok);
         let wrapping = size.filter(|(columns, _)| *columns > 0).map(|(columns, _)| Wrapping::new(usize::from(columns)));
-        Self { inner, begun: Vec::new(), spells: is_wanted(), wrapping }
+        Self { inner, incomplete: Vec::new(), spells: needs_ascii(), wrapping }
     }
 }
 
 impl<W: Write> Shown<W> {
-    /// Gives the text on to `inner`.
+    /// Wraps `inner`, without transliteration and without line wrapping.
     pub const fn new(inner: W) -> Self {
-        Self { inner, begun: Vec::new(), spells: false, wrapping: None }
+        Self { inner, incomplete: Vec::new(), spells: false, wrapping: None }
     }
 
-    /// The same, where `is_exact` for what must be neither spelt nor broken: JSON, and what is meant for a file.
+    /// Turns transliteration and line wrapping off if `is_exact`: for JSON, and for text meant for a file.
     #[must_use]
     pub fn exact(mut self, is_exact: bool) -> Self {
         if is_exact {
@@ -113,11 +112,11 @@ impl<W: Write> Shown<W> {
 impl<W: Write> Write for Shown<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let joined;
-        let bytes_now = if self.begun.is_empty() {
+        let bytes_now = if self.incomplete.is_empty() {
             bytes
         } else {
-            joined = [self.begun.as_slice(), bytes].concat();
-            self.begun.clear();
+            joined = [self.incomplete.as_slice(), bytes].concat();
+            self.incomplete.clear();
             &joined
         };
         let mut left = bytes_now;
@@ -131,7 +130,7 @@ impl<W: Write> Write for Shown<W> {
                     let (good, bad) = left.split_at(error.valid_up_to());
                     self.show(std::str::from_utf8(good).unwrap_or_default())?;
                     let Some(length) = error.error_len() else {
-                        self.begun.extend_from_slice(bad);
+                        self.incomplete.extend_from_slice(bad);
                         return Ok(bytes.len());
                     };
                     self.show("\u{fffd}")?;
@@ -149,8 +148,8 @@ impl<W: Write> Write for Shown<W> {
 
 impl<W: Write> Drop for Shown<W> {
     fn drop(&mut self) {
-        // Nobody is left to tell.
-        let _ = if self.begun.is_empty() { Ok(()) } else { self.put("\u{fffd}") };
+        // Errors cannot be reported from here.
+        let _ = if self.incomplete.is_empty() { Ok(()) } else { self.put("\u{fffd}") };
         let _ = self.put_rest();
     }
 }
@@ -176,7 +175,7 @@ mod tests {
         let said = |is_exact| {
             let mut bytes = Vec::new();
             let mut out =
-                Shown { inner: &mut bytes, begun: Vec::new(), spells: true, wrapping: Some(Wrapping::new(9)) }
+                Shown { inner: &mut bytes, incomplete: Vec::new(), spells: true, wrapping: Some(Wrapping::new(9)) }
                     .exact(is_exact);
             write!(out, "3\u{b0} \u{b1} 1").unwrap();
             drop(out);

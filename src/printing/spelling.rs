@@ -1,9 +1,9 @@
-//! Text for terminals whose locale has no UTF-8: what this program writes beyond ASCII, spelt.
+//! Transliteration to ASCII, for terminals whose locale has no UTF-8.
 
 use std::{borrow::Cow, sync::OnceLock};
 
-/// What is spelt, and how. Other characters come from names that somebody gave; they stay as they are.
-const SPELT: [(&str, &str); 17] = [
+/// The replacements. Other non-ASCII characters come from names that users chose; they stay unchanged.
+const REPLACEMENTS: [(&str, &str); 17] = [
     ("\u{2013}", "-"),
     ("mass\u{e9}", "masse"),
     ("\u{b1}", "+-"),
@@ -13,7 +13,7 @@ const SPELT: [(&str, &str); 17] = [
     ("\u{b5}", "u"),
     ("\u{221a}", "sqrt "),
     ("\u{3b5}", "eps"),
-    // Bars of a history, from low to high.
+    // Bars of a history chart, from low to high.
     ("\u{2581}", "."),
     ("\u{2582}", ":"),
     ("\u{2583}", "-"),
@@ -24,15 +24,15 @@ const SPELT: [(&str, &str); 17] = [
     ("\u{2588}", "#"),
 ];
 
-/// `text` in ASCII as far as it is this program's own.
+/// Replaces the non-ASCII characters that the program itself writes by ASCII.
 pub fn spelt(text: &str) -> Cow<'_, str> {
     if text.is_ascii() {
         return Cow::Borrowed(text);
     }
-    Cow::Owned(SPELT.iter().fold(with_degrees(text), |text, (character, word)| text.replace(character, word)))
+    Cow::Owned(REPLACEMENTS.iter().fold(with_degrees(text), |text, (character, word)| text.replace(character, word)))
 }
 
-/// Angles in words: of one it is a degree, of all others degrees.
+/// Replaces degree signs by words: "degree" after the number 1, otherwise "degrees".
 fn with_degrees(text: &str) -> String {
     let mut parts = text.split('\u{b0}').peekable();
     let mut spelt = String::new();
@@ -48,27 +48,27 @@ fn with_degrees(text: &str) -> String {
     spelt
 }
 
-/// Whether text may have characters beyond ASCII, by the environment's variables.
+/// Whether text may contain non-ASCII characters, according to the environment variables.
 pub fn is_unicode(variable: impl Fn(&str) -> Option<String>) -> bool {
     let locale = locale(&variable);
     locale.contains("utf-8") || locale.contains("utf8") || is_windows_terminal(&variable)
 }
 
-/// Whether this is Windows Terminal, which names itself, and no locale.
+/// Whether this is Windows Terminal, which identifies itself but sets no locale.
 pub fn is_windows_terminal(variable: impl Fn(&str) -> Option<String>) -> bool {
     locale(&variable).is_empty() && variable("WT_SESSION").is_some_and(|value| !value.is_empty())
 }
 
-/// The first of `LC_ALL`, `LC_CTYPE` and `LANG` that is set, in small letters; empty where none is.
+/// Returns the first of `LC_ALL`, `LC_CTYPE` and `LANG` that is set, in lower case; empty if none is.
 fn locale(variable: impl Fn(&str) -> Option<String>) -> String {
     let set = |name: &str| variable(name).filter(|value| !value.is_empty());
     ["LC_ALL", "LC_CTYPE", "LANG"].into_iter().find_map(set).unwrap_or_default().to_lowercase()
 }
 
-/// Whether the environment of this process asks for spelling.
-pub(super) fn is_wanted() -> bool {
-    static IS_WANTED: OnceLock<bool> = OnceLock::new();
-    *IS_WANTED.get_or_init(|| !is_unicode(|name| std::env::var(name).ok()))
+/// Whether the environment of this process requires transliteration.
+pub(super) fn needs_ascii() -> bool {
+    static NEEDS_ASCII: OnceLock<bool> = OnceLock::new();
+    *NEEDS_ASCII.get_or_init(|| !is_unicode(|name| std::env::var(name).ok()))
 }
 
 #[cfg(test)]

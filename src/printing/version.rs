@@ -1,14 +1,13 @@
-//! What this program calls itself: its version, the commit that it was built from, and for what machine.
+//! Version of the program: its number, the commit that it was built from, and the target.
 
 /// The version, as in `Cargo.toml`.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// The commit: what `git describe` says of the source, or the commit of the package that it was built from; none where
-/// neither is known.
+/// The commit: the output of `git describe`, or the commit recorded in the published package; `None` if neither is known.
 pub const SOURCE: Option<&str> = option_env!("CAROM_SOURCE");
 
-/// The target that it was built for, like "x86_64-unknown-linux-gnu".
+/// The target triple of the build, such as "x86_64-unknown-linux-gnu".
 pub const TARGET: &str = env!("CAROM_TARGET");
 
-/// All of it in a line, as `--version` says it behind the program's name.
+/// Version, commit and target in one line, as `--version` prints it after the program's name.
 pub const FULL_VERSION: &str = env!("CAROM_VERSION");

@@ -1,10 +1,10 @@
-//! Characters that a terminal obeys instead of showing, as what they are.
+//! Control and invisible characters, and escaping them.
 
 use std::fmt::{self, Display, Write};
 
-/// Whether a terminal obeys `character` or hides it, instead of showing it: control characters (C0, DEL, C1), marks that
-/// turn the direction of text or are not seen at all, line and paragraph separators, and tags. New lines and tabs are
-/// counted too: where they belong to the text, the caller knows. The joiners of letters and pictures are none of these.
+/// Whether a terminal obeys or hides `character` instead of showing it: control characters (C0, DEL, C1), bidirectional and invisible
+/// marks, line and paragraph separators, and tags. New lines and tabs count, too; the caller knows if they belong to the text. Joiners of
+/// letters and emoji do not count.
 pub fn is_hidden(character: char) -> bool {
     character.is_control()
         || matches!(
@@ -20,7 +20,8 @@ pub fn is_hidden(character: char) -> bool {
         )
 }
 
-/// Splits `text` behind each character that `is_obeyed`: the plain text before it, and the character, which the last part may lack.
+/// Splits `text` after each character for which `is_obeyed` is true: yields the plain text before it and the character, which the last part
+/// may lack.
 pub(super) fn parts(text: &str, is_obeyed: impl Fn(char) -> bool + Copy) -> impl Iterator<Item = (&str, Option<char>)> {
     text.split_inclusive(is_obeyed).map(move |part| match part.chars().next_back().filter(|last| is_obeyed(*last)) {
         Some(last) => (&part[..part.len() - last.len_utf8()], Some(last)),
@@ -28,7 +29,7 @@ pub(super) fn parts(text: &str, is_obeyed: impl Fn(char) -> bool + Copy) -> impl
     })
 }
 
-/// Text on one line: whatever a terminal would obey, new lines too, stands as what it is. For names that others chose.
+/// Text on one line: all control characters, including new lines, are escaped. For names that others chose.
 #[derive(Clone, Copy, Debug)]
 pub struct OneLine<T>(pub T);
 

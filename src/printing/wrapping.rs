@@ -1,26 +1,26 @@
-//! Lines that break between words, where a terminal would break them at its last column.
+//! Line wrapping between words, at the width of the terminal.
 
 use ratatui::text::Span;
 
-/// Takes text in, and gives it on with lines that are no longer than a terminal is wide. Blanks stay, but where a line breaks; a word
-/// that is longer than a line is the terminal's to break.
+/// Accepts text in parts and returns it with lines no longer than the terminal width. Spaces are kept, except at a line break. A word
+/// longer than a line is left for the terminal to break.
 #[derive(Debug)]
 pub(super) struct Wrapping {
     width: usize,
-    /// Columns of the line that have gone out.
+    /// Number of columns of the current line that were already returned.
     column: usize,
-    /// The blanks and the word after them that wait for the word's end.
+    /// Pending spaces, followed by the pending word, which is incomplete.
     blanks: String,
     word: String,
 }
 
 impl Wrapping {
-    /// For lines of so many columns.
+    /// Creates a wrapper for lines of `width` columns.
     pub const fn new(width: usize) -> Self {
         Self { width, column: 0, blanks: String::new(), word: String::new() }
     }
 
-    /// What can go out when `text` has come in.
+    /// Accepts `text` and returns what can be written now.
     pub fn take(&mut self, text: &str) -> String {
         let mut out = String::with_capacity(text.len() + 1);
         for character in text.chars() {
@@ -39,7 +39,7 @@ impl Wrapping {
         out
     }
 
-    /// What has waited. What comes next begins a line: after a prompt the user has ended it.
+    /// Returns the pending text. The next text starts a new line: after a prompt, the user's input ended the line.
     pub fn rest(&mut self) -> String {
         let mut out = String::new();
         self.end_word(&mut out);

@@ -1,29 +1,29 @@
-//! Levenberg and Marquardt's method, with derivatives by differences or by whoever knows better.
+//! Levenberg–Marquardt least squares, with derivatives by finite differences or from the caller.
 
 use super::{dot, normal_matrix, solve};
 
-/// What is minimized: half the sum of squares of residuals.
+/// A least-squares problem: half the sum of squares of the residuals is minimized.
 pub trait Problem {
-    /// Fills in the residuals at `parameters`.
+    /// Fills `out` with the residuals at `parameters`.
     fn residuals(&mut self, parameters: &[f64], out: &mut Vec<f64>);
 
-    /// Their derivatives, a column for each parameter; `residuals` are those at `parameters`.
+    /// Returns the derivatives of the residuals, one column for each parameter; `residuals` are those at `parameters`.
     fn derivatives(&mut self, parameters: &[f64], residuals: &[f64]) -> Vec<Vec<f64>>;
 }
 
-/// Where a minimum was found.
+/// The minimum that was found.
 #[derive(Clone, Debug)]
 pub struct Minimum {
     /// The parameters.
     pub parameters: Vec<f64>,
-    /// Half the sum of squares is what the method minimizes; this is the whole.
+    /// The sum of squares of the residuals; the method minimizes half of it.
     pub squares: f64,
-    /// The normal matrix `JᵀJ` by rows before the last step, which is small; its inverse times the residuals' variance is the
-    /// parameters' covariance.
+    /// The normal matrix `JᵀJ` by rows, before the last step, which is small. Its inverse times the variance of the residuals is the
+    /// covariance of the parameters.
     pub normal: Vec<Vec<f64>>,
 }
 
-/// Minimizes from `start` in at most so many rounds.
+/// Minimizes from `start` in at most `rounds` iterations.
 pub fn minimize(start: &[f64], rounds: usize, problem: &mut impl Problem) -> Minimum {
     let (mut at, mut other) = (Vec::new(), Vec::new());
     let mut parameters = start.to_vec();
@@ -42,7 +42,7 @@ pub fn minimize(start: &[f64], rounds: usize, problem: &mut impl Problem) -> Min
             for (i, row) in damped.iter_mut().enumerate() {
                 row[i] += damping * row[i] + 1e-30;
             }
-            // More of it for the next step, unless this one succeeds.
+            // The damping grows for the next attempt, unless this one succeeds.
             let used = damping;
             damping *= 5.0;
             let Some(change) = solve(&damped, &slope) else { continue };
@@ -68,7 +68,7 @@ pub fn minimize(start: &[f64], rounds: usize, problem: &mut impl Problem) -> Min
     Minimum { parameters, squares, normal }
 }
 
-/// A [`Minimum`] of a problem whose size is known beforehand.
+/// A [`Minimum`] of a problem with a fixed number of parameters.
 #[derive(Clone, Debug)]
 pub struct Fit<const N: usize> {
     /// The parameters.
@@ -79,7 +79,8 @@ pub struct Fit<const N: usize> {
     pub normal: Vec<Vec<f64>>,
 }
 
-/// Minimizes the sum of squares of what `residuals` fills in, from `start`; `steps` are the differences for derivatives.
+/// Minimizes the sum of squares of the values that `residuals` fills in, from `start`, in at most `rounds` iterations. `steps` are the
+/// steps of the finite differences.
 pub fn fit<const N: usize>(
     start: [f64; N],
     steps: [f64; N],
@@ -91,7 +92,7 @@ pub fn fit<const N: usize>(
     Fit { parameters: std::array::from_fn(|index| parameters[index]), squares, normal }
 }
 
-/// A problem whose derivatives are differences.
+/// A problem whose derivatives are finite differences.
 struct Differences<'a, F, const N: usize> {
     residuals: &'a mut F,
     steps: [f64; N],

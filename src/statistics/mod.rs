@@ -1,4 +1,4 @@
-//! Numbers out of measurements: what more than one room counts and fits with.
+//! Statistics and least-squares fits that several modules use.
 
 mod least_squares;
 mod normal;

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use rand::{Rng, RngExt};
 
-/// The standard normal number below which a share `p` lies, by Acklam's rational approximation (2003), whose relative
-/// error is below 1.2e-9. A `p` within 1e-9 of 0 or 1 gives about 6.
+/// Returns the standard normal quantile of `p`, by Acklam's rational approximation (2003) with a relative error below 1.2e-9. A `p` within
+/// 1e-9 of 0 or 1 gives about ±6.
 pub fn quantile(p: f64) -> f64 {
     const A: [f64; 6] = [
         -3.969_683_028_665_376e1,
@@ -50,9 +50,9 @@ pub fn quantile(p: f64) -> f64 {
     }
 }
 
-/// Two independent standard normal numbers (Box and Muller, 1958).
+/// Draws two independent standard normal numbers (Box and Muller, 1958).
 pub fn normal_pair(rng: &mut (impl Rng + ?Sized)) -> [f64; 2] {
-    // 1 - u lies above 0, where the logarithm is finite.
+    // 1 - u is above 0, so the logarithm is finite.
     let radius = (-2.0 * (1.0 - rng.random::<f64>()).ln()).sqrt();
     let (sin, cos) = (TAU * rng.random::<f64>()).sin_cos();
     [radius * cos, radius * sin]

@@ -1,7 +1,7 @@
-//! What a sample says of what it was drawn from.
+//! Estimates from a sample.
 
-/// The mean of some numbers and the standard deviation of what they are a sample of, which fewer than two do not tell. The mean of equal
-/// numbers is that number, whatever rounding makes of their sum. There is at least one.
+/// Returns the mean of the numbers and the sample standard deviation, which is `None` for fewer than two numbers. The mean of equal numbers
+/// is exactly that number, despite rounding of the sum. `numbers` must not be empty.
 pub fn mean_and_deviation(numbers: &[f64]) -> (f64, Option<f64>) {
     let count = numbers.len() as f64;
     let least = numbers.iter().copied().fold(f64::INFINITY, f64::min);

@@ -1,26 +1,26 @@
-//! How often something succeeds, as far as trials tell.
+//! Success rates with confidence intervals.
 
 use serde::Serialize;
 
-/// A share of successes and the interval in which the true one lies with 95 % confidence.
+/// A success rate with the 95 % confidence interval of the true rate.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SuccessRate {
-    /// Trials: layouts of a policy, or attempts of a player at one shot.
+    /// Number of trials: layouts for a policy, or attempts of a player at one shot.
     #[serde(rename = "layouts")]
     pub trials: usize,
-    /// Successes among them.
+    /// Number of successful trials.
     pub successes: usize,
-    /// Their share.
+    /// Share of successful trials.
     pub rate: f64,
     /// Lower end of the interval.
     pub low: f64,
-    /// Upper end.
+    /// Upper end of the interval.
     pub high: f64,
 }
 
 impl SuccessRate {
-    /// The share of `successes` among `trials`, with Wilson's score interval: unlike the textbook's it stays within
-    /// 0 to 1 and holds near its ends.
+    /// Computes the rate with Wilson's score interval: unlike the textbook interval, it stays within 0 to 1 and remains valid near both
+    /// ends.
     pub fn new(successes: usize, trials: usize) -> Self {
         const Z: f64 = 1.959_963_984_540_054;
         if trials == 0 {
@@ -31,7 +31,7 @@ impl SuccessRate {
         let spread = Z * (rate * (1.0 - rate) / n + Z * Z / (4.0 * n * n)).sqrt();
         let scale = 1.0 + Z * Z / n;
         let bound = |value: f64| (value / scale).clamp(0.0, 1.0);
-        // Exact at the ends, where rounding would spoil it.
+        // Exact at the ends, where rounding would give almost 0 or 1.
         let low = if successes == 0 { 0.0 } else { bound(centre - spread) };
         let high = if successes == trials { 1.0 } else { bound(centre + spread) };
         Self { trials, successes, rate, low, high }
@@ -43,7 +43,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn wilsons_interval_matches_published_values_and_stays_within_nought_to_one() {
+    fn wilsons_interval_matches_published_values_and_stays_within_zero_to_one() {
         // Newcombe 1998, table I: 81 of 263 gives 0.2553 to 0.3662, 0 of 20 gives 0 to 0.1611.
         let rate = SuccessRate::new(81, 263);
         assert!((rate.low - 0.2553).abs() < 5e-5 && (rate.high - 0.3662).abs() < 5e-5, "{rate:?}");

@@ -1,10 +1,9 @@
-//! Symmetric positive definite matrices, by rows: covariances and their inverses.
+//! Symmetric positive definite matrices, stored by rows: covariances and their inverses.
 
-/// The lower triangle L of `L Lᵀ`, each row up to the diagonal (Cholesky). The zeros at the beginning of a row stay zeros
-/// and cost no time.
+/// Returns the lower triangle L of `L Lᵀ` (Cholesky), each row up to the diagonal. Leading zeros of a row stay zero and cost no time.
 ///
 /// # Errors
-/// The first row of which the rows before leave no more than `least` of the diagonal's entry: the matrix is no covariance.
+/// Returns the index of the first row whose remaining diagonal entry is not above `least`: the matrix is not a covariance.
 pub fn cholesky(matrix: &[Vec<f64>], least: f64) -> Result<Vec<Vec<f64>>, usize> {
     let mut factor: Vec<Vec<f64>> = Vec::with_capacity(matrix.len());
     for (row, entries) in matrix.iter().enumerate() {
@@ -24,21 +23,21 @@ pub fn cholesky(matrix: &[Vec<f64>], least: f64) -> Result<Vec<Vec<f64>>, usize>
     Ok(factor)
 }
 
-/// Half the logarithm of the determinant of a positive definite matrix, from its Cholesky factor; `None` where it is not positive definite.
+/// Returns half the logarithm of the determinant, from the Cholesky factor; `None` if the matrix is not positive definite.
 pub fn half_log_determinant(matrix: &[Vec<f64>]) -> Option<f64> {
     Some(cholesky(matrix, 0.0).ok()?.iter().filter_map(|line| line.last()).map(|entry| entry.ln()).sum())
 }
 
-/// The identity matrix of so many rows.
+/// Returns the identity matrix with `size` rows.
 pub fn identity(size: usize) -> Vec<Vec<f64>> {
     (0..size).map(|row| (0..size).map(|column| f64::from(u8::from(row == column))).collect()).collect()
 }
 
-/// The inverse of a covariance; `None` where it is none.
+/// Returns the inverse of a covariance matrix; `None` if the matrix is not positive definite.
 pub fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     let size = matrix.len();
     let factor = cholesky(matrix, 0.0).ok()?;
-    // The rows of the factor's inverse, one after the other.
+    // The rows of the inverse of the Cholesky factor, computed in order.
     let mut rows: Vec<Vec<f64>> = Vec::with_capacity(size);
     for (row, line) in factor.iter().enumerate() {
         let mut next = vec![0.0; size];
@@ -55,7 +54,7 @@ pub fn inverse(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     Some((0..size).map(|one| (0..size).map(|other| entry(one, other)).collect()).collect())
 }
 
-/// `JᵀJ` by rows, where J has these columns, which are finite. Where an unknown touches few residuals, only those take time.
+/// Returns `JᵀJ` by rows for the finite columns of J. A parameter that affects few residuals costs time only for those.
 pub fn normal_matrix(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let touched = |column: &Vec<f64>| (0..column.len()).filter(|row| column[*row] != 0.0).collect::<Vec<_>>();
     let touched: Vec<Vec<usize>> = columns.iter().map(touched).collect();
@@ -70,9 +69,9 @@ pub fn normal_matrix(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     normal
 }
 
-/// Solves equations whose matrix is symmetric and positive definite; `None` where it is not definite. The unknowns are eliminated
-/// from the last to the first: where the last ones depend on few others, and the first on all, this takes far less time than the
-/// cube of their number.
+/// Solves linear equations with a symmetric positive definite matrix; `None` if it is not definite. The unknowns are eliminated from the
+/// last to the first. If the last ones depend on few others and the first ones on all, this takes far less time than the cube of their
+/// number.
 pub fn solve(matrix: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
     let turned: Vec<Vec<f64>> = matrix.iter().rev().map(|row| row.iter().rev().copied().collect()).collect();
     let factor = cholesky(&turned, 0.0).ok()?;
@@ -85,7 +84,7 @@ pub fn solve(matrix: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
     Some(solution)
 }
 
-/// The row whose product with the lower triangle is `product`.
+/// Returns the row vector whose product with the lower triangle `factor` is `product` (back substitution).
 pub fn undo(factor: &[Vec<f64>], product: &[f64]) -> Vec<f64> {
     let mut row = vec![0.0; product.len()];
     for column in (0..product.len()).rev() {
@@ -95,7 +94,7 @@ pub fn undo(factor: &[Vec<f64>], product: &[f64]) -> Vec<f64> {
     row
 }
 
-/// The sum of products, as far as both go.
+/// Returns the dot product; extra elements of the longer slice are ignored.
 pub fn dot(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(x, y)| x * y).sum()
 }
@@ -132,7 +131,7 @@ mod tests {
 
     #[test]
     fn equations_are_solved_whichever_unknowns_depend_on_each_other() {
-        // The others depend on the first alone; then each on every other.
+        // First, all unknowns depend on the first one only; then each depends on every other.
         for filled in [0.0, 0.1] {
             let entry = |row: usize, column: usize| match (row, column) {
                 _ if row == column => 3.0 + row as f64,

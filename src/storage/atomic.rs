@@ -1,4 +1,4 @@
-//! Whole files or none: written beside the target, synced, then renamed over it.
+//! Atomic file writes: the content is written to a temporary file next to the target, synced, and renamed over the target.
 
 use std::{
     io::{self, Write},
@@ -8,49 +8,48 @@ use std::{
 
 use tempfile::NamedTempFile;
 
-use super::{confinement::may_write, reading::regular};
+use super::{confinement::may_write, reading::check_regular};
 use crate::platform;
 
-/// Begin and end of the names of files that are being written: they show what a killed process has left.
+/// Prefix and suffix of temporary file names; they identify the files that a killed process left.
 const PARTIAL: [&str; 2] = [".carom-", ".partial"];
 
-/// Age from which a file that is being written has lost its writer: a few kilobytes do not take an hour.
+/// Age at which a temporary file counts as abandoned: writing a few kilobytes does not take an hour.
 const ABANDONED: Duration = Duration::from_secs(3600);
 
-/// Replaces the file at `path` by `bytes`. A reader sees the old content or the new one, never a part; missing folders
-/// are made.
+/// Replaces the file at `path` by `bytes`. A reader sees the old or the new content, never a part. Creates missing folders.
 ///
 /// # Errors
-/// Where something else than a regular file is there, or whatever the file system reports; as with [`Staged::publish`], what is there is
-/// then untouched.
+/// Fails if `path` exists and is not a regular file, or with any error of the file system. The old file is then untouched, as for
+/// [`Staged::publish`].
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
     Staged::new(path, bytes)?.publish()
 }
 
-/// Like [`write_atomic`] for a name that nobody has yet: of several programs that create the same file at once, one does.
+/// Like [`write_atomic`], but for a new file: of several programs that create the same file at once, exactly one succeeds.
 ///
 /// # Errors
-/// [`io::ErrorKind::AlreadyExists`] where there is such a file, else whatever the file system reports, as with [`Staged::publish`];
-/// what stands there is untouched.
+/// [`io::ErrorKind::AlreadyExists`] if the file exists, otherwise any error of the file system, as for [`Staged::publish`]. The existing
+/// file is untouched.
 pub fn create_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
     Staged::new(path, bytes)?.publish_new()
 }
 
-/// Like [`write_atomic`] for what need not outlive a power cut: a reader sees the old content or the new one, and nobody
-/// waits for the disk.
+/// Like [`write_atomic`] for data that need not survive a power cut: a reader sees the old or the new content, and nothing waits for the
+/// disk.
 ///
 /// # Errors
-/// Where something else than a regular file is there, there is no folder for it, or whatever the file system reports; the old file is
-/// then untouched.
+/// Fails if `path` exists and is not a regular file, if its folder is missing, or with any error of the file system. The old file is then
+/// untouched.
 pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    replaceable(path)?;
+    check_replaceable(path)?;
     let mut file = readable_by_all(folder_of(path))?;
     file.as_file_mut().write_all(bytes)?;
     file.persist(path)?;
     Ok(())
 }
 
-/// A file that is safe on the disk, under another name for now. Dropped without being published it is removed.
+/// A file that is safely on the disk under a temporary name. It is removed if it is dropped without being published.
 #[derive(Debug)]
 pub struct Staged {
     file: NamedTempFile,
@@ -58,64 +57,64 @@ pub struct Staged {
 }
 
 impl Staged {
-    /// Writes what shall stand at `path`; missing folders are made.
+    /// Writes the future content of `path` to a temporary file. Creates missing folders.
     ///
     /// # Errors
-    /// Whatever the file system reports; nothing is then left.
+    /// Returns any error of the file system; no file is left then.
     pub fn new(path: &Path, bytes: &[u8]) -> io::Result<Self> {
-        replaceable(path)?;
+        check_replaceable(path)?;
         let folder = folder_of(path);
         may_write(folder)?;
         std::fs::create_dir_all(folder)?;
         let mut file = readable_by_all(folder)?;
-        // Not through the temporary file, which would add its own name to what went wrong.
+        // Not through the temporary file's own methods, which would add its name to the error.
         file.as_file_mut().write_all(bytes)?;
         file.as_file().sync_all()?;
         Ok(Self { file, path: path.to_owned() })
     }
 
-    /// Puts the file in its place, over what stands there.
+    /// Renames the file to its final path, over any existing file.
     ///
     /// # Errors
-    /// Whatever the file system reports; what stands there is then untouched, unless the disk failed at the very last: the file is in
-    /// its place then, and may not outlive a power cut.
+    /// Returns any error of the file system; the old file is then untouched. Exception: if the disk fails at the final sync, the new file
+    /// is in place but may not survive a power cut.
     pub fn publish(self) -> io::Result<()> {
         self.file.persist(&self.path)?;
         platform::sync_folder(folder_of(&self.path))
     }
 
-    /// Puts the file in its place if nothing stands there.
+    /// Renames the file to its final path if no file exists there.
     ///
     /// # Errors
-    /// [`io::ErrorKind::AlreadyExists`], or as [`Staged::publish`].
+    /// [`io::ErrorKind::AlreadyExists`], or any error of [`Staged::publish`].
     pub fn publish_new(self) -> io::Result<()> {
         self.file.persist_noclobber(&self.path)?;
         platform::sync_folder(folder_of(&self.path))
     }
 }
 
-/// Removes from `folder` what a process that was killed while writing has left there. Nobody may be writing into it.
+/// Removes the temporary files that a killed process left in `folder`. No process may be writing into it.
 ///
 /// # Errors
-/// Whatever the file system reports.
+/// Returns any error of the file system.
 pub fn remove_partial_files(folder: &Path) -> io::Result<()> {
     partial_files(folder)?.iter().try_for_each(std::fs::remove_file)
 }
 
-/// The same where others may be writing: what is less than an hour old stays.
+/// Like [`remove_partial_files`] while other processes may be writing: files less than an hour old are kept.
 ///
 /// # Errors
-/// Whatever the file system reports.
+/// Returns any error of the file system.
 pub fn remove_abandoned_files(folder: &Path) -> io::Result<()> {
     let is_old = |file: &PathBuf| {
         let changed = std::fs::metadata(file).and_then(|metadata| metadata.modified());
-        // One that has vanished meanwhile was somebody's who has finished it.
+        // A file that has vanished meanwhile was completed by its writer.
         changed.is_ok_and(|changed| SystemTime::now().duration_since(changed).is_ok_and(|age| age > ABANDONED))
     };
     partial_files(folder)?.iter().filter(|file| is_old(file)).try_for_each(std::fs::remove_file)
 }
 
-/// The files in `folder` that are being written, or were when their writer was killed.
+/// Returns the temporary files in `folder`: those still being written, and those of killed writers.
 fn partial_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let [begin, end] = PARTIAL;
     let mut files = Vec::new();
@@ -128,14 +127,14 @@ fn partial_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(files)
 }
 
-/// The file to replace where `path` is meant: what is linked from elsewhere stays linked.
+/// Returns the file to replace when `path` is meant: symbolic links are followed, so that they stay links.
 pub fn target_of(path: &Path) -> PathBuf {
     std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
 }
 
-/// Refuses what is there and is no regular file: a pipe or a device would be one afterwards.
-fn replaceable(path: &Path) -> io::Result<()> {
-    std::fs::metadata(path).map_or(Ok(()), |found| regular(&found))
+/// Refuses an existing path that is not a regular file: replacing a pipe or a device would turn it into a regular file.
+fn check_replaceable(path: &Path) -> io::Result<()> {
+    std::fs::metadata(path).map_or(Ok(()), |found| check_regular(&found))
 }
 
 fn folder_of(path: &Path) -> &Path {
@@ -145,17 +144,17 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// A new file with the rights that the user's umask gives any other; a temporary file's own are the owner's alone.
+/// Creates a temporary file with the permissions that the umask grants to any new file, instead of access for the owner alone.
 fn readable_by_all(folder: &Path) -> io::Result<NamedTempFile> {
     may_write(folder)?;
     let [begin, end] = PARTIAL;
     let mut builder = tempfile::Builder::new();
     builder.prefix(begin).suffix(end);
-    platform::for_all_to_read(&mut builder);
+    platform::use_umask_permissions(&mut builder);
     builder.tempfile_in(folder).map_err(without_its_name)
 }
 
-/// What a temporary file adds to an error is its own name, which tells nobody anything.
+/// Removes the temporary file's own name from an error: it means nothing to users.
 fn without_its_name(error: io::Error) -> io::Error {
     let text = error.to_string();
     match text.split_once(" at path ") {

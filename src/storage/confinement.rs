@@ -1,4 +1,4 @@
-//! What a process that serves a guest may read and write: files in folders that are named once, and no others.
+//! File access of a process that serves a guest: only files in folders that are set once.
 
 use std::{
     ffi::OsString,
@@ -7,24 +7,25 @@ use std::{
     sync::OnceLock,
 };
 
-/// The folders, as they are behind all links.
+/// The folders, with all symbolic links resolved.
 #[derive(Debug)]
 struct Confinement {
     written: PathBuf,
     read: Vec<PathBuf>,
 }
 
-/// A process is confined once and stays so.
+/// A process is confined at most once, and for its whole life.
 static CONFINEMENT: OnceLock<Confinement> = OnceLock::new();
 
-/// From now on this process writes into `written` alone, and reads from there and from `read`. The second call changes nothing.
+/// Confines this process: from now on it writes into `written` only, and reads from there and from `read` only. A second call has no
+/// effect.
 ///
 /// # Errors
-/// Whatever the file system reports of `written`, which is made where it is not there.
+/// Returns any error of the file system about `written`, which is created if it is missing.
 pub fn confine(written: &Path, read: &[&Path]) -> io::Result<()> {
     std::fs::create_dir_all(written)?;
     let written = written.canonicalize()?;
-    // Folders that are not there hold nothing to be read.
+    // Missing folders contain nothing to read.
     let read = read.iter().filter_map(|folder| folder.canonicalize().ok()).collect();
     CONFINEMENT.get_or_init(|| Confinement { written, read });
     Ok(())
@@ -33,7 +34,7 @@ pub fn confine(written: &Path, read: &[&Path]) -> io::Result<()> {
 /// Refuses to read outside the folders.
 ///
 /// # Errors
-/// A sentence where that is so.
+/// Fails with an explanation if `path` is outside them.
 pub fn may_read(path: &Path) -> io::Result<()> {
     CONFINEMENT.get().map_or(Ok(()), |confinement| confinement.reads(path))
 }
@@ -41,7 +42,7 @@ pub fn may_read(path: &Path) -> io::Result<()> {
 /// Refuses to write outside the folder.
 ///
 /// # Errors
-/// A sentence where that is so.
+/// Fails with an explanation if `path` is outside it.
 pub fn may_write(path: &Path) -> io::Result<()> {
     CONFINEMENT.get().map_or(Ok(()), |confinement| confinement.writes(path))
 }
@@ -52,14 +53,14 @@ impl Confinement {
         if std::iter::once(&self.written).chain(&self.read).any(|folder| path.starts_with(folder)) {
             return Ok(());
         }
-        Err(refusal("a guest reads no files but their own"))
+        Err(refusal("a guest can read only their own files"))
     }
 
     fn writes(&self, path: &Path) -> io::Result<()> {
         if resolved(path).starts_with(&self.written) {
             return Ok(());
         }
-        Err(refusal("a guest writes no files but their own"))
+        Err(refusal("a guest can write only their own files"))
     }
 }
 
@@ -67,8 +68,8 @@ fn refusal(sentence: &str) -> io::Error {
     io::Error::new(io::ErrorKind::PermissionDenied, sentence)
 }
 
-/// Where the path leads, as far as it is there; what is not there yet follows by name. A way up out of what is not there is
-/// nowhere.
+/// Resolves symbolic links in the existing part of the path and appends the missing part by name. If the missing part contains "..",
+/// returns an empty path.
 fn resolved(path: &Path) -> PathBuf {
     let mut missing: Vec<OsString> = Vec::new();
     let mut there = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());

@@ -1,4 +1,4 @@
-//! Whether a folder can be written into, and how much fits there, found out without leaving anything behind.
+//! Whether a folder is writable and how much fits in it, found without leaving any file behind.
 
 use std::{
     io::{self, ErrorKind},
@@ -7,36 +7,38 @@ use std::{
 
 use crate::platform;
 
-/// What is known of a place where files are to be kept.
+/// State of a folder in which files are to be stored.
 #[derive(Debug)]
 pub struct FolderState {
-    /// Whether there is such a folder already. It is made when something is kept.
+    /// Whether the folder exists. It is created on the first write.
     pub exists: bool,
-    /// Why nothing can be written there; nothing where it can.
+    /// Why the folder is not writable; `None` if it is.
     pub refusal: Option<io::Error>,
-    /// Bytes that fit there; none where the system does not tell.
+    /// Free bytes; `None` if the system does not report them.
     pub free: Option<u64>,
 }
 
-/// Looks at the folder, or at the one above it in which it would be made.
+/// Checks the folder, or the nearest existing folder above it.
 pub fn folder_state(folder: &Path) -> FolderState {
     let above = match existing(folder) {
         Ok(above) => above,
         Err(error) => return FolderState { exists: false, refusal: Some(error), free: None },
     };
     let free = platform::free_space(&above).ok().flatten();
-    // The file has no name where the system knows such files, and is gone with this line everywhere.
+    // The temporary file has no name on systems that support this. On every system it is deleted at the end of this statement.
     let refusal = tempfile::tempfile_in(&above).err();
     FolderState { exists: above == folder, refusal, free }
 }
 
-/// The folder, or the nearest above it that is there.
+/// Returns the folder, or the nearest existing one above it.
 fn existing(folder: &Path) -> io::Result<PathBuf> {
     let mut above = folder;
     loop {
         match std::fs::metadata(above) {
             Ok(found) if found.is_dir() => return Ok(above.to_owned()),
-            Ok(_) => return Err(io::Error::new(ErrorKind::NotADirectory, format!("{} is no folder", above.display()))),
+            Ok(_) => {
+                return Err(io::Error::new(ErrorKind::NotADirectory, format!("{} is not a folder", above.display())));
+            }
             Err(error) if error.kind() == ErrorKind::NotFound => match above.parent() {
                 Some(parent) if parent.as_os_str().is_empty() => above = Path::new("."),
                 Some(parent) => above = parent,

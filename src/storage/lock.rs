@@ -1,4 +1,4 @@
-//! One process at a time in a folder.
+//! A lock that gives one process at a time access to a folder.
 
 use std::{
     fs::{File, OpenOptions, TryLockError},
@@ -7,33 +7,33 @@ use std::{
     time::Duration,
 };
 
-/// Attempts to take the lock, and the pause between them: [`Lock::is_held`] holds it for an instant.
+/// Attempts to take the lock, and the pause between them: [`Lock::is_held`] takes it for an instant.
 const ATTEMPTS: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(10);
 
-/// How often [`Lock::wait`] tries to take it, a fifth of a second each.
+/// Number of attempts of [`Lock::wait`], a fifth of a second each.
 const WAITS: u32 = 50;
 
-/// The right to write into a folder, until it is dropped.
+/// The exclusive right to write into a folder, until this is dropped.
 #[derive(Debug)]
 pub struct Lock {
-    /// The system lets go of the lock when the file is closed.
+    /// Closing the file releases the lock.
     _file: File,
 }
 
 impl Lock {
-    /// The file that is locked. It stays when the lock is gone: what counts is the system's lock on it, which ends with the
-    /// process that holds it, however that ends.
+    /// Name of the locked file. It remains after the lock is released. Only the system's lock on the file counts, and that ends with its
+    /// process, even after a crash.
     pub const FILE: &str = "lock";
 
     /// Takes the lock of a folder; `None` if another process has it.
     ///
     /// # Errors
-    /// Whatever the file system reports. One that knows no locks is taken at its word: then nothing is locked.
+    /// Returns any error of the file system. A file system without locks counts as success, but nothing is locked then.
     pub fn take(folder: &Path) -> io::Result<Option<Self>> {
         let path = folder.join(Self::FILE);
         if let Ok(found) = path.metadata() {
-            super::reading::regular(&found)?;
+            super::reading::check_regular(&found)?;
         }
         let file = OpenOptions::new().create(true).truncate(false).write(true).open(path)?;
         for attempt in 0..ATTEMPTS {
@@ -52,10 +52,10 @@ impl Lock {
         Ok(None)
     }
 
-    /// The same, but waits for another process; the folder is made where it is not there.
+    /// Like [`Lock::take`], but waits for another process to release the lock. Creates the folder if it is missing.
     ///
     /// # Errors
-    /// Where the other keeps it for long, or whatever the file system reports.
+    /// Fails if the other process does not release the lock in time, or with any error of the file system.
     pub fn wait(folder: &Path) -> io::Result<Self> {
         std::fs::create_dir_all(folder)?;
         for _ in 0..WAITS {
@@ -63,11 +63,11 @@ impl Lock {
                 return Ok(lock);
             }
         }
-        Err(io::Error::new(io::ErrorKind::WouldBlock, "another program is changing what is kept; try again"))
+        Err(io::Error::new(io::ErrorKind::WouldBlock, "another program is changing the stored data; try again"))
     }
 
-    /// Whether a process has the lock of a folder; `None` where that cannot be known: there is no lock, or the file system
-    /// knows none.
+    /// Whether a process holds the lock of a folder; `None` if that is unknown because there is no lock file or the file system has no
+    /// locks.
     pub fn is_held(folder: &Path) -> Option<bool> {
         match super::open(&folder.join(Self::FILE)).ok()?.try_lock_shared() {
             Ok(()) => Some(false),

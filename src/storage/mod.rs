@@ -1,4 +1,4 @@
-//! Files: where they live and how they are written without ever leaving half a file behind.
+//! Files: where they are stored, and writing them without ever leaving half a file behind.
 
 mod atomic;
 mod confinement;

@@ -1,18 +1,18 @@
-//! Names that people give to what is kept for them, each of which is a file's name, too.
+//! Names that users give to stored items. Each is also a file name.
 
-/// Longest name, bytes; file systems take some more.
+/// Longest name, bytes; file systems accept somewhat longer ones.
 pub const LONGEST_NAME: usize = 100;
 
-/// What [`is_name`] accepts, in words.
+/// The rule of [`is_name`] in words.
 pub const NAME_RULE: &str =
     "1 to 100 letters, digits, '-', '_' and '.', with no '.' at the beginning; a letter like é counts as two or more";
 
-/// Whether something may be called so.
+/// Whether `name` is accepted as a name.
 pub fn is_name(name: &str) -> bool {
     (1..=LONGEST_NAME).contains(&name.len()) && !name.starts_with('.') && name.chars().all(is_letter)
 }
 
-/// Whether the letter may stand in a name.
+/// Whether the character may be part of a name.
 pub fn is_letter(letter: char) -> bool {
     letter.is_alphanumeric() || "-_.".contains(letter)
 }

@@ -1,4 +1,4 @@
-//! A notice that is shown once to users who have saved things with an older version.
+//! A one-time notice for users who saved data with an older version.
 
 use std::{fs, path::Path};
 
@@ -6,33 +6,33 @@ use serde::{Deserialize, de::IgnoredAny};
 
 use super::{PRACTICE, Places, SMALL, read, read_text, write_atomic};
 
-/// Said where something was saved while "match" meant another table.
-const MATCH: &str = "\"match\" is now a table as filmed balls show it, and what you saved for \"match\" is played on it; the former one is \"textbook\"";
+/// Shown to users who saved data while "match" meant another table.
+const MATCH: &str = "\"match\" is now a table with constants from filmed shots, and what you saved for \"match\" is played on it; the former one is \"textbook\"";
 
-/// How the file remembers that [`MATCH`] was said.
-const MATCH_TOLD: &str = "match";
+/// The line in the record of notices which states that [`MATCH`] was shown.
+const MATCH_SHOWN: &str = "match";
 
-/// The notice to this user, if they have saved anything with an older version; from then on `None`. Where
-/// that cannot be written down, it is said again. Settings alone tell nothing: they may be a newcomer's first step.
+/// Returns the notice if this user has saved data with an older version, and `None` on later calls. If that cannot be recorded, the notice
+/// is repeated. A settings file alone does not count: changing a setting may be a new user's first step.
 pub fn notice(places: &Places) -> Option<&'static str> {
-    let told = read_text(&places.notices, SMALL).unwrap_or_default();
-    if told.lines().any(|line| line == MATCH_TOLD) {
+    let shown = read_text(&places.notices, SMALL).unwrap_or_default();
+    if shown.lines().any(|line| line == MATCH_SHOWN) {
         return None;
     }
     let Places { sessions, positions, last, .. } = places;
-    // What the last session left is beside this notice: no version since has written one without the other.
+    // Any later version that wrote the last session's state also wrote this record of notices.
     let has_saved = holds_older(sessions) || holds_older(positions) || last.exists();
     let folder = places.notices.parent();
     folder.map(fs::create_dir_all);
-    // Where it fails, the sentence comes again: better twice than never.
-    if write_atomic(&places.notices, format!("{told}{MATCH_TOLD}\n").as_bytes()).is_err() {
+    // If writing fails, the notice is repeated next time.
+    if write_atomic(&places.notices, format!("{shown}{MATCH_SHOWN}\n").as_bytes()).is_err() {
         folder.map(fs::remove_dir);
     }
     has_saved.then_some(MATCH)
 }
 
-/// Whether a file of practice in the folder was written before "match" meant its present table: since then files say by which
-/// version of carom they were written.
+/// Whether the folder contains a practice file from before "match" changed its meaning: later files record the version of carom that wrote
+/// them.
 fn holds_older(folder: &Path) -> bool {
     #[derive(Deserialize)]
     struct Header {
@@ -40,7 +40,7 @@ fn holds_older(folder: &Path) -> bool {
     }
     let is_older = |path: &Path| {
         let bytes = read(path, PRACTICE).unwrap_or_default();
-        // What cannot be read is told elsewhere.
+        // Unreadable files are reported elsewhere.
         serde_json::from_slice::<Header>(&bytes).is_ok_and(|header| header.carom.is_none())
     };
     let mut paths = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());

@@ -1,4 +1,4 @@
-//! The folders of this user, as the platform wants them.
+//! The user's folders, following the conventions of the platform.
 
 use std::{
     io,
@@ -9,50 +9,50 @@ use directories::ProjectDirs;
 
 use super::Player;
 
-/// What the file of the settings is called.
+/// Name of the settings file.
 const SETTINGS: &str = "config.toml";
 
-/// The folder of the players' own, among the account's data.
+/// Folder of the players' own folders, inside the account's data folder.
 const PLAYERS: &str = "players";
 
-/// Where the program keeps what it writes.
+/// Paths of everything that the program writes.
 #[derive(Clone, Debug)]
 pub struct Places {
     /// Training runs, one folder each.
     pub runs: PathBuf,
-    /// Policies that the user has kept under a name.
+    /// Policies that the user has saved under a name.
     pub policies: PathBuf,
-    /// Sessions of practice, one file each.
+    /// Practice sessions, one file each.
     pub sessions: PathBuf,
     /// The user's own positions, one file each.
     pub positions: PathBuf,
-    /// The file of the user's own skill.
+    /// File of the user's own skill.
     pub player: PathBuf,
-    /// What was entered of the calibration of a table.
+    /// Data entered for the calibration of a table.
     pub calibration: PathBuf,
-    /// What was entered of a check of the day.
+    /// Data entered for a daily check.
     pub daily_check: PathBuf,
-    /// Tables of the user's own, one file each.
+    /// The user's own tables, one file each.
     pub tables: PathBuf,
-    /// What the last session of the screen left.
+    /// State of the last session of the full-screen program.
     pub last: PathBuf,
-    /// The stroke of a calibration that was typed in part when the program ended.
+    /// The partly typed calibration stroke at the time when the program ended.
     pub draft: PathBuf,
-    /// The folder of what others may see, while the player allows it.
+    /// Folder of the state that spectators may read while the player allows it.
     pub shown: PathBuf,
-    /// What happened, line by line.
+    /// The log file.
     pub log: PathBuf,
-    /// Which notices have been given.
+    /// Record of the notices that were already shown.
     pub notices: PathBuf,
-    /// The file of the settings.
+    /// The settings file.
     pub settings: PathBuf,
-    /// The folder of most of it.
+    /// The folder that contains most of these paths.
     pub own: PathBuf,
 }
 
 impl Places {
-    /// The folders under the platform's data directory, and those of its state directory where the platform has one; where
-    /// the user has no home, under the working directory.
+    /// Returns the paths of this account: in the platform's data directory, and in its state directory if the platform has one. If the user
+    /// has no home directory, they are in the working directory.
     pub fn of_this_user() -> Self {
         let Some(dirs) = ProjectDirs::from("", "", "carom") else {
             let data = Path::new("./carom-data");
@@ -62,29 +62,30 @@ impl Places {
         Self::in_folders(dirs.data_dir(), state, dirs.config_dir().join(SETTINGS))
     }
 
-    /// Those of a player of this account: a folder for each among the account's data, and the account's own runs to look at.
+    /// Returns the paths of a player of this account: the player's own folder inside the account's data, and the account's training runs
+    /// for viewing.
     ///
     /// # Errors
-    /// Where the account has no home.
+    /// Fails if the account has no home directory.
     pub fn of_player(player: &Player) -> io::Result<Self> {
         let players = Self::players().ok_or_else(|| {
-            io::Error::new(io::ErrorKind::NotFound, "this account has no home to keep players' files in")
+            io::Error::new(io::ErrorKind::NotFound, "this account has no home folder for players' files")
         })?;
         let account = Self::of_this_user();
         Ok(Self { runs: account.runs, ..Self::under(&players.join(player.folder())) })
     }
 
-    /// Where the players of this account have their folders; none where it has no home.
+    /// Returns the folder that contains the players' folders; `None` if the account has no home directory.
     pub fn players() -> Option<PathBuf> {
         Some(ProjectDirs::from("", "", "carom")?.data_dir().join(PLAYERS))
     }
 
-    /// All of it in one folder.
+    /// Returns paths that are all inside `folder`.
     pub fn under(folder: &Path) -> Self {
         Self::in_folders(folder, folder, folder.join(SETTINGS))
     }
 
-    /// The files of the player's own tables, in the order of their names.
+    /// Returns the files of the player's own tables, sorted by name.
     pub fn own_tables(&self) -> Vec<PathBuf> {
         let entries = std::fs::read_dir(&self.tables).into_iter().flatten().flatten().map(|entry| entry.path());
         let mut files: Vec<_> =
@@ -93,7 +94,7 @@ impl Places {
         files
     }
 
-    /// The file of the player's own table that is called `name`, with or without `.toml`, if there is one.
+    /// Returns the file of the player's own table called `name` (with or without `.toml`), if it exists.
     pub fn own_table(&self, name: &str) -> Option<PathBuf> {
         self.own_tables().into_iter().find(|path| is_called(path, name))
     }

@@ -1,8 +1,8 @@
-//! What is wrong with the text of a file, told without the words of the libraries that read it.
+//! Explanations of errors in files, without the jargon of the parsing libraries.
 
 use serde_json::error::Category;
 
-/// What the libraries say, and what people are told instead.
+/// Phrases of the libraries, and their replacements.
 const WORDS: [(&str, &str); 17] = [
     ("expected usize", "expected a whole number from 0 on"),
     ("expected u64", "expected a whole number from 0 on"),
@@ -20,20 +20,20 @@ const WORDS: [(&str, &str); 17] = [
     ("missing assignment between key-value pairs", "two values without a name between them"),
     ("extra assignment between key-value pairs", "a second `=`"),
     ("unexpected key or value", "more than one value"),
-    ("duplicate key", "a name that stands there already"),
+    ("duplicate key", "a name that is already used"),
 ];
 
-/// The same of what a file names; runs of training have another word for it, settings.
+/// The replacement for unknown names in files. It is separate because training runs say "setting" instead.
 const NAME: [&str; 2] = ["unknown field", "unknown name"];
 
-/// A message of serde in plain words.
+/// Rewrites a message of serde in plain words.
 pub fn in_plain_words(message: &str) -> String {
     let missing = message.strip_prefix("missing field ");
     let message = missing.map_or_else(|| message.to_owned(), |name| format!("{name} is missing"));
     WORDS.iter().fold(message, |message, (theirs, ours)| message.replace(theirs, ours))
 }
 
-/// A sentence without the numbers by which the system knows its errors: its words say the same.
+/// Removes the error numbers of the operating system from a sentence: its words have the same meaning.
 pub fn without_numbers(mut sentence: String) -> String {
     while let Some(start) = sentence.find(" (os error ")
         && let Some(length) = sentence[start..].find(')')
@@ -43,11 +43,11 @@ pub fn without_numbers(mut sentence: String) -> String {
     sentence
 }
 
-/// What is wrong with a TOML text: the line, the key that stands there, and why.
+/// Describes what is wrong with a TOML text: the line, the key in that line, and the reason.
 pub fn toml_flaw(text: &str, error: &toml::de::Error) -> String {
     let reason = in_plain_words(error.message()).replace(NAME[0], NAME[1]);
     let is_missing = error.message().starts_with("missing field ");
-    // What is missing in the whole file stands in no line of it, and what is missing in a section is no fault of another key.
+    // A value that is missing in the whole file belongs to no line, and one that is missing in a section is not the fault of another key.
     let Some(start) = error.span().map(|span| span.start).filter(|start| !is_missing || *start > 0) else {
         return reason;
     };
@@ -57,17 +57,17 @@ pub fn toml_flaw(text: &str, error: &toml::de::Error) -> String {
     format!("line {}{key}: {reason}", line + 1)
 }
 
-/// What is wrong with a JSON text: the place, and why.
+/// Describes what is wrong with a JSON text: the position and the reason.
 pub fn json_flaw(error: &serde_json::Error) -> String {
     let (line, column) = (error.line(), error.column());
     match error.classify() {
         Category::Eof if (line, column) == (1, 0) => "it is empty".to_owned(),
         Category::Eof => format!("it ends in the middle of line {line}"),
-        Category::Syntax | Category::Io => format!("line {line}, column {column} is no JSON"),
+        Category::Syntax | Category::Io => format!("line {line}, column {column} is not JSON"),
         Category::Data => {
             let text = error.to_string();
             let reason = in_plain_words(text.split(" at line ").next().unwrap_or_default()).replace(NAME[0], NAME[1]);
-            // What lies within other parts has no place.
+            // Errors inside nested parts have no position.
             if line > 0 { format!("at line {line}, column {column}, {reason}") } else { reason }
         }
     }
@@ -100,8 +100,8 @@ mod tests {
         let json = |text: &str| json_flaw(&serde_json::from_str::<Two>(text).unwrap_err());
         assert_eq!(json(""), "it is empty");
         assert_eq!(json("{\"name\":\n"), "it ends in the middle of line 2");
-        assert_eq!(json("{\"name\" 3}"), "line 1, column 9 is no JSON");
-        assert_eq!(json("{nam: 3}"), "line 1, column 2 is no JSON");
+        assert_eq!(json("{\"name\" 3}"), "line 1, column 9 is not JSON");
+        assert_eq!(json("{nam: 3}"), "line 1, column 2 is not JSON");
         let said = std::io::Error::from_raw_os_error(2).to_string();
         assert!(said.contains("os error"), "{said}");
         let said = without_numbers(format!("a: {said}; b"));

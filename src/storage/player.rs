@@ -1,29 +1,29 @@
-//! Several players of one account: a folder for each, which nobody else's name leads into.
+//! Several players in one account: each has a separate folder, and no other player's name can lead into it.
 
 use std::{fmt, str::FromStr};
 
-/// Longest name, letters.
+/// Longest name, in characters.
 const LONGEST: usize = 32;
 
-/// A player of a shared account, by a name that is safe as that of a folder.
+/// A player of a shared account. The name is safe to use as a folder name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Player(String);
 
-/// A name that no player may have.
+/// Error for a name that is not accepted for a player.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "\"{0}\" is no name of a player; accepted are 1 to {LONGEST} letters a to z and A to Z, digits, \"-\" and \"_\", beginning \
+    "\"{0}\" is not accepted as a player's name; accepted are 1 to {LONGEST} letters a to z and A to Z, digits, \"-\" and \"_\", beginning \
      with a letter or a digit"
 )]
 pub struct PlayerNameError(String);
 
 impl Player {
-    /// The name.
+    /// Returns the name as the player typed it.
     pub fn name(&self) -> &str {
         &self.0
     }
 
-    /// What the player's folder is called: without capitals, which some file systems do not tell apart.
+    /// Returns the name of the player's folder: in lower case, because some file systems do not distinguish upper case.
     pub fn folder(&self) -> String {
         self.0.to_ascii_lowercase()
     }

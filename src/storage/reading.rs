@@ -1,5 +1,4 @@
-//! Files that anybody may have put there: regular ones of a size that is no trouble. A pipe would keep the program waiting,
-//! and a device can be read for ever.
+//! Safe reading of untrusted paths: only regular files up to a maximum size. A pipe would block the program, and a device may never end.
 
 use std::{
     fs::{self, File},
@@ -9,46 +8,46 @@ use std::{
 
 use super::confinement::may_read;
 
-/// Largest table, settings or other small file, bytes.
+/// Largest table, settings file or other small file, bytes.
 pub const SMALL: u64 = 1 << 20;
 
-/// Largest file of practice, bytes: ten thousand sessions are a tenth of it.
+/// Largest practice file, bytes: ten thousand sessions take a tenth of it.
 pub const PRACTICE: u64 = 1 << 28;
 
-/// Largest file of weights or metrics, bytes: a checkpoint with a full memory is a tenth of it.
+/// Largest file of weights or metrics, bytes: a checkpoint with a full replay buffer takes a tenth of it.
 pub const LARGE: u64 = 1 << 32;
 
-/// The content of the file at `path`, if it is a regular one of at most `largest` bytes.
+/// Returns the content of the file at `path`, if it is a regular file of at most `largest` bytes.
 ///
 /// # Errors
-/// Where it is not, or whatever the file system reports.
+/// Fails if it is not, or with any error of the file system.
 pub fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
     let file = open(path)?;
     let mut bytes = Vec::new();
-    // What grows while it is read is no larger either.
+    // The limit also holds for a file that grows while it is read.
     file.take(largest + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > largest {
         return Err(io::Error::new(
             io::ErrorKind::FileTooLarge,
-            format!("it has more than {largest} bytes, which is no file of this kind"),
+            format!("it has more than {largest} bytes, too many for a file of this kind"),
         ));
     }
     Ok(bytes)
 }
 
-/// The same for text.
+/// Like [`read`], for text.
 ///
 /// # Errors
-/// As [`read`], and for what is no UTF-8.
+/// Fails like [`read`], and for text that is not UTF-8.
 pub fn read_text(path: &Path, largest: u64) -> io::Result<String> {
-    let no_text = |_| io::Error::new(io::ErrorKind::InvalidData, "it is no text: it has bytes that are no UTF-8");
+    let no_text = |_| io::Error::new(io::ErrorKind::InvalidData, "it is not text: it has bytes that are not UTF-8");
     String::from_utf8(read(path, largest)?).map_err(no_text)
 }
 
-/// As [`read`]; `None` where there is no such file.
+/// Like [`read`], but returns `None` if the file does not exist.
 ///
 /// # Errors
-/// As [`read`], but for that.
+/// Fails like [`read`], except for a missing file.
 pub fn read_if_there(path: &Path, largest: u64) -> io::Result<Option<Vec<u8>>> {
     match read(path, largest) {
         Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => Ok(None),
@@ -56,11 +55,10 @@ pub fn read_if_there(path: &Path, largest: u64) -> io::Result<Option<Vec<u8>>> {
     }
 }
 
-/// Moves a file that cannot be read out of the way of one that is to be written in its place; gives what came of that, as the end of a
-/// sentence about the file.
+/// Renames an unreadable file, so that a new one can be written in its place. Returns the outcome as the end of a sentence about the file.
 pub fn put_aside(path: &Path) -> String {
     let (mut aside, mut number) = (path.with_extension("unread.json"), 1);
-    // What was kept before stays.
+    // Files that were renamed earlier are kept.
     while aside.exists() {
         number += 1;
         aside = path.with_extension(format!("unread-{number}.json"));
@@ -71,20 +69,20 @@ pub fn put_aside(path: &Path) -> String {
     }
 }
 
-/// The regular file at `path`, to be read.
+/// Opens the regular file at `path` for reading.
 ///
 /// # Errors
-/// Where it is none, or whatever the file system reports.
+/// Fails if it is not a regular file, or with any error of the file system.
 pub fn open(path: &Path) -> io::Result<File> {
     may_read(path)?;
-    // Before it is opened: that alone waits where a pipe has no writer.
-    regular(&fs::metadata(path).map_err(missing)?)?;
+    // Check before opening, because opening a pipe without a writer blocks.
+    check_regular(&fs::metadata(path).map_err(missing)?)?;
     let file = File::open(path)?;
-    regular(&file.metadata()?)?;
+    check_regular(&file.metadata()?)?;
     Ok(file)
 }
 
-/// What is not there is told in words; other reasons are the system's.
+/// Rewrites the error for a missing file; other errors keep the system's text.
 fn missing(error: io::Error) -> io::Error {
     match error.kind() {
         kind @ (io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
@@ -94,11 +92,11 @@ fn missing(error: io::Error) -> io::Error {
     }
 }
 
-/// Refuses what is there and is no regular file.
+/// Refuses a path that is not a regular file.
 ///
 /// # Errors
-/// Where that is so.
-pub fn regular(found: &fs::Metadata) -> io::Result<()> {
+/// Fails with the kind of the file that was found.
+pub fn check_regular(found: &fs::Metadata) -> io::Result<()> {
     if found.is_file() {
         return Ok(());
     }
@@ -122,7 +120,7 @@ mod tests {
         assert_eq!(read_text(&path, 4).unwrap(), "four");
         assert!(read(&path, 3).unwrap_err().to_string().contains("more than 3 bytes"));
         assert!(read(folder.path(), 9).unwrap_err().to_string().contains("a folder"));
-        // In the place of a folder, too: "Not a directory" would be told of a file that nobody has named.
+        // The same for a path below a file: "Not a directory" would refer to a file that the user did not name.
         for missing in [folder.path().join("none"), path.join("none")] {
             let error = read(&missing, 9).unwrap_err();
             assert_eq!(error.to_string(), "there is no such file; accepted is a regular file");

@@ -1,4 +1,4 @@
-//! The accuracy study through the real binary: what it must find, without any goal for time.
+//! The accuracy study through the real binary: required results, without any requirement on time.
 
 use std::path::Path;
 
@@ -29,7 +29,7 @@ fn quick(folder: &Path) -> Vec<Value> {
 fn the_study_finds_what_it_must() {
     let folder = tempfile::tempdir().unwrap();
     let rows = quick(folder.path());
-    // What they must say is a test of the library.
+    // The values themselves are checked by a test of the library.
     let files: Vec<&Value> = rows.iter().filter_map(|row| row.get("file")).collect();
     assert_eq!(files, ["shots", "hard", "contact", "flights"]);
     for (table, steepest) in [("textbook", 20.0), ("thesis", 20.0), ("match", 60.0)] {
@@ -41,15 +41,16 @@ fn the_study_finds_what_it_must() {
         };
         let median = |row: &Value| number(&row["rest_m"]["median"]);
         let engine = row("engine", None);
-        // No step is as exact as the engine by many orders, and each tenth of a step is more exact than the last.
+        // Even the smallest time step is less accurate than the engine by many orders of magnitude, and each step of a tenth is more
+        // accurate than the previous one.
         let steps = [1e-2, 1e-3, 1e-4].map(|dt| median(row("steps", Some(dt))));
         assert!(median(engine) < 1e-8 * steps[2], "{engine}");
         assert!(steps[0] > steps[1] && steps[1] > steps[2], "{steps:?}");
-        // The reference engine shares no line with the engine: both are right or both are wrong in the same way.
+        // The reference engine shares no code with the engine: both are right or both are wrong in the same way.
         assert!(number(&row("plain, roots between extrema", None)["rest_units"]["median"]) < 10.0);
         assert!(median(row("plain, f32", None)) > 1e6 * median(engine));
         assert!(number(&engine["rest_units"]["median"]) <= 2.0, "{engine}");
-        // Where balls chatter against each other, an engine may tell the impacts that follow in another order.
+        // When balls chatter against each other, an engine may report the following impacts in another order.
         assert!(number(&engine["wrong_sequence"]["count"]) <= if table == "thesis" { 1.0 } else { 0.0 }, "{engine}");
         assert_eq!(engine["flips_straight"]["count"], 0);
         assert_eq!(engine["failed"], 0);
@@ -62,7 +63,7 @@ fn the_study_finds_what_it_must() {
     }
     let csv = std::fs::read_to_string(folder.path().join("accuracy.csv")).unwrap();
     let columns: Vec<usize> = csv.lines().map(|line| line.matches(',').count()).collect();
-    // A method's name may hold one comma, in quotes.
+    // The name of a method may contain one comma, in quotes.
     assert!(columns.iter().all(|count| (columns[0]..=columns[0] + 1).contains(count)), "{columns:?}");
 }
 
@@ -78,7 +79,7 @@ fn the_table_that_a_player_stands_at_is_judged_too() {
     assert!(number(&engine["rest_units"]["median"]) <= 2.0, "{engine}");
     assert_eq!((&engine["wrong_sequence"]["count"], &engine["failed"]), (&Value::from(0), &Value::from(0)));
     assert!(number(&engine["energy"]["median"]) < 1e-14, "{engine}");
-    // Steps begin the bands of a roll late, as they do all else, and do not stop the ball there.
+    // Time steps detect the start of the roll bands late, like all other events, and do not stop the ball there.
     let steps = |dt: f64| rows.iter().find(|row| row["method"] == "steps" && row["dt"].as_f64() == Some(dt)).unwrap();
     let error = |dt: f64| number(&steps(dt)["rest_m"]["median"]);
     assert!(error(1e-4) < 0.3 * error(1e-3), "{} {}", error(1e-3), error(1e-4));
@@ -118,7 +119,7 @@ fn a_folder_that_cannot_be_made_is_named() {
     assert!(String::from_utf8(output.stderr).unwrap().contains("accuracy.csv"));
 }
 
-/// It was found out when all was measured: after three minutes, or an hour.
+/// Regression test: the problem was reported only after all measurements, after three minutes or an hour.
 #[test]
 fn a_place_that_cannot_be_written_is_named_before_anything_is_measured() {
     let file = tempfile::NamedTempFile::new().unwrap();
@@ -133,7 +134,7 @@ fn a_place_that_cannot_be_written_is_named_before_anything_is_measured() {
         let output = command.timeout(std::time::Duration::from_secs(20)).output().unwrap();
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!((output.status.code(), said.lines().count()), (Some(1), 1), "{arguments:?}: {said}");
-        assert!(said.contains(out) && said.contains("is no folder") && output.stdout.is_empty(), "{said}");
+        assert!(said.contains(out) && said.contains("is not a folder") && output.stdout.is_empty(), "{said}");
     }
 }
 

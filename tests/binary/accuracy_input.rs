@@ -1,4 +1,4 @@
-//! What `carom accuracy` and the ways to simulate accept, refuse, and call by name.
+//! What `carom accuracy` and the simulation methods accept and refuse, and which names they accept.
 
 use std::{fs, path::PathBuf, process::Output, time::Duration};
 
@@ -18,7 +18,7 @@ fn told(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
 }
 
-/// A folder with a file of the `match` table with these words exchanged, and its path.
+/// Returns a folder with a file of the `match` table with these replacements, and the path of the file.
 fn own_table(file: &str, exchanged: &[(&str, &str)]) -> (tempfile::TempDir, PathBuf) {
     let mut text = toml::to_string(&Table::default()).unwrap();
     for (from, to) in exchanged {
@@ -45,7 +45,7 @@ fn the_time_step_that_a_refusal_names_is_accepted() {
     let said_of = |dt: &str| said(&step("0,0,0,0,3", dt));
     let refused = said_of("0.00003");
     let named = refused.split("accepted is ").nth(1).and_then(|rest| rest.split(" s or more").next()).expect(&refused);
-    // Which takes seconds where nothing is optimised; all that matters is that it is not refused.
+    // This takes seconds in a build without optimisation; only acceptance matters here.
     assert!(!said_of(named).contains("steps; accepted"), "{named}: {}", said_of(named));
     let least = said_of("1e-320");
     assert!(least.contains("dt = 1e-320 s") && least.contains("accepted is 3e-7 to 1 s"), "{least}");
@@ -97,7 +97,7 @@ fn a_table_with_a_comma_in_its_name_stays_one_name() {
     assert!(again.starts_with(&format!("carom simulate --table '{}' --layout=", at[0])), "{again}");
 }
 
-/// Columns of a line of CSV; commas in quotes part none.
+/// Counts the columns of a line of CSV; commas in quotes do not separate columns.
 fn columns_of(line: &str) -> usize {
     line.split('"').step_by(2).map(|outside| outside.matches(',').count()).sum()
 }

@@ -1,4 +1,4 @@
-//! The calibration through the real binary: files of entries, a session that is kept, and tables that are written.
+//! The calibration through the real binary: files of entries, a saved session, and written tables.
 
 use std::{fs, io::Write, path::Path, process::Stdio};
 
@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use crate::program::{asked as carom, command, tried};
 
-/// The program with a home of its own.
+/// Returns the program with its own home folder.
 fn at_home(home: &Path, args: &[&str]) -> Command {
     let mut command = carom(args);
     command.current_dir(home).env("HOME", home).env("XDG_DATA_HOME", home.join("data"));
@@ -31,14 +31,14 @@ fn a_file_of_entries_becomes_a_table_that_every_command_plays_on() {
     run(&["simulate", "--table", "mine.toml", "--shot", "0,0.3,0,1,2"]).assert().success();
     let text = fs::read_to_string(home.path().join("mine.toml")).unwrap();
     assert!(text.contains("[doubt.deviations]") && text.contains("name = \"ours\""), "{text}");
-    // Again, from the table that there is: less is open, and the file is replaced by another table.
+    // Again, from the table just written: the uncertainty is smaller now, and the file is replaced.
     let answer =
         run(&["calibrate", "entries.toml", "--table", "mine.toml", "--out", "mine.toml", "--json"]).output().unwrap();
     let answer: Value = serde_json::from_slice(&answer.stdout).unwrap();
     let roll = answer["constants"].as_array().unwrap().iter().find(|one| one["name"] == "mu_r").unwrap();
     assert!(roll["before_deviation"].as_f64().unwrap() < 0.0006, "{roll}");
     assert_ne!(fs::read_to_string(home.path().join("mine.toml")).unwrap(), text);
-    // A day later: what three rails do is not known before both tests are played.
+    // A daily check: the change at three rails is unknown until both tests are played.
     let daily = || {
         let daily = run(&["calibrate", "--daily", "--table", "mine.toml", "entries.toml"]).assert().success();
         String::from_utf8_lossy(&daily.get_output().stdout).into_owned()
@@ -128,7 +128,7 @@ fn a_reader_that_goes_away_takes_no_table_and_no_note_with_it() {
     let unread = |args: &[&str]| {
         let mut child = command(home.path(), args).stdin(Stdio::piped()).spawn().unwrap();
         drop(child.stdout.take());
-        // Who reads a file does not read this.
+        // The program ignores its input if it reads a file.
         let _ = child.stdin.take().unwrap().write_all(b"make\nmiss\nmake\n");
         assert!(child.wait().unwrap().success(), "{args:?}");
     };
@@ -161,7 +161,7 @@ fn a_session_keeps_every_entry_and_goes_on_where_it_ended() {
     };
     let said = play("", 0);
     assert!(said.contains("nothing is entered yet") && said.contains("slow-roll") && !file.exists(), "{said}");
-    // A mark that cannot be is refused, and a program that pipes it in learns so at the end.
+    // An impossible mark is refused, and a program that pipes it in learns that from the exit code at the end.
     let said = play("9.6 5.4 2\n9 99 2\n9.4 5.3\nskip\nlap 4.4 rest 8 stop 3.5\nundo\n4.4 8 3.5 2\n", 2);
     assert!(said.contains("slow-roll: stop = 99: no ball can be there") && said.contains("nothing was kept"), "{said}");
     assert!(said.contains("the last entry (lag) is taken back") && said.contains("mu_r"), "{said}");
@@ -170,7 +170,7 @@ fn a_session_keeps_every_entry_and_goes_on_where_it_ended() {
     let said = play("again\n9.9 - 2\ndone\n", 0);
     assert!(said.contains("slow-back (1"), "it goes on with what is missing: {said}");
     assert_eq!(fs::read_to_string(&file).unwrap().matches("test = \"lag\"").count(), 2);
-    // What cannot be read is not written over.
+    // An unreadable file is not overwritten.
     fs::write(&file, "broken").unwrap();
     let output = at_home(home.path(), &["calibrate"]).write_stdin("1 2 3\n").output().unwrap();
     assert_eq!(output.status.code(), Some(2));

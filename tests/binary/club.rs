@@ -1,4 +1,4 @@
-//! A club's machine as `docs/club.md` sets it up, with a real sshd on the loopback address. It needs root, `sshd` and `ssh`:
+//! A shared machine of a club, set up as in `docs/club.md`, with a real sshd on the loopback address. It needs root, `sshd` and `ssh`:
 //!
 //! `cargo test --profile quick --test binary club:: -- --ignored --nocapture`
 
@@ -20,13 +20,13 @@ use crate::{
     terminal::{OPENING, PATIENCE, REST, Session},
 };
 
-/// Players at once.
+/// Number of players at the same time.
 const PLAYERS: usize = 20;
 
-/// Most memory of a player after a recommendation, bytes, with what they share counted in shares.
+/// Memory limit per player after a recommendation, bytes; shared memory counts in proportion.
 const MEMORY: u64 = 25 << 20;
 
-/// A sshd with the page's script and configuration, in a folder of its own.
+/// An sshd with the script and the configuration of the page, in its own folder.
 struct Club {
     folder: tempfile::TempDir,
     port: u16,
@@ -35,7 +35,7 @@ struct Club {
 
 impl Club {
     fn open(players: &[String]) -> Self {
-        // sshd runs no command that others could have written: not below a folder for everybody.
+        // sshd runs no command that others could have written, so the folder must not be below a world-writable one.
         let folder = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).unwrap();
         let path = |name: &str| folder.path().join(name);
         fs::create_dir_all("/run/sshd").unwrap();
@@ -48,7 +48,7 @@ impl Club {
         for name in players {
             fs::copy(path(&format!("{name}.pub")), path("keys").join(name)).unwrap();
         }
-        // What is no player's name is no key.
+        // A key file whose name is not a player's name must be ignored.
         fs::copy(path("stranger.pub"), path("keys").join("a b")).unwrap();
         let page = include_str!("../../docs/club.md");
         let script = script(&path("keys")).replace("/usr/local/bin/carom", cargo_bin!("carom").to_str().unwrap());
@@ -78,7 +78,7 @@ impl Club {
         Self { folder, port, _sshd: sshd }
     }
 
-    /// What follows `ssh` for somebody with this key.
+    /// Returns the arguments of `ssh` for the owner of this key.
     fn arguments(&self, key: &str) -> Vec<String> {
         let mut arguments: Vec<String> = ["-F", "none", "-p", &self.port.to_string(), "-i"].map(str::to_owned).into();
         arguments.push(self.folder.path().join(key).display().to_string());
@@ -88,7 +88,7 @@ impl Club {
         arguments
     }
 
-    /// A player at a terminal, who asks for `order` instead of the coach.
+    /// Starts a player at a terminal who requests the command `order` instead of the coach.
     fn player(&self, key: &str, order: &str) -> Session {
         let mut command = CommandBuilder::new("ssh");
         command.args(self.arguments(key));
@@ -104,7 +104,7 @@ impl Club {
     }
 }
 
-/// The page's script, which looks for keys in the folder `keys`.
+/// Returns the script of the page, changed to look for keys in the folder `keys`.
 fn script(keys: &Path) -> String {
     let page = include_str!("../../docs/club.md");
     let script = page.split("```sh\n").find(|block| block.starts_with("#!/bin/sh")).unwrap();
@@ -127,7 +127,7 @@ fn every_key_of_a_player_is_answered_with_a_line_whether_or_not_its_file_ends_in
     assert_eq!(answer, [line("anna", "AAAA"), line("anna", "BBBB"), line("ben", "CCCC")].concat());
 }
 
-/// The process that serves a player.
+/// Returns the process that serves a player.
 fn process(name: &str) -> Option<u32> {
     let is_it = |id: &u32| {
         let words = fs::read(format!("/proc/{id}/cmdline")).unwrap_or_default();
@@ -137,14 +137,14 @@ fn process(name: &str) -> Option<u32> {
     fs::read_dir("/proc").unwrap().filter_map(|entry| entry.ok()?.file_name().to_str()?.parse().ok()).find(is_it)
 }
 
-/// A line of `/proc/PID/smaps_rollup`, bytes.
+/// Returns a value of `/proc/PID/smaps_rollup`, bytes.
 fn memory(process: u32, what: &str) -> u64 {
     let text = fs::read_to_string(format!("/proc/{process}/smaps_rollup")).unwrap();
     let line = text.lines().find_map(|line| line.strip_prefix(what)).unwrap();
     line.trim().trim_end_matches(" kB").parse::<u64>().unwrap() * 1024
 }
 
-/// Ticks of the processor that a process has had.
+/// Returns the processor time that a process has used, in ticks.
 fn ticks(process: u32) -> u64 {
     let text = fs::read_to_string(format!("/proc/{process}/stat")).unwrap();
     let fields: Vec<&str> = text.rsplit(')').next().unwrap().split_whitespace().collect();
@@ -156,13 +156,13 @@ fn ticks(process: u32) -> u64 {
 fn twenty_players_share_a_machine_over_ssh() {
     let names: Vec<String> = (1..=PLAYERS).map(|number| format!("player-{number}")).collect();
     let club = Club::open(&names);
-    // Whatever else they ask for, they get the coach.
+    // Whatever other command they request, they get the coach.
     let mut sessions: Vec<Session> = names.iter().map(|name| club.player(name, "cat /etc/passwd")).collect();
     for session in &mut sessions {
         session.wait_for(OPENING);
         assert!(!session.screen().contents().contains("root:"));
     }
-    // All think at once.
+    // All coaches think at the same time.
     let start = Instant::now();
     for session in &mut sessions {
         session.send("\r");
@@ -192,7 +192,7 @@ fn twenty_players_share_a_machine_over_ssh() {
     assert_eq!(used, 0);
     assert!(shares.iter().all(|bytes| *bytes <= MEMORY), "{shares:?}");
 
-    // One crashes, one floods: the others go on.
+    // One session crashes and one is flooded with input: the others continue.
     assert!(Command::new("kill").args(["-KILL", &processes[0].to_string()]).status().unwrap().success());
     sessions[1].send(&"jk".repeat(50_000));
     let start = Instant::now();
@@ -202,7 +202,7 @@ fn twenty_players_share_a_machine_over_ssh() {
     sessions[2].send("q");
     assert_eq!(sessions[2].ends_within(PATIENCE).exit_code(), 0);
 
-    // Each has a folder of their own, and nobody else has any.
+    // Each player has a folder, and nobody else does.
     let folders = fs::read_dir(club.players_folder()).unwrap().map(|entry| entry.unwrap().file_name());
     let mut folders: Vec<String> = folders.map(|name| name.into_string().unwrap()).collect();
     folders.sort();
@@ -254,7 +254,7 @@ fn a_player_looks_on_over_ssh_while_another_plays() {
     anna.wait_for_advice();
     anna.send(" ");
     ben.wait_for("next: ");
-    // A connection that breaks takes the picture with it.
+    // A broken connection ends the display.
     anna.cut();
     ben.wait_for("anna shows no table at the moment");
     ben.send("q");

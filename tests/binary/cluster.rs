@@ -1,4 +1,4 @@
-//! The scripts of `docs/cluster.md`, really run: they need Slurm, or Python with Optuna.
+//! The scripts of `docs/cluster.md`, run with Slurm, or with Python and Optuna.
 //!
 //! `cargo test --profile quick --test binary cluster:: -- --ignored`
 
@@ -12,10 +12,10 @@ use std::{
 
 use assert_cmd::cargo::cargo_bin;
 
-/// Longest that an array of jobs may take.
+/// Time limit for an array of jobs.
 const PATIENCE: Duration = Duration::from_secs(600);
 
-/// A folder with the script `name` of the page.
+/// Returns a folder with the script `name` of the page.
 fn folder_with(name: &str) -> tempfile::TempDir {
     let page = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/cluster.md")).unwrap();
     let after = page.split_once(&format!(" {name}\n")).expect(name).1;
@@ -24,7 +24,7 @@ fn folder_with(name: &str) -> tempfile::TempDir {
     folder
 }
 
-/// Runs a program in the folder with this carom on its path, and gives what it prints.
+/// Runs a program in the folder with this carom on its path, and returns its output.
 fn output(folder: &Path, program: &str, args: &[&str]) -> String {
     let carom = cargo_bin("carom");
     let path = format!("{}:{}", carom.parent().unwrap().display(), env::var("PATH").unwrap());
@@ -33,7 +33,7 @@ fn output(folder: &Path, program: &str, args: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// Submits the array and waits until no task of it is left.
+/// Submits the array and waits until all its tasks have ended.
 fn run_array(folder: &Path, script: &str) {
     output(folder, "sbatch", &["--wait", script]);
 }
@@ -45,7 +45,7 @@ fn an_array_of_seeds_ends_in_their_results() {
     run_array(folder.path(), "train.sbatch");
     let begin = Instant::now();
     for seed in 1..=3 {
-        // A task that was stopped queues again.
+        // A stopped task is queued again.
         let result = folder.path().join(format!("runs/seed-{seed}/result.json"));
         while !result.exists() {
             assert!(begin.elapsed() < PATIENCE, "{}", result.display());

@@ -1,10 +1,10 @@
-//! The command line: what a shot comes to, one naming of balls and directions, and names that people type.
+//! The command line: verdicts of shots, consistent names of balls and directions, and typed names.
 
 use serde_json::{Value, json};
 
 use crate::program::{asked as carom, carom as carom_of, folder};
 
-/// What is printed where all goes well.
+/// Returns the standard output of a successful command.
 fn said(args: &[&str]) -> String {
     String::from_utf8(carom(args).assert().success().get_output().stdout.clone()).unwrap()
 }
@@ -13,7 +13,7 @@ fn answer(args: &[&str]) -> Value {
     serde_json::from_str(&said(args)).unwrap()
 }
 
-/// What is told where the input is wrong.
+/// Returns the error message of a refused command.
 fn refusal(args: &[&str]) -> String {
     let output = carom(args).output().unwrap();
     assert!(!output.status.success() && output.stdout.is_empty(), "{output:?}");
@@ -23,7 +23,7 @@ fn refusal(args: &[&str]) -> String {
 const LAYOUT: &str = "-0.5,0 0,0 0.5,0.03";
 /// Meets yellow, a cushion, then red.
 const ONE_CUSHION: &str = "0,0.4,0,0.3,3";
-/// Comes off four cushions first, then red, then yellow.
+/// Meets four cushions first, then red, then yellow.
 const CUSHIONS: &str = "0,0,0,100,8";
 
 fn simulate<'a>(shot: &'a str, more: &[&'a str]) -> Vec<&'a str> {
@@ -53,7 +53,7 @@ fn the_judgement_stands_in_json_beside_what_stood_there_before() {
     assert_eq!((&missed["point"], missed.get("cushions_before_second")), (&json!(false), None));
 }
 
-/// The rules let nobody play at a ball that touches the cue ball.
+/// The rules forbid a stroke at a ball that touches the cue ball.
 #[test]
 fn a_stroke_at_a_touching_ball_is_played_and_called_a_foul_wherever_it_is_tried() {
     let home = tempfile::tempdir().unwrap();
@@ -80,7 +80,7 @@ fn a_stroke_at_a_touching_ball_is_played_and_called_a_foul_wherever_it_is_tried(
     assert!(tried.contains(&format!("Foul: {foul}")), "{tried}");
 }
 
-/// What the stroke gives the cue ball plays the same shot, and at any moment the balls' motion is told.
+/// The printed impulse of the stroke, used as input, plays the same shot; the motion of the balls is reported at any time.
 #[test]
 fn the_impulse_and_the_balls_at_any_moment_are_told() {
     let stroke = answer(&simulate("0,0.4,0,0,2", &["--json", "--at", "0,0.5,100"]));
@@ -96,7 +96,7 @@ fn the_impulse_and_the_balls_at_any_moment_are_told() {
     assert!(refusal(&simulate("0,0.4,0,0,2", &["--at", "-1"])).contains("0 or more"));
 }
 
-/// For people alone: JSON stays in metres and millimetres.
+/// Only text uses the units of the settings: JSON stays in metres and millimetres.
 #[test]
 fn a_simulated_shot_and_a_tried_one_are_told_in_the_units_of_the_settings() {
     let home = folder();
@@ -108,7 +108,7 @@ fn a_simulated_shot_and_a_tried_one_are_told_in_the_units_of_the_settings() {
         std::fs::write(settings.join("config.toml"), "length_unit = \"feet\"\ntip_unit = \"mm\"\n").unwrap();
         let other = [args.to_vec(), [args, &["--json"]].concat()].map(|args| carom_of(home.path(), &args).out);
         std::fs::remove_file(settings.join("config.toml")).unwrap();
-        // A session has another name every time.
+        // The name of a session differs every time.
         let nameless =
             |text: &str| text.lines().filter(|line| !line.contains("\"session\"")).collect::<Vec<_>>().join("\n");
         assert_eq!(nameless(&json), nameless(&other[1]));
@@ -137,7 +137,7 @@ fn a_line_of_a_batch_may_name_its_own_rule() {
     );
 }
 
-/// They were the words of the library that reads JSON: `invalid type: string "4", expected f64, column 113`.
+/// Regression test: the messages used the jargon of the JSON library: `invalid type: string "4", expected f64, column 113`.
 #[test]
 fn a_refused_line_names_the_field_with_its_value_and_what_is_accepted() {
     let line = |name: &str, value: Value| {
@@ -157,8 +157,8 @@ fn a_refused_line_names_the_field_with_its_value_and_what_is_accepted() {
         (line("impulse", json!({"velocity": 3})), &["\"impulse\" is {\"velocity\":3}", "[x, y, z]"]),
         (line("rule", json!("Straight")), &["\"rule\" is \"Straight\"", "\"three-cushion\""]),
         (whole[..40].to_owned(), &["it ends before its object does"]),
-        (whole.replacen("match", "match\" \"", 1), &[" is no JSON"]),
-        (whole.replacen("\"rule\"", "\"preset\": \"thesis\", \"rule\"", 1), &["\"preset\" is there twice"]),
+        (whole.replacen("match", "match\" \"", 1), &[" is not JSON"]),
+        (whole.replacen("\"rule\"", "\"preset\": \"thesis\", \"rule\"", 1), &["\"preset\" occurs twice"]),
     ] {
         let output = carom(&["simulate", "--batch", "-"]).write_stdin(line.clone()).output().unwrap();
         let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -187,8 +187,8 @@ fn balls_have_their_colours_wherever_people_read() {
 }
 
 #[test]
-fn directions_are_from_nought_to_below_360_degrees() {
-    // The only way to both balls is downwards to the right.
+fn directions_are_from_zero_to_below_360_degrees() {
+    // The only course to both balls leads down to the right.
     let layout = "-0.5,0.3 0,0 0.3,-0.2";
     let common =
         ["recommend", "--layout", layout, "--budget-ms", "5000", "--simulations", "2000", "--skill", "perfect"];
@@ -234,7 +234,7 @@ fn an_exercise_may_be_called_by_its_title_or_the_beginning_of_it() {
     let refused = refusal(&["drill", "show", "a"]);
     assert!(refused.contains("\"a\"") && refused.contains(" and ") && refused.lines().count() == 1, "{refused}");
     assert!(refusal(&["drill", "show", "no such exercise"]).contains("carom drill list"));
-    // The record is that of the exercise, whatever it was called.
+    // The record belongs to the exercise, whichever name was used.
     let home = tempfile::tempdir().unwrap();
     let practise = |args: &[&str]| carom(args).env("XDG_DATA_HOME", home.path()).output().unwrap();
     assert!(practise(&["drill", "log", &title, "make"]).status.success());

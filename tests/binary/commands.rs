@@ -16,7 +16,7 @@ fn lines(output: &[u8]) -> Vec<Value> {
     String::from_utf8_lossy(output).lines().map(|line| serde_json::from_str(line).unwrap()).collect()
 }
 
-/// The exit code and what was said, for input that must leave the standard output empty.
+/// Returns the exit code and the message for input that must leave the standard output empty.
 fn refusal(command: &mut Command) -> (i32, String) {
     let output = command.output().unwrap();
     assert!(output.stdout.is_empty(), "nothing may be written for refused input");
@@ -163,7 +163,7 @@ fn self_play_counts_points_and_misses() {
     assert_eq!(report["runs"].as_array().unwrap().len(), 3);
     assert_eq!(number("misses") + number("broken_off"), 3);
     assert!(number("longest") <= 2 && number("points") <= 6);
-    // Of one turn the mean is the slowest; it counted what plays the shot, too.
+    // With a single turn, the mean must equal the slowest turn. Regression test: the mean included the time to play the shot, too.
     let turn = json(&["evaluate", "--self-play", "--layouts", "1", "--most-points", "1", "--budget-ms", "9", "--json"]);
     assert_eq!(turn["mean_ms"], turn["slowest_ms"]);
 }
@@ -206,7 +206,7 @@ fn a_batch_of_layouts_takes_rules_and_tables_line_by_line() {
 
 #[test]
 fn where_the_time_runs_out_the_best_attempt_is_shown_and_said_to_be_one() {
-    // Three balls in corners, one simulated batch of shots at most: three cushions are not found in no time.
+    // The balls are in three corners and there is time for one batch of simulated shots at most, which finds no three-cushion shot.
     let layout = "-1.38,-0.67 1.38,0.67 1.38,-0.67";
     let args = ["recommend", "--table", "thesis", "--layout", "-1.2,-0.6 1.2,0.6 1.2,-0.6", "--rule", "three-cushion"];
     let output = carom(&args).args(["--budget-ms", "0", "--json"]).output().unwrap();
@@ -214,7 +214,7 @@ fn where_the_time_runs_out_the_best_attempt_is_shown_and_said_to_be_one() {
     assert_eq!(answer["solved"], false);
     assert_eq!(output.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&output.stderr).contains("best attempt"));
-    // The same on the table that has a policy still ends, whatever it finds.
+    // The same on the table that has a policy must also end, whatever it finds.
     carom(&["recommend", "--layout", layout, "--budget-ms", "0"]).output().unwrap();
 }
 
@@ -332,7 +332,7 @@ fn a_table_that_only_has_the_name_of_a_bundled_one_gets_no_bundled_policy() {
 
 #[test]
 fn a_recommendation_counts_on_the_diamonds_where_a_system_describes_it() {
-    // Two balls in the way of a bank from the corner: 50 - 30 = 20.
+    // Two balls are in the path of a bank from the corner: 50 - 30 = 20.
     let layout = "0.84,-0.32 -0.27,-0.55 -0.18,-0.63";
     let args = ["recommend", "--rule", "three-cushion", "--budget-ms", "60000", "--simulations", "20000"];
     let mut counted = 0;
@@ -357,7 +357,7 @@ fn a_recommendation_counts_on_the_diamonds_where_a_system_describes_it() {
     assert!(counted > 0, "no shot of three seeds takes three cushions in a row");
 }
 
-/// A table file like `textbook`, whose balls leave the cloth.
+/// Writes a table file like `textbook` whose balls can leave the cloth.
 fn flying_table(folder: &std::path::Path) -> String {
     let file = folder.join("flying.toml");
     std::fs::write(&file, format!("{}\n[flight]\n", include_str!("../../src/table/textbook.toml"))).unwrap();

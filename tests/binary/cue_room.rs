@@ -1,4 +1,4 @@
-//! The cue's room on the command line: notes, JSON and what `recommend` answers on a table that has rails.
+//! Room for the cue on the command line: notes, JSON and the answers of `recommend` on a table with rails of finite height.
 
 use std::{fs, path::PathBuf};
 
@@ -10,10 +10,10 @@ const TABLE: &str = "name = \"railed\"\nL = 2.84\nl = 1.42\nR = 0.03075\nm = 0.2
                      mu_sp = 0.0124\ne_ball = 0.95\nmu_b = 0.06\ne_rail = 0.85\nmu_rail = 0.2\ng = 9.81\n\
                      miscue_limit = 0.25\nd = 0.1825\n";
 
-/// White frozen to the bottom rail.
+/// White is frozen to the bottom rail.
 const FROZEN: &str = "0,-0.67925 -0.5,0.3 0.6,0.1";
 
-/// The table with this end, as a file of its own.
+/// Writes the table with this ending to its own file.
 fn table(name: &str, end: &str) -> PathBuf {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.toml"));
     fs::write(&path, format!("{TABLE}{end}")).unwrap();

@@ -33,7 +33,7 @@ fn a_new_user_has_nothing_wrong_and_nothing_is_made() {
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0, "the doctor changes nothing");
 }
 
-/// Half an object came, and the output was blamed.
+/// Regression test: only half of the JSON object was written, and the error blamed the output.
 #[cfg(unix)]
 #[test]
 fn folders_whose_names_are_no_text_are_told_as_far_as_they_can_be() {
@@ -57,7 +57,7 @@ fn what_is_wrong_is_named_and_the_exit_code_says_so() {
     };
     put("config/carom/config.toml", "speed = 80\n");
     put("carom/tables/bad.toml", "length = 2");
-    // In centimetres, which --table refuses.
+    // The lengths are in centimetres, which --table refuses.
     put("carom/tables/long.toml", &include_str!("../../src/table/textbook.toml").replace("L = 2.84", "L = 284"));
     put("carom/sessions/broken.json", "{");
     put("carom/positions/broken.json", "{");

@@ -1,4 +1,4 @@
-//! Tables, settings, shell completions and manual pages through the real binary; what `docs/` says of them; the moving picture.
+//! Tables, settings, shell completions and manual pages through the real binary; their descriptions in `docs/`; the animation.
 
 #[path = "../../examples/picture/animation.rs"]
 mod animation;
@@ -157,10 +157,10 @@ fn the_page_of_the_settings_has_the_table_that_the_program_prints() {
     assert!(include_str!("../../docs/settings.md").contains(&table), "docs/settings.md needs this table:\n{table}");
 }
 
-/// The subcommands of the program or of one of them, each with the first sentence of what it does.
+/// Returns the subcommands of the program or of one of them, each with the first sentence of its description.
 fn subcommands(help: &str) -> Vec<(&str, &str)> {
     let list = help.split_once("Commands:\n").unwrap().1.split_once("\n\n").unwrap().0;
-    // A line that goes on stands further to the right.
+    // Continuation lines are indented further.
     list.lines()
         .filter_map(|line| line.strip_prefix("  ").filter(|line| !line.starts_with(' '))?.split_once(' '))
         .map(|(name, about)| (name, about.trim().split(". ").next().unwrap()))
@@ -168,7 +168,7 @@ fn subcommands(help: &str) -> Vec<(&str, &str)> {
         .collect()
 }
 
-/// The long options in `words`: where they begin after a blank or a back-tick.
+/// Returns the long options in `words`: those that start after a space or a backtick.
 fn options(words: &str) -> BTreeSet<&str> {
     let ends =
         |rest: &str| rest.find(|letter: char| !letter.is_ascii_lowercase() && letter != '-').unwrap_or(rest.len());
@@ -245,7 +245,7 @@ fn the_page_of_the_command_line_names_every_top_level_field_of_an_answer() {
     }
 }
 
-/// Fields of an exercise, which stand where library files are described.
+/// Fields of an exercise, which are documented with the library files.
 fn is_of_an_exercise(field: &str) -> bool {
     ["name", "category", "grade", "point", "tags", "shot"].contains(&field)
 }
@@ -257,7 +257,7 @@ fn the_examples_of_the_pages_work() {
         include_str!("../../docs/practice.md"),
         include_str!("../../docs/command-line.md"),
     ];
-    // Those that take no time, need no file of the reader's and keep nothing.
+    // Only examples that take no time, need no file of the reader and store nothing.
     let examples = pages.iter().flat_map(|page| page.lines()).filter(|line| {
         ["carom simulate ", "carom drill list "].iter().any(|begin| line.starts_with(begin))
             && !line.contains("--batch")
@@ -265,7 +265,7 @@ fn the_examples_of_the_pages_work() {
     let mut count = 0;
     for example in examples {
         let words = example.split('#').next().unwrap().trim();
-        // What stands between quotation marks is one word.
+        // Text between quotation marks is one word.
         let words = words
             .split('"')
             .enumerate()
@@ -278,7 +278,7 @@ fn the_examples_of_the_pages_work() {
     assert!(count >= 5, "{count} examples");
 }
 
-/// Panics unless every element of `document` is closed in its turn and every attribute is quoted.
+/// Panics unless every element of `document` is closed in order and every attribute is quoted.
 fn check_elements(document: &str) {
     let mut open = Vec::new();
     for rest in document.split('<').skip(1) {
@@ -314,7 +314,7 @@ fn a_moving_picture_paints_what_changes_when_it_changes() {
     let layers: Vec<&str> = picture.split("<g id=\"f").collect();
     assert_eq!(layers.len(), 4);
     assert!(layers[0].contains(">ab<") && layers[0].contains(">table<"));
-    // The letters beside the changed one are painted with it, since letters may reach into each other's cells.
+    // The letters next to the changed one are painted, too, because letters may extend into neighbouring cells.
     assert!(
         layers[1].starts_with("1\">") && layers[1].contains(">b&lt;e<") && !layers[1].contains("ab"),
         "{}",
@@ -341,7 +341,7 @@ fn the_moving_picture_of_the_readme_is_small_and_needs_no_script() {
         assert!(!picture.contains(foreign), "{foreign}");
     }
     assert!(picture.contains("@media (prefers-reduced-motion:no-preference)"));
-    // What stands still is the coach's advice.
+    // The still frame shows the coach's advice.
     let still = picture.split(" visibility=\"hidden\"").next().unwrap();
     assert!(still.contains("expert makes it") && !still.contains("plays the shot"));
     assert!(picture.contains("the point is made"));

@@ -1,4 +1,4 @@
-//! `carom evaluate` in parts: together they report what one process does.
+//! `carom evaluate` in parts: merged, they report the same as a single process.
 
 use std::{fs, path::Path, time::Duration};
 
@@ -17,7 +17,7 @@ fn json(line: &str) -> Value {
     serde_json::from_slice(&output).unwrap()
 }
 
-/// Measures a part into a file and gives its path.
+/// Measures a part into a file and returns the path.
 fn part(folder: &Path, line: &str, shard: &str) -> String {
     let output = asked(&words(&format!("{line} --shard {shard}"))).assert().success().get_output().stdout.clone();
     let path = folder.join(format!("{}.json", shard.replace('/', "-of-")));
@@ -25,7 +25,7 @@ fn part(folder: &Path, line: &str, shard: &str) -> String {
     path.display().to_string()
 }
 
-/// Without what depends on the machine's speed.
+/// Removes the values that depend on the speed of the machine.
 fn timeless(mut report: Value) -> Value {
     for name in ["layouts_per_second", "slowest_ms", "mean_ms"] {
         report.as_object_mut().unwrap().remove(name);
@@ -42,7 +42,7 @@ fn merged_parts_are_the_whole() {
             " --random-search 20" => "evaluate --layouts 7".to_owned() + kind,
             kind => WHOLE.to_owned() + kind,
         };
-        // In any order.
+        // The order of the files does not matter.
         let parts = ["3/3", "1/3", "2/3"].map(|shard| part(folder.path(), &line, shard));
         let merged = json(&format!("evaluate --merge {}", parts.join(" ")));
         assert_eq!(timeless(merged), timeless(json(&line)), "{kind}");
@@ -72,7 +72,7 @@ fn two_measurements_on_the_same_layouts_are_compared_layout_by_layout() {
     );
 }
 
-/// The name of a policy is no policy: what it stands for may have changed between two parts.
+/// The name of a policy does not identify it: the networks behind it may have changed between two parts.
 #[test]
 fn parts_by_other_networks_or_another_version_are_not_put_together() {
     let folder = tempfile::tempdir().unwrap();
@@ -99,7 +99,7 @@ fn parts_by_other_networks_or_another_version_are_not_put_together() {
     other["order"]["version"] = "0.0.1".into();
     let newer = merged(&one, &other);
     assert!(newer.code == Some(2) && newer.err.contains("by different versions of carom"), "{}", newer.err);
-    // Earlier versions wrote neither.
+    // Earlier versions wrote neither of them.
     for name in ["version", "checksum"] {
         assert!(other["order"].as_object_mut().unwrap().remove(name).is_some_and(|value| value.is_string()), "{name}");
     }
@@ -118,11 +118,11 @@ fn innings_that_were_not_begun_are_told() {
         assert_eq!((&report["layouts"], &report["innings"]), (&5.into(), &0.into()), "{line}");
         let text = asked(&words(&line)).assert().success().get_output().stdout.clone();
         let text = String::from_utf8(text).unwrap();
-        assert!(text.contains("; on 5 of 5 layouts none was begun, for the time was up)"), "{text}");
+        assert!(text.contains("; on 5 of 5 layouts none was started, because the time was up)"), "{text}");
     }
     let text = asked(&words(line)).assert().success().get_output().stdout.clone();
     let text = String::from_utf8(text).unwrap();
-    assert!(text.contains("in 5 innings (") && !text.contains("none was begun"), "{text}");
+    assert!(text.contains("in 5 innings (") && !text.contains("none was started"), "{text}");
 }
 
 #[test]
@@ -145,7 +145,7 @@ fn what_is_not_a_whole_is_refused_by_name() {
     let [one, two] = ["1/3", "2/3"].map(|shard| part(folder.path(), line, shard));
     let other = tempfile::tempdir().unwrap();
     let stranger = part(other.path(), "evaluate --layouts 4 --random-search 6", "3/3");
-    // The same number, of another number of parts and of another evaluation.
+    // A part with the same number, but of another number of parts or of another evaluation.
     let halves = part(other.path(), line, "1/2");
     let others = part(other.path(), "evaluate --layouts 4 --random-search 6", "1/3");
     let broken = folder.path().join("broken.json").display().to_string();
@@ -164,10 +164,10 @@ fn what_is_not_a_whole_is_refused_by_name() {
         (vec![&one, &two, &stranger], " 5 and 6"),
         (vec![&one, &halves], "are parts of different evaluations: of 3 and of 2 parts"),
         (vec![&one, &others], "are parts of different evaluations: random_search 5 and 6"),
-        (vec![&broken], "is no part of an evaluation"),
+        (vec![&broken], "is not a part of an evaluation"),
         (vec![&cut], "it ends in the middle of line 1"),
         (vec![&empty], "it is empty"),
-        (vec![&prose], "line 1, column 1 is no JSON"),
+        (vec![&prose], "line 1, column 1 is not JSON"),
         (vec![&other_json], "line 1, column 2"),
     ] {
         let files: Vec<&str> = files.into_iter().map(String::as_str).collect();
@@ -182,8 +182,8 @@ fn what_is_not_a_whole_is_refused_by_name() {
     }
 }
 
-/// clap does not ask for what an option needs where something is given that goes against that: the option was left out in silence,
-/// and the report named tables on which nothing had been played.
+/// Regression test: clap does not check what an option requires if a conflicting option is given. The option was silently ignored, and the
+/// report named tables that were never played on.
 #[test]
 fn an_option_of_another_kind_of_measurement_is_refused() {
     for line in [
@@ -207,7 +207,7 @@ fn an_option_of_another_kind_of_measurement_is_refused() {
     }
 }
 
-/// A ball that a raised cue had brought above another met it in the air without end, and the coach never answered.
+/// Regression test: a raised cue had brought a ball above another; they met in the air endlessly, and the coach never answered.
 #[test]
 fn a_ball_that_stays_above_another_keeps_nobody_waiting() {
     let line = "evaluate --self-play --rule three-cushion --skill beginner --layouts 400 --simulations 90000 --seed 16";

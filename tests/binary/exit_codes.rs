@@ -1,4 +1,4 @@
-//! One rule for exit codes, through the real binary: docs/command-line.md has it.
+//! The rule for exit codes, through the real binary; docs/command-line.md states it.
 
 use std::fs;
 
@@ -76,7 +76,7 @@ fn what_would_be_wrong_on_every_machine_is_not_acceptable() {
     ] {
         let said = carom(home.path(), args);
         assert!(said.code == Some(2) && !said.err.is_empty() && said.out.is_empty(), "{args:?}: {}", said.err);
-        // What clap says has several lines.
+        // Messages of clap have several lines.
         assert!(!said.err.starts_with("carom: ") || said.err.lines().count() == 1, "{args:?}: {}", said.err);
     }
 }
@@ -94,7 +94,7 @@ fn refused_lines_of_a_pipe_end_every_conversation_in_the_same_way() {
         assert_eq!(said(args, good).code, Some(0), "{args:?}");
         let ended = said(args, refused);
         assert!(
-            ended.code == Some(2) && ended.err.ends_with("2 lines refused; each was told why\n"),
+            ended.code == Some(2) && ended.err.ends_with("2 lines refused; the reasons are above\n"),
             "{args:?}: {}",
             ended.err
         );

@@ -1,4 +1,4 @@
-//! What goes through the real binary: the command line, runs that train, practice, trouble, and a screen in a pseudo-terminal.
+//! Tests of the real binary: the command line, training runs, practice, failures, and the screen in a pseudo-terminal.
 
 mod accuracy;
 mod accuracy_input;

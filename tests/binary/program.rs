@@ -1,4 +1,4 @@
-//! The program as a process: whose user it has, what it is told, and what it says.
+//! Helpers to start the program as a process with its own user folders, input and captured output.
 
 use std::{
     fs,
@@ -11,22 +11,22 @@ use std::{
 use assert_cmd::cargo::cargo_bin;
 use serde_json::Value;
 
-/// Where a test's program finds settings, runs and practice: none of whoever runs the tests. Nothing is looked for there by
-/// a test; one that does has a folder of its own.
+/// Environment for the folders of settings, runs and practice: not those of the user who runs the tests. No test expects data there; a test
+/// that needs data has its own folder.
 pub fn home() -> impl Iterator<Item = (&'static str, String)> {
     ["HOME", "XDG_DATA_HOME", "XDG_CONFIG_HOME", "XDG_STATE_HOME"]
         .into_iter()
         .map(|name| (name, format!("{}/home/{name}", env!("CARGO_TARGET_TMPDIR"))))
 }
 
-/// The program, which finds nothing of any user's, with what there is to assert on its answer.
+/// Returns the program in this environment, with assertions on its output.
 pub fn asked(args: &[&str]) -> assert_cmd::Command {
     let mut command = assert_cmd::Command::new(cargo_bin!("carom"));
     command.envs(home()).env_remove("LC_ALL").env_remove("LC_CTYPE").env("LANG", "C.UTF-8").args(args);
     command
 }
 
-/// A position with a shot that an expert makes now and then.
+/// A position with a shot that an expert makes sometimes.
 pub const SAVE: &[&str] = &["save", "mine", "--layout", "-0.5,0 0,0 0.5,0.03", "--shot", "0,0.3,3,1,4"];
 
 pub struct Outcome {
@@ -36,13 +36,13 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// The lines of JSON.
+    /// Parses the output as lines of JSON.
     pub fn json(&self) -> Vec<Value> {
         self.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
     }
 }
 
-/// A user's folder with the position `mine`.
+/// Returns a user folder with the position `mine`.
 pub fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     assert_eq!(drill(folder.path(), SAVE).code, Some(0));
@@ -55,7 +55,7 @@ pub fn command(folder: &Path, args: &[&str]) -> Command {
     command
 }
 
-/// A program whose user lives in `folder`.
+/// Returns a command whose user folders are in `folder`.
 pub fn program(folder: &Path, program: &Path) -> Command {
     let mut command = Command::new(program);
     command.current_dir(folder).env("XDG_DATA_HOME", folder).env("HOME", folder);
@@ -73,10 +73,10 @@ pub fn drill(folder: &Path, args: &[&str]) -> Outcome {
     carom(folder, &[&["drill"], args].concat())
 }
 
-/// With these lines on the standard input.
+/// Runs a command with these lines on the standard input.
 pub fn fed(mut command: Command, lines: &str) -> Outcome {
     let mut child = command.stdin(Stdio::piped()).spawn().unwrap();
-    // A program that ends early does not read all of it.
+    // A program that ends early does not read all of its input.
     let _ = child.stdin.take().unwrap().write_all(lines.as_bytes());
     outcome(child)
 }
@@ -87,21 +87,21 @@ pub fn outcome(child: Child) -> Outcome {
     Outcome { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
 }
 
-/// The files of all sessions.
+/// Returns the files of all sessions.
 pub fn sessions(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder.join("carom/sessions")).into_iter().flatten();
     let files = entries.map(|entry| entry.unwrap().path());
     files.filter(|file| file.extension().is_some_and(|extension| extension == "json")).collect()
 }
 
-/// Attempts at `mine` that the program finds in its files; it must find nothing to complain of.
+/// Returns the number of attempts at `mine` that the program finds in its files; it must report no problem.
 pub fn tried(folder: &Path) -> u64 {
     let history = drill(folder, &["history", "--json"]);
     assert!(history.code == Some(0) && history.err.is_empty(), "{}", history.err);
     history.json().iter().map(|row| row["tried"].as_u64().unwrap()).sum()
 }
 
-/// A process that ends when the test does, however that ends.
+/// A process that is ended when the test ends, even after a failure.
 pub struct Kept(pub Child);
 
 impl Deref for Kept {
@@ -120,7 +120,7 @@ impl DerefMut for Kept {
 
 impl Drop for Kept {
     fn drop(&mut self) {
-        // It has ended already where the test went well.
+        // After a successful test it has already ended.
         let _ = self.0.kill();
         let _ = self.0.wait();
     }

@@ -1,4 +1,4 @@
-//! What is refused, when, and in which words.
+//! What is refused, when, and with which message.
 
 use std::{
     fs,
@@ -38,7 +38,7 @@ fn settings_of_an_agent_are_refused_in_plain_words() {
         said.err
     };
     let again =
-        "the settings in own.toml: line 2, heads: a name that stands there already; accepted are lines like heads = 8";
+        "the settings in own.toml: line 2, heads: a name that is already used; accepted are lines like heads = 8";
     for (agent, text, words) in [
         ("ddpg", "# mine\nheads = \n", "the settings in own.toml: line 2, heads: "),
         ("ddpg", "heads = 8\nheads = 9\n", again),
@@ -63,7 +63,8 @@ fn settings_of_an_agent_are_refused_in_plain_words() {
         ("ddpg", "hindsight = 0.5", "hindsight = 0.5 is outside its range; accepted is 0, as"),
         ("ddpg", "demonstrations = 0.2", "demonstrations = 0.2 is outside its range; accepted is 0, as"),
         ("ddpg", "searched = 1", "use searched with context = true"),
-        // Expert iteration that began from a round in which the critic alone learnt went on so for ten rounds unnoticed.
+        // Regression test: expert iteration started from a round in which only the critic learned; it continued like that unnoticed for ten
+        // rounds.
         ("ddpg", "context = true\nimitation = 0.3\nactor_learning_rate = 1e-9", "actor_learning_rate of 1e-9"),
         ("q-learning", "learning_rate = 1.5", "learning_rate = 1.5"),
         ("q-learning", "alpha = 0.1", "alpha"),
@@ -81,7 +82,7 @@ fn settings_of_an_agent_are_refused_in_plain_words() {
     ] {
         let said = said(agent, text);
         assert!(said.contains(words), "{said}");
-        // What only thesis-ddpg has is offered to nobody else.
+        // Settings that only thesis-ddpg has are not suggested for other agents.
         assert!(agent == "thesis-ddpg" || said.contains("accepted is 0, as") || !said.contains("hindsight"), "{said}");
     }
     let nameless = carom(home.path(), &["train", "--set", "=8"]);

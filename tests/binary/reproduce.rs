@@ -47,7 +47,7 @@ fn an_interrupt_ends_it_with_the_number_of_figures_that_are_complete() {
         .spawn()
         .unwrap();
     let mut child = Kept(child);
-    // It says that it trains as soon as it listens to signals.
+    // The program reports that it trains once it handles signals.
     let mut said = std::io::BufReader::new(child.stderr.take().unwrap());
     let mut line = String::new();
     std::io::BufRead::read_line(&mut said, &mut line).unwrap();

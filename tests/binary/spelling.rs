@@ -1,4 +1,4 @@
-//! Where the locale has no UTF-8, what people read is spelt in ASCII; JSON and what is meant for a file are not.
+//! If the locale has no UTF-8, text for people is transliterated to ASCII; JSON and text meant for a file are not.
 
 use crate::program::{carom, command, folder, outcome};
 

@@ -1,4 +1,4 @@
-//! The program in a pseudo-terminal: typing, looking at what it shows, and the ways in which a line ends.
+//! The program in a pseudo-terminal: typing, reading its screen, and the ways in which a connection ends.
 
 use std::{
     io::{Read, Write},
@@ -13,11 +13,11 @@ use std::{
 use portable_pty::{Child, CommandBuilder, ExitStatus, MasterPty, PtySize, native_pty_system};
 use tempfile::TempDir;
 
-/// Longest time that a test waits for a picture; a loaded machine may take long to start a process.
+/// Timeout for an expected picture; a loaded machine may need long to start a process.
 pub const PATIENCE: Duration = Duration::from_secs(20);
-/// What the coach shows at the start.
+/// Text of the coach's screen at the start.
 pub const OPENING: &str = "white at x -710.0 mm";
-/// Silence after which no picture is on its way any more.
+/// Silence after which no more output is expected.
 pub const REST: Duration = Duration::from_millis(150);
 
 pub fn carom() -> CommandBuilder {
@@ -34,7 +34,7 @@ fn cells(count: u16) -> NonZero<u16> {
     NonZero::new(count).unwrap()
 }
 
-/// The terminal's side. It takes something only when it is asked for more: a line that nobody reads stands still.
+/// The terminal's side of the connection. It reads only on demand, so that an unread connection stalls.
 struct Line {
     master: Box<dyn MasterPty + Send>,
     writer: Box<dyn Write + Send>,
@@ -44,13 +44,13 @@ struct Line {
 }
 
 pub struct Session {
-    /// Nothing once it is cut.
+    /// `None` once the connection is cut.
     line: Option<Line>,
     pub child: Box<dyn Child + Send + Sync>,
     screen: vt100::Parser,
-    /// Settings, the last session and the log: not those of whoever runs the tests.
+    /// Settings, the last session and the log: not those of the user who runs the tests.
     home: Option<TempDir>,
-    /// Bytes seen so far.
+    /// Number of bytes read so far.
     pub bytes: usize,
 }
 
@@ -66,7 +66,7 @@ impl Session {
         session
     }
 
-    /// The user's home, where the session has one of its own.
+    /// Returns the user's home folder, if the session has its own.
     pub fn home(&self) -> Option<&Path> {
         self.home.as_ref().map(TempDir::path)
     }
@@ -107,7 +107,7 @@ impl Session {
         self.screen.screen()
     }
 
-    /// The file in which the next session looks for the last one.
+    /// Returns the file in which the next session looks for the last one.
     pub fn last(&self) -> String {
         let home = self.home.as_ref().unwrap().path();
         std::fs::read_to_string(home.join("state/carom/last.json")).unwrap_or_default()
@@ -119,7 +119,7 @@ impl Session {
         writer.flush().unwrap();
     }
 
-    /// Types these keys and waits until the program has answered them with a picture.
+    /// Types these keys and waits until the program has answered with a picture.
     pub fn press(&mut self, keys: &str) {
         let before = self.bytes;
         self.send(keys);
@@ -141,15 +141,15 @@ impl Session {
         assert!(Command::new("kill").args([&format!("-{name}"), &id]).status().unwrap().success());
     }
 
-    /// Bytes that the program has written so far, to whatever; where the system does not tell, nothing.
+    /// Returns the number of bytes that the program has written so far, to any file; `None` if the system does not report it.
     pub fn written(&self) -> Option<u64> {
         let text = std::fs::read_to_string(format!("/proc/{}/io", self.child.process_id()?)).ok()?;
         text.lines().find_map(|line| line.strip_prefix("wchar: ")?.parse().ok())
     }
 
-    /// The terminal goes away. (Its last words are an empty line and Ctrl-D: the library that makes it has it so.)
+    /// Closes the terminal. (The library ends it with an empty line and Ctrl-D.)
     pub fn cut(&mut self) {
-        // Whoever waits for something to read holds it: there has to be something.
+        // A reader that waits for output holds the connection, so output is provoked by resizing.
         let mut sizes = [(100, 30), (120, 40)].into_iter().cycle();
         while self.line.as_ref().is_some_and(|line| line.is_asked)
             && let Some((width, height)) = sizes.next()
@@ -160,7 +160,7 @@ impl Session {
         self.line = None;
     }
 
-    /// Takes what comes within `time`; `None` once the other side is closed.
+    /// Reads the output that arrives within `time`; `None` once the other side is closed.
     pub fn take(&mut self, time: Duration) -> Option<Vec<u8>> {
         let line = self.line.as_mut()?;
         if !line.is_asked {
@@ -191,7 +191,7 @@ impl Session {
         self.wait_until(text, |screen| screen.contents().contains(text));
     }
 
-    /// Waits until the coach has found its shot, of which nothing has been played yet.
+    /// Waits until the coach has found a shot, before it is played.
     pub fn wait_for_advice(&mut self) {
         self.wait_until("the advice", |screen| {
             let text = screen.contents();
@@ -199,7 +199,7 @@ impl Session {
         });
     }
 
-    /// Waits until nothing has come for so long.
+    /// Waits until nothing has arrived for `silence`.
     pub fn settle(&mut self, silence: Duration) {
         let start = Instant::now();
         while self.take(silence).is_some_and(|bytes| !bytes.is_empty()) {
@@ -207,7 +207,7 @@ impl Session {
         }
     }
 
-    /// Bytes that come within `time`.
+    /// Returns the number of bytes that arrive within `time`.
     pub fn count(&mut self, time: Duration) -> usize {
         let (start, before) = (Instant::now(), self.bytes);
         while start.elapsed() < time {
@@ -216,7 +216,7 @@ impl Session {
         self.bytes - before
     }
 
-    /// Waits for the end of the process for so long, without taking anything from it.
+    /// Waits at most `time` for the end of the process, without reading its output.
     pub fn ends_within(&mut self, time: Duration) -> ExitStatus {
         let start = Instant::now();
         loop {
@@ -228,7 +228,7 @@ impl Session {
         }
     }
 
-    /// Waits for the end of the process and of its output; the terminal has to be as it was.
+    /// Waits for the end of the process and of its output; the terminal must be restored.
     pub fn assert_left_without_trace(&mut self) -> ExitStatus {
         let start = Instant::now();
         let status = loop {
@@ -243,7 +243,7 @@ impl Session {
         status
     }
 
-    /// What the program has taken of the terminal is given back.
+    /// Asserts that the program has restored all terminal modes.
     pub fn assert_given_back(&self) {
         let screen = self.screen();
         assert!(!screen.alternate_screen(), "the alternate screen was left on");
@@ -252,9 +252,9 @@ impl Session {
         assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::None);
     }
 
-    /// Ctrl-Z has given the terminal to the shell; continues the program until `text` is there again.
+    /// Continues the program after Ctrl-Z has returned the terminal to the shell, until `text` is displayed again.
     pub fn come_back_to(&mut self, text: &str) {
-        // A signal that comes before the process has stopped continues nothing: as often as needed.
+        // A signal that arrives before the process has stopped has no effect, so it is repeated.
         let start = Instant::now();
         while !self.screen().alternate_screen() || !self.screen().contents().contains(text) {
             assert!(start.elapsed() < PATIENCE, "it does not come back\n{}", self.screen().contents());
@@ -266,7 +266,7 @@ impl Session {
 
 impl Drop for Session {
     fn drop(&mut self) {
-        // It has ended already where the test went well.
+        // After a successful test it has already ended.
         let _ = self.child.kill();
     }
 }

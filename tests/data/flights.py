@@ -1,10 +1,10 @@
-"""Golden flights: shots with a raised cue on the textbook's table with a cloth that gives back half (e_c = 0.5), computed
-with 50 digits by a program that shares nothing with the simulator: mpmath, one landing after another instead of closed
+"""Golden flights: shots with a raised cue on the textbook's table with a cloth restitution of one half (e_c = 0.5), computed
+with 50 digits by a program that shares no code with the simulator: mpmath, one landing after another instead of closed
 sums, and all roots of every polynomial instead of bracketing.
 
     python3 tests/data/flights.py > tests/data/flights.jsonl
 
-What follows is docs/physics.md: motion on the cloth, the stroke, impacts in space, the cloth's answer.
+The equations are those of docs/physics.md: motion on the cloth, the stroke, impacts in space, the cloth's reaction.
 """
 
 import json
@@ -22,7 +22,7 @@ MU_S, MU_R, MU_SP, G = mpf("0.2"), mpf("0.010"), mpf("0.0124"), mpf("9.81")
 E_BALL, MU_BALL, E_RAIL, MU_RAIL = mpf("0.95"), mpf("0.06"), mpf("0.85"), mpf("0.2")
 E_CLOTH, MU_CLOTH = mpf("0.5"), MU_S
 SLIDE, ROLL, SPIN = MU_S * G, mpf(5) / 7 * MU_R * G, mpf(5) / 2 * MU_SP * G / R
-# A hop that is slower than this has ended.
+# A hop slower than this counts as ended.
 LAST_HOP = mpf(10) ** -32
 NEVER = mpf("inf")
 NORMALS = {"left": (1, 0), "right": (-1, 0), "bottom": (0, 1), "top": (0, -1)}
@@ -53,7 +53,7 @@ class Ball:
         return [self.v[0] - R * self.w[1], self.v[1] + R * self.w[0]]
 
     def settle(self):
-        """The equation of motion that follows from the state."""
+        """Sets the equation of motion from the state."""
         small = mpf(10) ** -40
         if self.mode == "off":
             return
@@ -93,7 +93,7 @@ class Ball:
             left = fabs(self.w[2]) - SPIN * t
             self.w[2] = left * (1 if self.w[2] > 0 else -1) if left > 0 else mpf(0)
         if self.mode == "slide":
-            # w' = 5/(2R) z x (the slip's direction times mu_s g)
+            # w' = 5/(2R) z x (direction of the slip velocity times mu_s g)
             self.w[0] += t * mpf(5) / (2 * R) * a[1]
             self.w[1] -= t * mpf(5) / (2 * R) * a[0]
         self.p = [p + t * v + t * t * b / 2 for p, v, b in zip(self.p, self.v, a)]
@@ -102,7 +102,7 @@ class Ball:
             self.w[0], self.w[1] = -self.v[1] / R, self.v[0] / R
 
     def press(self):
-        """The cloth's answer to a ball on it that moves downwards."""
+        """Applies the cloth's reaction to a ball on it that moves downwards."""
         if self.v[2] >= 0:
             return
         push = -(1 + E_CLOTH) * self.v[2]
@@ -138,7 +138,7 @@ def strike(ball, cue):
 
 
 def first_fall(coefficients, limit, touching):
-    """The first time after zero at which a polynomial, lowest coefficient first, falls through zero."""
+    """Returns the first time after zero at which a polynomial, lowest coefficient first, falls through zero."""
     c = list(coefficients)
     if touching:
         if c[1] < 0:
@@ -159,12 +159,12 @@ def first_fall(coefficients, limit, touching):
 
 
 def far(d, limit, reach):
-    """Whether |d0 + d1 t + d2 t^2| surely stays above some distance."""
+    """Whether |d0 + d1 t + d2 t^2| certainly stays above the distance `reach`."""
     return limit < NEVER and size(d[0]) - reach > size(d[1]) * limit + size(d[2]) * limit**2 + mpf(10) ** -9
 
 
 def square(d):
-    """The square of |d0 + d1 t + d2 t^2|."""
+    """Returns the coefficients of |d0 + d1 t + d2 t^2|^2."""
     return [
         dot(d[0], d[0]),
         2 * dot(d[0], d[1]),
@@ -190,7 +190,7 @@ class Shot:
         self.events.append(event)
 
     def rail_ahead(self, ball, limit):
-        """Where the ball's surface meets a nose, here a line at the height of the centre; on the cloth that is R away."""
+        """Returns time and rail of the contact with a nose, a line at the height of the centre, or "over" if the ball passes it."""
         best = (NEVER, None)
         if ball.mode in ("rest", "off"):
             return best
@@ -198,7 +198,7 @@ class Shot:
         for rail, n in NORMALS.items():
             n = [mpf(x) for x in n]
             edge = L / 2 if n[0] else W / 2
-            # The way from the nose to the centre: inwards and upwards.
+            # The vector from the nose to the centre: inwards and upwards.
             way = [
                 [edge + dot(n, ball.p[:2]), ball.p[2]],
                 [dot(n, ball.v[:2]), ball.v[2]],
@@ -368,7 +368,7 @@ def main():
         theta = rng.choice([3, 8, 20, 35, 50, 65, 80]) + rng.random()
         phi = rng.uniform(-180, 180)
         if rng.random() < 0.7:
-            # A ball in the way.
+            # A ball in the path.
             way, off = rng.uniform(0.08, 0.6), math.radians(phi + rng.uniform(-8, 8))
             layout[1] = [layout[0][0] + way * math.cos(off), layout[0][1] + way * math.sin(off)]
         apart = [size(plus([mpf(x) for x in layout[i]], [mpf(x) for x in layout[j]], -1)) for i, j in ((0, 1), (0, 2), (1, 2))]

@@ -58,8 +58,8 @@ fn every_shot_shows_what_its_category_teaches() {
     assert!(draws.filter(turns).count() >= 6);
 }
 
-/// Of exercises for gathering the tags tell what yellow does, and of those for one cushion `draw`, `follow` and `thin` tell the
-/// stroke.
+/// In exercises for gathering, the tags describe the motion of yellow; in one-cushion exercises, the tags `draw`, `follow` and `thin`
+/// describe the stroke.
 #[test]
 fn the_classifier_calls_exercises_as_their_tags_do() {
     let mut compared = 0;
@@ -88,13 +88,13 @@ fn the_numbers_in_the_words_of_a_systems_exercise_are_those_of_its_shot() {
         let (table, shot) = (exercise.table().unwrap(), exercise.shot.unwrap());
         let recording = Recording::new(&table, &exercise.layout, &shot).unwrap();
         let Some(Guide::System(applied)) = guide(&table, &recording) else { panic!("{}", exercise.name) };
-        // What the point says, and what the coach would say: three numbers with a sign and an equals sign.
+        // The text of the exercise and the text of the coach: three numbers with a sign and an equals sign.
         let [told, counted] = [&exercise.point, &applied.arithmetic()].map(|text| {
             let words: Vec<&str> = text.split([' ', ',', ':']).collect();
             let equals = words.iter().position(|word| *word == "=").unwrap();
             [3, 1].map(|back| words[equals - back]).map(|word| word.parse::<f64>().unwrap())
         });
-        // A tenth of a diamond, or three tenths where a number is a diamond or less.
+        // A tenth of a diamond, or three tenths for systems in which one unit is a diamond or less.
         let near = if applied.system == System::Corner5 { 1.0 } else { 0.3 };
         for (told, counted) in told.into_iter().zip(counted) {
             assert!((told - counted).abs() <= near, "{}: {}", exercise.name, applied.arithmetic());
@@ -102,8 +102,8 @@ fn the_numbers_in_the_words_of_a_systems_exercise_are_those_of_its_shot() {
     }
 }
 
-/// [`flaws`] has the ball's own line; whoever sights the cue through the diamond that is told, and leaves the squirt alone, has
-/// to make the point too.
+/// [`flaws`] checks the line of the ball itself. A player who aims the cue through the stated diamond and ignores squirt must also make the
+/// point.
 #[test]
 fn a_cue_that_is_sighted_through_the_number_of_a_systems_exercise_makes_the_point() {
     for exercise in bundled().into_iter().filter(|exercise| exercise.category == Category::Systems) {
@@ -167,12 +167,12 @@ fn par_is_what_is_measured_and_the_grade_follows_it() {
     for exercise in &exercises {
         let par = exercise.par.unwrap();
         assert_eq!(exercise.grade, par.grade(), "{}", exercise.name);
-        // A beginner who misses what was meant makes some points all the same: where a stroke is as likely for both, the attempts' own
-        // chance decides.
+        // A beginner who misses the intended shot still makes some points by luck. If a stroke is equally likely for two players, the
+        // random spread of the attempts decides.
         let is_ordered = par.beginner <= par.club + 0.01 && par.club <= par.world_class;
         assert!(is_ordered, "{}: {par:?}", exercise.name);
     }
-    // All of them: the example `grade` with --check.
+    // All exercises are checked by the example `grade` with --check.
     for exercise in exercises.iter().step_by(19) {
         assert_eq!(Par::measure(exercise).unwrap(), exercise.par, "{}", exercise.name);
     }

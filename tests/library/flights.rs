@@ -34,7 +34,7 @@ fn a_stroke_of_45_degrees_and_6_m_s_clears_a_ball_at_30_cm() {
     assert_eq!(kinds(&over)[0], EventKind::Jumps(0));
 }
 
-/// The height is `V_z²/2g` of what the cloth gives back of the stroke's downward part.
+/// The height is `V_z²/2g`, for the part of the stroke's downward speed that the cloth returns.
 #[test]
 fn a_level_ish_stroke_hops_by_a_millimetre() {
     let table = flying("match");
@@ -47,8 +47,8 @@ fn a_level_ish_stroke_hops_by_a_millimetre() {
     assert!(height > 0.0005 && height < 0.005, "{height}");
 }
 
-/// Coriolis (1835): a massé ends up rolling along the line from where the ball stands to where the cue points on the cloth,
-/// however the cloth rubs, in the squeeze of the stroke, in landings or in between.
+/// Coriolis (1835): a massé ends up rolling parallel to the line from the ball's initial position to the point on the cloth at which the
+/// cue aims. This does not depend on friction during the stroke, in landings or in between.
 #[test]
 fn a_masse_bends_the_way_that_coriolis_constructs() {
     let table = Table { width: 20.0, length: 40.0, ..flying("textbook") };
@@ -56,7 +56,8 @@ fn a_masse_bends_the_way_that_coriolis_constructs() {
         [(0.3, 0.1, 60.0, 3.0), (-0.4, -0.1, 75.0, 4.0), (0.25, -0.3, 45.0, 2.0), (-0.2, 0.3, 30.0, 5.0)]
     {
         let cue = CueInputs { a, b, theta: f64::to_radians(degrees), phi: 0.0, speed };
-        // The tip over the place where the ball stands, in radii: b is a height, and what is left of a radius points back.
+        // The tip relative to the ball's contact point with the cloth, in radii: b is a height, and the rest of the radius points
+        // backwards.
         let tip = [-(1.0 - a * a - b * b).sqrt(), a, 1.0 + b];
         let aim = DVec2::new(tip[0] + tip[2] / cue.theta.tan(), tip[1]);
         let layout = Layout::new([DVec2::ZERO, DVec2::new(-19.0, 9.0), DVec2::new(-19.0, -9.0)]);
@@ -69,7 +70,7 @@ fn a_masse_bends_the_way_that_coriolis_constructs() {
     }
 }
 
-/// A shot that nothing lifts is computed as on a table whose balls stay on the cloth.
+/// A shot without any lift is computed as on a table whose balls stay on the cloth.
 #[test]
 fn level_strokes_give_the_same_bits_whether_or_not_balls_can_fly() {
     for preset in ["textbook", "match"] {
@@ -107,7 +108,7 @@ fn a_ball_shot_over_the_rail_leaves_the_table() {
     assert_eq!(shot.motion(0, shot.duration()), Motion::OffTable);
 }
 
-/// What the observer counts of random shots.
+/// Counts of random shots, from the observer.
 #[derive(Default)]
 struct Counts {
     events: usize,

@@ -1,4 +1,4 @@
-//! The links of all pages, without a network: files are there, headings too, and the book has every page.
+//! The links of all pages, without network access: files and headings exist, and the book contains every page.
 
 use std::{
     collections::BTreeSet,
@@ -10,18 +10,18 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The pages of a folder.
+/// Returns the pages of a folder.
 fn pages_in(folder: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(root().join(folder)).unwrap().map(|entry| entry.unwrap().path());
     entries.filter(|path| path.extension().is_some_and(|extension| extension == "md")).collect()
 }
 
-/// The pages that people read.
+/// Returns all pages for readers.
 fn pages() -> Vec<PathBuf> {
     ["", "docs", "models", "saves", "tests/data/filmed"].into_iter().flat_map(pages_in).collect()
 }
 
-/// The targets of `[words](target)`, but for those in blocks of code.
+/// Returns the targets of `[words](target)`, except those in code blocks.
 fn links(text: &str) -> Vec<&str> {
     let outside = text.split("```").step_by(2);
     outside
@@ -31,7 +31,7 @@ fn links(text: &str) -> Vec<&str> {
         .collect()
 }
 
-/// The anchors that headings get: lower case, blanks as dashes, without signs.
+/// Returns the anchors of the headings: lower case, dashes for spaces, no punctuation.
 fn anchors(text: &str) -> BTreeSet<String> {
     let headings = text.lines().filter(|line| line.starts_with('#')).map(|line| line.trim_start_matches('#').trim());
     headings

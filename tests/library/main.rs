@@ -1,4 +1,4 @@
-//! What goes through the library: shots against independent answers, laws of physics, agents, exercises, and the app's screens.
+//! Tests of the library: shots against independent results, laws of physics, agents, exercises, and the screens of the app.
 
 mod documents;
 mod exercises;

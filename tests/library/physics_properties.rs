@@ -1,4 +1,4 @@
-//! What must hold for every shot: energy, no overlap, mirror symmetry, the same bits on every run.
+//! Properties of every shot: energy, no overlap, mirror symmetry, the same bits on every run.
 
 use carom::{
     physics::{CueInputs, Motion},
@@ -10,14 +10,14 @@ use proptest::{prelude::*, test_runner::RngSeed};
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// Rounding of sums of squares of a few m/s.
+/// Rounding error of sums of squares of a few m/s.
 const ROUNDING: f64 = 1e-12;
 
 fn tables() -> impl Strategy<Value = Table> {
     prop::sample::select(PRESETS.to_vec()).prop_map(|name| Table::preset(name).unwrap())
 }
 
-/// Strokes over the whole of what is accepted, leaning to the rim of the ball and to extreme speeds.
+/// Generates strokes over the whole accepted range, with a bias to the edge of the ball and to extreme speeds.
 fn cues() -> impl Strategy<Value = CueInputs> {
     let share = prop_oneof![3 => 0.0..0.5, 1 => 0.5..0.999_f64];
     let speed = prop_oneof![5 => 0.3..7.0, 1 => 1e-4..0.3, 1 => 7.0..40.0_f64];
@@ -38,15 +38,15 @@ fn shots() -> impl Strategy<Value = (Table, Layout, CueInputs)> {
     })
 }
 
-/// Whether no two impacts happen within a nanosecond, and nothing rests against anything: then the order in which balls
-/// are looked at cannot matter.
+/// Whether no two impacts occur within a nanosecond, and nothing rests against anything: then the order in which balls are examined cannot
+/// matter.
 fn only_single_impacts(recording: &Recording) -> bool {
     let rests = |kind: EventKind| matches!(kind, EventKind::ContactBegins(_));
     recording.events().iter().all(|event| !rests(event.kind))
         && recording.events().windows(2).all(|pair| pair[1].time - pair[0].time > 1e-9)
 }
 
-/// The event with balls 1 and 2 exchanged.
+/// Returns the event with balls 1 and 2 exchanged.
 fn renamed(kind: EventKind) -> EventKind {
     let name = |ball: usize| if ball == 0 { 0 } else { 3 - ball };
     match kind {
@@ -68,8 +68,8 @@ fn energy(recording: &Recording, table: &Table, t: f64) -> f64 {
     (0..3).map(|ball| recording.spatial_state(ball, t).specific_energy(table.radius, table.gravity)).sum()
 }
 
-/// Checks at a time that no balls overlap and all are on the table, to within a billionth of a metre. A ball that lies on no
-/// cloth any more may be anywhere; one in the air may be over a nose.
+/// Checks at time `t` that no balls overlap and that all are on the table, within a billionth of a metre. A ball that has left the table
+/// may be anywhere; a ball in the air may be over a nose.
 fn check_places(table: &Table, recording: &Recording, t: f64) -> Result<(), TestCaseError> {
     let is_on_table = |ball: &usize| recording.motion(*ball, t) != Motion::OffTable;
     let on_table = (0..3).filter(is_on_table).map(|ball| recording.spatial_state(ball, t).position);
@@ -86,8 +86,8 @@ fn check_places(table: &Table, recording: &Recording, t: f64) -> Result<(), Test
 }
 
 proptest! {
-    // A failure is printed whole and becomes a test of its own below; seeds on file would hide what it is about. The
-    // same shots every time, so that a change is what makes a test fail: PROPTEST_RNG_SEED tries others.
+    // A failure is printed completely and becomes a separate test below; seed files would hide its cause. The shots are the same every
+    // time, so that only a code change can make the test fail: PROPTEST_RNG_SEED tries others.
     #![proptest_config(ProptestConfig {
         failure_persistence: None,
         rng_seed: RngSeed::Fixed(2026),
@@ -129,7 +129,7 @@ proptest! {
         // Mirroring exchanges left and right: the side of the tip, and the sense of phi.
         let mirrored_cue = CueInputs { a: -cue.a, phi: -cue.phi, ..cue };
         let mirrored = Recording::new(&table, &mirrored_layout, &mirrored_cue).unwrap();
-        // Rounding grows with every collision: what must agree exactly is the beginning.
+        // Rounding errors grow with every collision, so only the beginning must agree exactly.
         let kinds = |recording: &Recording| -> Vec<&str> {
             recording.events().iter().take(4).map(|event| event.kind.name()).collect()
         };
@@ -140,7 +140,7 @@ proptest! {
         }
     }
 
-    /// Exchanging the object balls exchanges the names in the course and nothing else, to the last bit.
+    /// Exchanging the object balls exchanges their names in the course and changes nothing else, to the last bit.
     #[test]
     fn the_balls_numbers_do_not_matter((table, layout, cue) in shots()) {
         let [cue_ball, one, other] = layout.balls;
@@ -163,7 +163,7 @@ proptest! {
     }
 }
 
-/// Two balls roll on against each other on the thesis' table, and what each does alone presses them together.
+/// Regression test: two balls roll against each other on the thesis' table, and the motion of each alone presses them together.
 #[test]
 fn rolling_balls_that_nothing_holds_together_meet_again_before_they_overlap() {
     let table = Table::preset("thesis").unwrap();

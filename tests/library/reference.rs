@@ -1,4 +1,4 @@
-//! The simulator, and the truth that it is judged by, against shots that independent programs computed with 50 significant digits.
+//! The simulator and the reference engine, compared with shots that independent programs computed with 50 significant digits.
 
 use carom::study::{GOAL_MEDIAN, GOAL_P99, ReferenceRow, Spread, check_references};
 
@@ -23,14 +23,14 @@ fn the_reference_shots_are_met() {
         assert!(units.median <= GOAL_MEDIAN && units.p99 <= GOAL_P99 && units.worst <= 1000.0, "{row:?}");
         assert!(worst(row.engine_time_s) < 1e-9 && worst(row.engine_duration_s) < 1e-9, "{row:?}");
     }
-    // The layouts of almost touching balls are rounded in the file, which `condition` does not count.
+    // The layouts of almost touching balls are rounded in the file; `condition` does not include this.
     assert!(worst(shots.truth_units) <= 4.0 && worst(hard.truth_units) <= 4.0, "{shots:?} {hard:?}");
-    // The file's digits end at some 1e-16 m; amplified by the shot, nothing of it is left to see.
+    // The digits in the file end at about 1e-16 m; even amplified by the shot, this error is invisible.
     assert!(worst(shots.truth_m) < 5e-16, "{shots:?}");
-    // The files are good to about 1e-10 m where balls rest against cushions.
+    // The files are accurate to about 1e-10 m where balls rest against cushions.
     assert!(worst(contact.engine_m) < 1e-9 && worst(contact.engine_duration_s) < 1e-8, "{contact:?}");
     assert!(worst(contact.truth_m) < 1e-10 && worst(contact.engine_to_truth_m) < 1e-9, "{contact:?}");
-    // The table of the flights is written in decimals, which no double is: that is what is left.
+    // The table of the flights is written in decimals that doubles cannot represent exactly: only this error remains.
     let units = flights.truth_units.unwrap();
     assert!(units.median < 1.0 && units.worst < 16.0, "{flights:?}");
 }

@@ -1,5 +1,5 @@
-//! Points under every rule, in positions that are built so that anybody can count: the object balls are put in the cue
-//! ball's way after so many cushions.
+//! Points under every rule, in layouts that are constructed so that anybody can count: the object balls are put in the cue ball's path
+//! after a given number of cushions.
 
 use carom::{
     game::{Rule, scores},
@@ -9,7 +9,7 @@ use carom::{
 };
 use glam::DVec2;
 
-/// What the cue ball does, in order: 1 and 2 are object balls, 0 a cushion.
+/// Returns the contacts of the cue ball in order: 1 and 2 are object balls, 0 is a cushion.
 fn course(recording: &Recording) -> Vec<usize> {
     let met = |kind: EventKind| match kind {
         EventKind::BallBall(0, ball) => Some(ball),
@@ -23,8 +23,7 @@ fn play(table: &Table, balls: [DVec2; 3], shot: &CueInputs) -> Recording {
     Recording::new(table, &Layout::new(balls), shot).unwrap()
 }
 
-/// Where the cue ball is, and where it goes, halfway in time between its `number`th meeting, or the stroke for 0, and the
-/// next.
+/// Returns position and direction of the cue ball, halfway in time between its contact `number` (0 is the stroke) and the next one.
 fn after(recording: &Recording, number: usize) -> (DVec2, DVec2) {
     let of_cue = |kind: EventKind| matches!(kind, EventKind::BallBall(0, _) | EventKind::BallRail(0, _));
     let meetings = recording.events().iter().filter(|event| of_cue(event.kind)).map(|event| event.time);
@@ -33,8 +32,8 @@ fn after(recording: &Recording, number: usize) -> (DVec2, DVec2) {
     (state.position, state.velocity.normalize())
 }
 
-/// A shot that zigzags between the long cushions, with ball 1 in its way after `before` cushions, hit thin, and ball 2
-/// after `between` more, hit full.
+/// Builds a shot that zigzags between the long cushions. Ball 1 is in its path after `before` cushions, hit thin, and ball 2 after
+/// `between` more cushions, hit full.
 fn built(table: &Table, before: usize, between: usize) -> ([DVec2; 3], CueInputs) {
     let shot = CueInputs::parse("0,0,0,70,5").unwrap();
     let away = [DVec2::new(-1.35, -0.65), DVec2::new(-1.35, 0.65)];
@@ -77,7 +76,7 @@ fn cushions_after_the_second_ball_count_for_nothing() {
 #[test]
 fn the_same_ball_twice_is_one_ball() {
     let table = Table::preset("textbook").unwrap();
-    // Straight at a ball before the short cushion: it comes back and is met again.
+    // Straight at a ball in front of the short cushion: that ball comes back and is met again.
     let balls = [DVec2::new(0.0, 0.0), DVec2::new(1.2, 0.0), DVec2::new(-1.2, 0.6)];
     let shot = CueInputs::parse("0,0.3,0,0,3").unwrap();
     let course = course(&play(&table, balls, &shot));
@@ -85,9 +84,9 @@ fn the_same_ball_twice_is_one_ball() {
     assert!(!Rule::ALL.iter().any(|&rule| scores(rule, &table, &Layout::new(balls), &shot)));
 }
 
-/// The rules of the UMB let a player whose ball is frozen to another play away from it, or have the balls spotted anew.
-/// Touching is no meeting: played away from, the frozen ball has to be met again. (Playing onto it is a fault under those
-/// rules; here the impact counts, for the simulator knows no faults.)
+/// Under the UMB rules, a player whose ball is frozen to another may play away from it, or have the balls spotted. Touching does not count
+/// as a contact: after playing away, the frozen ball must be met again. (Playing onto it is a foul under those rules; here the impact
+/// counts, because the simulator has no fouls.)
 #[test]
 fn a_ball_that_is_touched_at_the_start_counts_only_when_it_is_met() {
     let table = Table::preset("textbook").unwrap();
@@ -98,7 +97,7 @@ fn a_ball_that_is_touched_at_the_start_counts_only_when_it_is_met() {
     let met = course(&play(&table, balls, &away));
     assert!(met.contains(&2) && !met.contains(&1), "{met:?}");
     assert!(!scores(Rule::StraightRail, &table, &Layout::new(balls), &away));
-    // Met again off a cushion, it counts: the other lies behind it, a little to the side.
+    // Met again after a cushion, it counts: the other ball is behind it, a little to the side.
     let hard = CueInputs::parse("0,0,0,0,4").unwrap();
     let balls = [DVec2::ZERO, frozen, DVec2::new(-0.6, 0.6)];
     assert_eq!(course(&play(&table, balls, &hard))[..2], [0, 1]);

@@ -1,4 +1,4 @@
-//! The same shot gives the same bits: with every saving switched off, on every run, and on every machine.
+//! The same shot gives the same bits: with every optimisation switched off, on every run, and on every machine.
 
 use std::ops::ControlFlow;
 
@@ -15,7 +15,7 @@ use carom::{
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// How many shots are worth their time: those of the thesis' table end in resting contacts, which are integrated.
+/// Number of shots per table: shots on the thesis' table are slower, because they end in resting contacts, which are integrated.
 const PLAYED: [(&str, usize); 3] = [("textbook", 2000), ("match", 1000), ("thesis", 300)];
 
 fn changes_no_bit<S: Savings>() {
@@ -28,7 +28,7 @@ fn changes_no_bit<S: Savings>() {
     }
 }
 
-/// A set of savings with one of them off, and the test that plays with it.
+/// A set of optimisations with one of them off, and the test that plays with it.
 macro_rules! without {
     ($test:ident, $saving:ident) => {
         #[test]
@@ -65,7 +65,7 @@ fn no_saving_at_all_changes_no_bit() {
     changes_no_bit::<Nothing>();
 }
 
-/// A trace of all courses, with the events between them.
+/// A trace of all trajectories, with the events between them.
 #[derive(Default, Debug, PartialEq)]
 struct Courses(Trace);
 
@@ -104,7 +104,7 @@ fn following_a_lone_ball_like_any_other_changes_no_course() {
     }
 }
 
-/// A trace without the stops, which are not asked for.
+/// A trace without stops, which are not requested.
 #[derive(Default, Debug, PartialEq)]
 struct OnTheMove(Trace);
 
@@ -139,13 +139,13 @@ fn rolling_out_the_last_ball_changes_no_bit_of_what_came_before() {
     }
 }
 
-/// Plays shots under a referee with and without the end that energy sets; tells how many have resting contacts that need not be followed.
+/// Plays shots with and without the early end for lack of energy; returns how many have resting contacts that need not be followed.
 fn ends_out_of_reach(count: usize) -> usize {
     struct Without;
     impl Savings for Without {
         const OUT_OF_REACH: bool = false;
     }
-    /// A referee who counts the steps of resting contacts.
+    /// A referee that counts the steps of resting contacts.
     struct Counting(Referee, usize);
     impl Observer for Counting {
         fn wants_ends(&self) -> bool {
@@ -166,7 +166,7 @@ fn ends_out_of_reach(count: usize) -> usize {
         let impulse = strike(table, &CueInputs::from(shot.cue));
         let mut watching = Counting(Referee::new(Some(enough), u32::MAX), 0);
         watch_with::<S, _>(table, &shot.layout, &impulse, &mut watching);
-        // Cushions do not count any more where no ball is met after them.
+        // Cushions no longer count if no ball is met after them.
         let Counting(Referee { tally, .. }, steps) = watching;
         (Tally { cushions: 0, met_again: tally.met_again && tally.met_both(), ..tally }, steps)
     }
@@ -197,8 +197,8 @@ fn ending_a_shot_whose_energy_is_spent_changes_no_verdict_of_many() {
     ends_out_of_reach(500_000);
 }
 
-/// Plays the shots of the hash twice. What it is `known` to be changes when results change on purpose: take the number from the message
-/// then, and say in the commit why.
+/// Plays the shots of the hash twice. The value `known` changes when results change on purpose: then copy the number from the message, and
+/// give the reason in the commit message.
 fn plays_the_same_everywhere(name: &str, lift: f64, known: u64) {
     let table = Table::preset(name).unwrap();
     let found = hash(&table, lift);

@@ -10,7 +10,7 @@ use carom::{
 };
 use glam::DVec2;
 
-/// Shots of each row on each of its tables, with the limits of the report.
+/// Number of shots of each row on each of its tables, with the limits of the report.
 const PLAN: Plan = Plan { random: 1_000, adversarial: 1_000, each_case: 100, seed: 1 };
 
 /// Plays a row and fails with its first failing shot, as JSON that `carom simulate --batch` reads.
@@ -104,11 +104,11 @@ fn every_row_is_in_the_document_and_holds_there() {
     }
 }
 
-/// Shots of the table that failed once, each for the cause that it names. Some took far too many steps of resting contacts and
-/// bounces of chatters: they tell how many are enough.
+/// Shots of the table that failed once, each with the cause that it names. Some took far too many steps of resting contacts and bounces of
+/// chatter: these state how many are enough.
 #[test]
 fn shots_that_failed_hold() {
-    // One is longer than a file may say.
+    // One table is longer than a file may state.
     let name = "thesis, 1 km".to_owned();
     let kilometre = Table { name, length: 1000.0, width: 500.0, ..Table::preset("thesis").unwrap() };
     let tables: Vec<Table> = cases().iter().flat_map(|case| (case.tables)()).chain([kilometre]).collect();
@@ -121,7 +121,7 @@ fn shots_that_failed_hold() {
         };
         let mut trace = Trace::new(table);
         let figures = examine(table, &shot, &mut trace);
-        // How long it takes is for the table to tell.
+        // The run time is judged by the stability table, not here.
         let violations = figures.violations(&Limits { seconds: f64::INFINITY, ..Limits::STRICT.on(table) });
         assert!(violations.is_empty(), "{}: {violations:?}", line["cause"]);
         let enough = line["contact_steps"].as_u64().map_or(usize::MAX, |steps| steps as usize);
@@ -138,7 +138,7 @@ fn a_contact_that_another_ball_ends_holds_nobody() {
     assert!(Recording::new(&table, &layout, &cue).unwrap().duration() > 1.0);
 }
 
-/// The ends of what is accepted are those of a table's file.
+/// The limits of the table cases are those of a table file.
 #[test]
 fn the_longest_table_is_the_longest_that_a_file_may_have() {
     let case: Case = cases().into_iter().find(|case| case.name == "the longest table, ten metres").unwrap();
@@ -167,8 +167,8 @@ fn a_cloth_without_friction_is_refused_with_a_sentence() {
     }
 }
 
-/// The checks themselves: a shot on a table that is smaller than the checker believes leaves it, balls that are placed
-/// inside each other overlap.
+/// The checks themselves: on a table that is smaller than the checker assumes, a shot leaves the table; balls that are placed inside each
+/// other overlap.
 #[test]
 fn the_checks_see_what_is_wrong() {
     let table = Table::default();

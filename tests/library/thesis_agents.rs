@@ -1,4 +1,4 @@
-//! The thesis' agents on a game whose optimum is known, and put aside and taken up again on the real one.
+//! The thesis' agents on a game with a known optimum, and saved and resumed on the real game.
 
 use carom::{
     game::Reward,
@@ -21,9 +21,9 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde_json::{Value, json};
 
-/// Two steps. The first action is the better the nearer its direction is to a place that the state names; only the
-/// second step pays for that, whatever is done then. So the most that there is to earn is one, at a known action, and
-/// nobody finds it without carrying values from one step back to the one before.
+/// A game of two steps. The first action is better the closer its direction is to a target given by the state; only the second step is
+/// rewarded for it, whatever the second action is. The maximum reward is one, at a known action, and an agent finds it only by propagating
+/// values from one step back to the previous one.
 #[derive(Default)]
 struct Detour {
     goal: f32,
@@ -56,7 +56,7 @@ impl Environment for Detour {
     }
 }
 
-/// What the agent's best first actions earn, in the mean over both states, after so many shots.
+/// Returns the mean reward of the agent's best first actions over both states, after this number of shots.
 fn learnt<A: Agent>(settings: A::Settings, shots: u32, seed: u64) -> f64 {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut agent = A::new(settings, &mut rng).unwrap();
@@ -92,8 +92,8 @@ fn deep_q_learning_finds_the_optimum() {
 
 #[test]
 fn the_deterministic_policy_gradient_finds_the_optimum() {
-    // Strong noise that goes on from game to game, and targets that follow soon: the defaults are made for far more shots. With
-    // some seeds the plain algorithm loses its way even so: of 16 two do, and rounding decides which and may cost a third.
+    // Strong noise that continues from game to game, and fast target updates: the defaults are for far more shots. With some seeds the
+    // plain algorithm fails even so: of 16 seeds two do, and rounding decides which ones and may cost a third.
     let noise = OrnsteinUhlenbeck { theta: 0.15, sigma: 0.3, dt: 1.0 };
     let settings = PlainDdpgSettings { keep: 0.99, noise, noise_restarts: false, ..PlainDdpgSettings::default() };
     let all = |shots: u32| (1..=16).map(|seed| learnt::<PlainDdpg>(settings.clone(), shots, seed)).collect::<Vec<_>>();
@@ -122,7 +122,7 @@ const AGENTS: [&str; 3] = ["q-learning", "dqn", "thesis-ddpg"];
 
 #[test]
 fn an_agent_with_lessons_that_goes_on_is_bit_for_bit_the_one_that_never_stopped() {
-    // Layouts to be searched are left when it is put aside, and more lessons are found than are remembered.
+    // When the agent is saved, layouts are left to search, and more lessons were found than fit into memory.
     let settings = json!({
         "hindsight": 0.4, "demonstrations": 0.3, "demonstration_layouts": 330, "demonstration_tries": 60, "memory": 50,
         "noise_falls_to": 0.5, "learning_rate_falls_to": 0.5, "falls_over": 400, "symmetric": true, "range_pull": 0.3,
@@ -204,7 +204,7 @@ fn a_run_from_before_there_were_lessons_is_still_read_and_goes_on_alike() {
 #[test]
 fn an_agent_that_goes_on_is_bit_for_bit_the_one_that_never_stopped() {
     for agent in AGENTS {
-        // Seven does not divide a turn's hundred shots: agents are put aside in the middle of a game.
+        // Seven does not divide the hundred shots of an iteration, so agents are saved in the middle of a game.
         for episode in [json!("one-shot"), json!({ "shots": 7 })] {
             let mut settings = json!({ "episode": episode });
             if agent != "q-learning" {

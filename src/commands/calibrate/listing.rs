@@ -1,4 +1,4 @@
-//! The tests as a list, and as a file of entries to fill in.
+//! The calibration tests as a list, and as a file of entries to fill in.
 
 use serde::Serialize;
 
@@ -12,7 +12,7 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// A test for a program.
+/// A test in JSON.
 #[derive(Serialize)]
 struct TestLine {
     test: &'static str,
@@ -20,11 +20,11 @@ struct TestLine {
     place: &'static str,
     strike: &'static str,
     times: usize,
-    /// Of the balls that take part, m.
+    /// Positions of the balls that take part, m.
     layout: Vec<[f64; 2]>,
     cue: CueInputs,
     marks: Vec<MarkLine>,
-    /// The mark that counts rails, where a test has it.
+    /// The mark that counts rails, in tests that have it.
     #[serde(skip_serializing_if = "Option::is_none")]
     rails: Option<RailsLine>,
 }
@@ -37,16 +37,16 @@ struct MarkLine {
     sure: f64,
 }
 
-/// How many short rails the ball has met: a whole number.
+/// The number of short rails that the ball has met: a whole number.
 #[derive(Serialize)]
 struct RailsLine {
     words: &'static str,
-    /// What it is if it is left out.
+    /// The value that is assumed if the mark is left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     usual: Option<usize>,
 }
 
-/// Prints the protocol.
+/// Prints the protocol: all tests.
 pub fn tests(table: &Table, is_json: bool) -> Result<(), Failure> {
     for (number, test) in (1..).zip(PROTOCOL) {
         if is_json {
@@ -65,11 +65,11 @@ pub fn tests(table: &Table, is_json: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// How places are counted.
+/// How positions are measured.
 const COUNTING: &str = "Places are in diamonds: along the table from your own short rail (0) to the far one (8), across it from \
                         the long rail on your right (0) to that on your left (4); the rubber's edge counts, not the wood.";
 
-/// A test for a player.
+/// Describes a test for a player.
 pub fn words(number: usize, test: &Test) -> Vec<String> {
     let times = match test.times {
         0 => "if you like".to_owned(),
@@ -88,7 +88,7 @@ pub fn words(number: usize, test: &Test) -> Vec<String> {
     lines
 }
 
-/// The words for the mark that counts rails.
+/// Description of the mark that counts rails.
 const MET: &str = "how many short rails it has met";
 
 fn counts_rails(test: &Test) -> bool {
@@ -99,13 +99,13 @@ fn usual(test: &Test) -> String {
     test.rails.map_or(String::new(), |rails| format!(", if not {rails}"))
 }
 
-/// A file of entries to fill in.
+/// Returns a file of entries to fill in.
 pub fn template() -> String {
     let mut text = format!(
-        "# What was measured at a table, for carom calibrate.\n\
+        "# Measurements at a table, for carom calibrate.\n\
          # {COUNTING}\n\
-         # A number may have a unit: \"412 mm\" (with a tape, from the same rails) is surer than 1.2 by eye. How sure a mark is\n\
-         # may be said: sure = {{ stop = 0.2 }}. What is not known is left out; a test may be left out, or stand here more often.\n\n\
+         # A number may have a unit: \"412 mm\" (with a tape, from the same rails) is more exact than 1.2 by eye. The uncertainty\n\
+         # of a mark can be given: sure = {{ stop = 0.2 }}. Leave out unknown values; tests may be left out or repeated.\n\n\
          name = \"own\"\n"
     );
     for (number, test) in (1..).zip(PROTOCOL) {

@@ -1,4 +1,4 @@
-//! `carom calibrate`: a table of one's own from a few short tests at it.
+//! `carom calibrate`: estimates the constants of a real table from a few short tests at it.
 
 mod listing;
 mod report;
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use super::{
     Failure,
     input::{seed, table_named, whole},
-    output::{check_place, line, need_folder, tell},
+    output::{check_place, line, need_folder, print_note},
 };
 use crate::{
     calibration::{Entries, KeptError, Play, calibrate, entries_of, may_save_table, overnight, prior, save_table},
@@ -20,44 +20,44 @@ use crate::{
 };
 use report::Report;
 
-/// What a calibrated table is called where nothing else is said.
+/// Default name of a calibrated table.
 const NAME: &str = "own";
 
-/// Find the constants of a real table, and how sure they are, from a few short tests.
+/// Estimate the constants of a real table and their uncertainty from a few short tests.
 ///
-/// The player plays the tests at the table and marks what comes of them. With a FILE of entries it says what follows from them.
-/// Without one it asks for the tests one by one and keeps every entry at once; the next call goes on where this one has ended.
+/// The player plays the tests at the table and writes down the results. With a FILE of these entries, the command reports what follows from
+/// them. Without one, it asks for the tests one by one and saves every entry at once; the next call continues where this one ended.
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct Args {
     /// The entries: TOML as --template prints it, or JSON with the same names.
     file: Option<PathBuf>,
-    /// The table to begin with: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file, such as one that was calibrated
-    /// before.
+    /// The table to start from: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file, such as one from an
+    /// earlier calibration.
     #[arg(long, default_value = "match", conflicts_with = "template")]
     table: String,
     /// Write the table to this TOML file.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Name of the table; "own" where the entries give none.
+    /// Name of the table. Default: the name in the entries, or "own"
     #[arg(long, conflicts_with_all = ["tests", "template", "simulate"])]
     name: Option<String>,
-    /// A check of the day: the table is one that was calibrated before, and two strokes, a lag and a Corner-5, say whether it
-    /// plays shorter or longer than then.
+    /// A daily check: the table is one that was calibrated before. Two strokes, a lag and a Corner-5, show whether it plays shorter or
+    /// longer than then.
     #[arg(long, conflicts_with_all = ["tests", "template", "simulate"])]
     daily: bool,
-    /// List the tests: where the balls lie, how to strike, what to mark.
+    /// List the tests: where to put the balls, how to strike, what to write down.
     #[arg(long, conflicts_with_all = ["file", "template", "simulate", "out"])]
     tests: bool,
     /// Print a file of entries to fill in.
     #[arg(long, conflicts_with_all = ["file", "simulate", "out", "json"])]
     template: bool,
-    /// Measure the calibration: draw so many tables, have a club player play all tests on each, and tell how often the 95 %
-    /// intervals hold the truth.
+    /// Measure the calibration itself: draw this many tables, let a simulated club player play all tests on each, and report how often the
+    /// 95 % intervals contain the truth.
     #[arg(long, value_name = "TABLES", conflicts_with_all = ["file", "out"],
         value_parser = whole(1..=100_000_u32))]
     simulate: Option<u32>,
-    /// With --simulate, the seed of tables and player.
+    /// With --simulate: the seed of the tables and the player.
     #[arg(long, requires = "simulate", conflicts_with_all = ["file", "out", "daily", "tests", "template"], default_value_t = 1,
         value_parser = seed)]
     seed: u64,
@@ -78,16 +78,16 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return simulated::run(&table, &prior(&table), tables, args.seed, args.json);
     }
     let doubt = doubt(args, &table)?;
-    // A session at the table is long: what it would end with is refused before it begins.
+    // A session at the table is long, so problems with its output are reported before it begins.
     args.name.as_deref().map_or(Ok(()), check_name)?;
     args.out.as_deref().map_or(Ok(()), check_out)?;
     match &args.file {
-        Some(file) => tell_of(args, &table, &doubt, &entries_of(file).map_err(failure)?),
+        Some(file) => report_result(args, &table, &doubt, &entries_of(file).map_err(failure)?),
         None => session::run(args, &table, &doubt),
     }
 }
 
-/// What is wrong inside a file is wrong input.
+/// Converts an error: invalid content of a file is wrong input.
 fn failure(error: KeptError) -> Failure {
     if matches!(error, KeptError::Wrong(..)) {
         return Failure::wrong_input(format_args!(
@@ -97,7 +97,7 @@ fn failure(error: KeptError) -> Failure {
     Failure::failed(error)
 }
 
-/// What is not known of the table now: for a check of the day, what may have changed overnight too.
+/// Returns the present uncertainty of the table's constants; for a daily check this includes possible changes overnight.
 fn doubt(args: &Args, table: &Table) -> Result<TableDoubt, Failure> {
     match &table.doubt {
         _ if !args.daily => Ok(prior(table)),
@@ -109,7 +109,7 @@ fn doubt(args: &Args, table: &Table) -> Result<TableDoubt, Failure> {
     }
 }
 
-/// Refuses what a table cannot be called.
+/// Refuses names that a calibrated table must not have.
 fn check_name(name: &str) -> Result<(), Failure> {
     if PRESETS.contains(&name) {
         return Err(Failure::wrong_input(format_args!(
@@ -125,7 +125,7 @@ fn check_name(name: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses where no table can be written.
+/// Refuses a path at which no table can be written.
 fn check_out(path: &Path) -> Result<(), Failure> {
     let target = target_of(path);
     need_folder(&target)?;
@@ -134,11 +134,11 @@ fn check_out(path: &Path) -> Result<(), Failure> {
     may_save_table(path).map_err(Failure::failed)
 }
 
-/// Calibrates with these entries, tells what was found and writes the table.
-fn tell_of(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entries) -> Result<(), Failure> {
+/// Calibrates with these entries, reports the result and writes the table.
+fn report_result(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entries) -> Result<(), Failure> {
     let (trials, odd) = entries.trials(table);
     for oddity in &odd {
-        tell(format_args!("{oddity}; it is left out"));
+        print_note(format_args!("{oddity}; it is left out"));
     }
     let own = table.doubt.is_some().then_some(&table.name);
     let name = args.name.as_ref().or(entries.name.as_ref()).or(own).map_or(NAME, String::as_str);
@@ -146,7 +146,7 @@ fn tell_of(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entries) ->
     let found = calibrate(name, table, doubt, &trials).map_err(Failure::wrong_input)?;
     let play = args.daily.then(|| [Play::of(table), Play::of(&found.table)]);
     let report = Report::new(&found, entries, &odd, play);
-    // Before anything is told: who stops reading still wants the table.
+    // Save before anything is printed: a closed output must not prevent it.
     let out = args.out.as_ref().filter(|_| odd.is_empty() && !found.is_contradictory());
     if let Some(path) = out {
         save_table(path, &found.table).map_err(Failure::failed)?;
@@ -169,7 +169,7 @@ fn tell_of(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entries) ->
     let Some(path) = out else { return Ok(()) };
     let said = format!("the table \"{}\" is written to {}", found.table.name, path.display());
     if args.json {
-        tell(said);
+        print_note(said);
         return Ok(());
     }
     line(said)

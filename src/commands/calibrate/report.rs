@@ -1,4 +1,4 @@
-//! What a calibration has found, for people and for programs.
+//! The report of a calibration, as text and as JSON.
 
 use serde::Serialize;
 
@@ -10,10 +10,10 @@ use crate::{
     },
 };
 
-/// How many of the tests that may be played next are told.
+/// How many of the most useful next tests are listed.
 const NEXT: usize = 3;
 
-/// What is told.
+/// The report of a calibration.
 #[derive(Serialize)]
 pub struct Report<'a> {
     #[serde(flatten)]
@@ -21,14 +21,14 @@ pub struct Report<'a> {
     missing: Vec<Missing>,
     odd: Vec<String>,
     contradictory: bool,
-    /// With `--daily`: how the table played before and plays now.
+    /// With `--daily`: how the table played before and how it plays now.
     #[serde(skip_serializing_if = "Option::is_none")]
     play: Option<[Play; 2]>,
     #[serde(skip)]
     is_daily: bool,
 }
 
-/// Strokes of a test that were not entered.
+/// The number of strokes of a test that were not entered.
 #[derive(Serialize)]
 struct Missing {
     test: &'static str,
@@ -36,11 +36,11 @@ struct Missing {
 }
 
 impl<'a> Report<'a> {
-    /// What is told of a calibration.
+    /// Creates the report of a calibration.
     pub fn new(found: &'a Calibration, entries: &Entries, odd: &[Oddity], play: Option<[Play; 2]>) -> Self {
         let is_daily = play.is_some();
         let missing = if is_daily { missing_today(entries) } else { entries.missing() };
-        // What one of the two tests of a day would say is not known without it.
+        // The comparison needs both tests of a daily check.
         let play = play.filter(|_| missing.is_empty());
         Self {
             found,
@@ -52,12 +52,12 @@ impl<'a> Report<'a> {
         }
     }
 
-    /// One object.
+    /// Prints one JSON object.
     pub fn json(&self) -> Result<(), Failure> {
         Ok(json_line(self)?)
     }
 
-    /// Lines.
+    /// Prints lines of text.
     pub fn text(&self) -> Result<(), Failure> {
         let found = self.found;
         let row = |one: &Change| {
@@ -85,13 +85,16 @@ impl<'a> Report<'a> {
         if self.is_daily {
             return Ok(());
         }
-        let told: Vec<String> =
+        let most_useful: Vec<String> =
             found.next.iter().take(NEXT).map(|next| format!("{} ({:.1} bits)", next.test, next.bits)).collect();
-        line(format_args!("next, one more stroke of these helps most (1 bit halves a doubt): {}", told.join(", ")))
+        line(format_args!(
+            "next, one more stroke of these tests helps most (1 bit halves a doubt): {}",
+            most_useful.join(", ")
+        ))
     }
 }
 
-/// What a stroke is called by its place in a file.
+/// Names a stroke by its position in a file.
 fn in_file(trial: usize, test: &str) -> String {
     format!("trial {trial} ({test})")
 }

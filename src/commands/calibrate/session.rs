@@ -1,35 +1,35 @@
-//! A guided session in lines: test by test, every entry kept at once.
+//! A guided calibration session in plain lines: test by test, each entry is saved at once.
 
 use std::path::PathBuf;
 
-use super::{Args, failure, listing::words, tell_of};
+use super::{Args, failure, listing::words, report_result};
 use crate::{
     calibration::{Edit, Entries, Entry, FAR_END, PROTOCOL, RAILS, Test, edit_entries, kept_entries, missing_today},
     commands::{
         Failure,
-        output::{ask, of_refused_lines, tell},
+        output::{ask, print_note, refused_lines_result},
     },
     storage::Places,
     table::{Table, TableDoubt},
 };
 
-/// What may be typed instead of marks.
+/// The commands that can be typed instead of marks.
 const HELP: &str = "type the marks of a stroke on one line, in their order or by name (stop 3.4 rails 5), - for one that is not \
                     known, far-end yes after a test that was played from the far end; or skip, again (the last test once \
                     more), undo (the last entry), done";
 
-/// Asks for tests until all are played, the input has ended or the player is done; then tells what was found.
+/// Asks for tests until all are played, the input ends or the player types "done"; then reports the result.
 pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure> {
     let places = Places::of_this_user();
     let path = if args.daily { places.daily_check } else { places.calibration };
     let mut session = Session::open(path, args.daily)?;
-    tell(HELP);
-    tell(format_args!("entries are kept in {}", session.path.display()));
+    print_note(HELP);
+    print_note(format_args!("entries are kept in {}", session.path.display()));
     let (mut shown, mut refused) = (None, 0);
     while let Some(test) = session.next() {
         if shown != Some((test.name, session.entries.trials.len())) {
             let number = 1 + PROTOCOL.iter().position(|one| one.name == test.name).unwrap_or_default();
-            words(number, test).iter().for_each(tell);
+            words(number, test).iter().for_each(print_note);
             shown = Some((test.name, session.entries.trials.len()));
         }
         let names: Vec<&str> = test.asked().collect();
@@ -38,7 +38,7 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
             Ok(text) => text,
             Err(failure) => {
                 refused += 1;
-                tell(failure);
+                print_note(failure);
                 continue;
             }
         };
@@ -48,29 +48,29 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
             "skip" => session.skip(test),
             "again" => session.again(),
             "undo" => session.undo()?,
-            "help" | "?" => tell(HELP),
+            "help" | "?" => print_note(HELP),
             marks => match entry(table, test, marks) {
                 Ok(entry) => {
                     let kept = kept_words(test, &entry);
                     session.add(entry)?;
-                    tell(format_args!("kept: {}, stroke {}: {kept}", test.name, session.count(test)));
+                    print_note(format_args!("kept: {}, stroke {}: {kept}", test.name, session.count(test)));
                 }
                 Err(what) => {
                     refused += 1;
-                    tell(format_args!("{}: {what}; nothing was kept", test.name));
+                    print_note(format_args!("{}: {what}; nothing was kept", test.name));
                 }
             },
         }
     }
     if session.entries.trials.is_empty() && args.out.is_none() {
-        tell("nothing is entered yet");
+        print_note("nothing is entered yet");
     } else {
-        tell_of(args, table, doubt, &session.entries)?;
+        report_result(args, table, doubt, &session.entries)?;
     }
-    of_refused_lines(refused)
+    refused_lines_result(refused)
 }
 
-/// What was typed as an entry.
+/// Parses a typed line as an entry.
 fn entry(table: &Table, test: &Test, text: &str) -> Result<Entry, String> {
     let mut entry = Entry { test: test.name.to_owned(), ..Entry::default() };
     let mut marks = test.asked();
@@ -79,8 +79,11 @@ fn entry(table: &Table, test: &Test, text: &str) -> Result<Entry, String> {
     let mut words = values.iter().map(String::as_str);
     while let Some(word) = words.next() {
         let is_name = is_a_name(word);
-        let name =
-            if is_name { word } else { marks.next().ok_or_else(|| format!("\"{word}\" is too much; {HELP}"))? };
+        let name = if is_name {
+            word
+        } else {
+            marks.next().ok_or_else(|| format!("\"{word}\" is one value too many; {HELP}"))?
+        };
         let value = if is_name { words.next().ok_or_else(|| format!("{word} has no value"))? } else { word };
         entry.take(name, value)?;
     }
@@ -88,7 +91,7 @@ fn entry(table: &Table, test: &Test, text: &str) -> Result<Entry, String> {
     if odd.is_empty() { Ok(entry) } else { Err(odd.join("; ")) }
 }
 
-/// What an entry says and what it leaves open; nothing of rails whose usual number is known.
+/// Describes the marks of an entry and those it lacks, except a count of rails whose usual number is known.
 fn kept_words(test: &Test, entry: &Entry) -> String {
     let has = |name: &&str| !entry.typed(name).is_empty();
     let named = test.asked().chain([FAR_END]).filter(has).map(|name| format!("{name} {}", entry.typed(name)));
@@ -100,7 +103,7 @@ fn kept_words(test: &Test, entry: &Entry) -> String {
     }
 }
 
-/// The words that were typed, a number together with its unit and with how sure it is: `725 mm ~ 5 mm` is one.
+/// Splits the typed text into values. A number stays together with its unit and its uncertainty: `725 mm ~ 5 mm` is one value.
 fn values(text: &str, is_a_name: impl Fn(&str) -> bool) -> Vec<String> {
     let mut values: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -119,37 +122,38 @@ fn values(text: &str, is_a_name: impl Fn(&str) -> bool) -> Vec<String> {
     values
 }
 
-/// The entries and the file that keeps them.
+/// The entries and the file in which they are stored.
 struct Session {
     path: PathBuf,
     entries: Entries,
-    /// Tests that the player does not want now.
+    /// Tests that the player has skipped.
     skipped: Vec<&'static str>,
-    /// A test that is played once more.
+    /// A test that is repeated.
     repeated: Option<&'static Test>,
     is_daily: bool,
-    /// Whether the file still holds an earlier day's check, which is put aside with the first entry.
-    is_over: bool,
+    /// Whether the file still contains the check of an earlier day. The first entry moves it to a backup next to the file.
+    holds_earlier_check: bool,
 }
 
 impl Session {
-    /// Goes on with what the file holds. A check of the day that has both its tests is an earlier day's: another one begins.
+    /// Continues with the entries in the file. A daily check that already has both tests is from an earlier day: a new one begins.
     fn open(path: PathBuf, is_daily: bool) -> Result<Self, Failure> {
         let entries = kept_entries(&path).map_err(failure)?;
-        let mut session = Self { path, entries, skipped: Vec::new(), repeated: None, is_daily, is_over: false };
+        let mut session =
+            Self { path, entries, skipped: Vec::new(), repeated: None, is_daily, holds_earlier_check: false };
         if is_daily && session.next().is_none() {
-            session.is_over = true;
+            session.holds_earlier_check = true;
             session.entries = Entries::default();
         }
         Ok(session)
     }
 
-    /// How many strokes of a test are kept.
+    /// Returns the number of saved strokes of a test.
     fn count(&self, test: &Test) -> usize {
         self.entries.trials.iter().filter(|entry| entry.test == test.name).count()
     }
 
-    /// What is asked for next.
+    /// Returns the next test to ask for.
     fn next(&self) -> Option<&'static Test> {
         let is_wanted = |test: &Test| !self.skipped.contains(&test.name);
         let missing = if self.is_daily { missing_today(&self.entries) } else { self.entries.missing() };
@@ -158,7 +162,7 @@ impl Session {
 
     fn add(&mut self, entry: Entry) -> Result<(), Failure> {
         self.repeated = None;
-        if std::mem::take(&mut self.is_over) {
+        if std::mem::take(&mut self.holds_earlier_check) {
             self.edit(&Edit::Anew(Entries::default()))?;
         }
         self.edit(&Edit::Add(entry))
@@ -166,13 +170,13 @@ impl Session {
 
     fn undo(&mut self) -> Result<(), Failure> {
         let Some(entry) = self.entries.trials.last().cloned() else {
-            tell("there is nothing to take back");
+            print_note("there is nothing to take back");
             return Ok(());
         };
         self.skipped.retain(|name| *name != entry.test);
         let said = format!("the last entry ({}) is taken back", entry.test);
         self.edit(&Edit::TakeOut(self.entries.trials.len() - 1, entry))?;
-        tell(said);
+        print_note(said);
         Ok(())
     }
 
@@ -184,11 +188,11 @@ impl Session {
     fn again(&mut self) {
         self.repeated = self.entries.trials.last().and_then(|entry| Test::named(&entry.test));
         if self.repeated.is_none() {
-            tell("there is no test yet to play again");
+            print_note("there is no test yet to play again");
         }
     }
 
-    /// Makes a change of the file, and goes on with what it holds then.
+    /// Changes the file, and continues with its new content.
     fn edit(&mut self, edit: &Edit) -> Result<(), Failure> {
         (self.entries, _) = edit_entries(&self.path, edit).map_err(failure)?;
         Ok(())

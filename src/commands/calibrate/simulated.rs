@@ -1,4 +1,4 @@
-//! The calibration measured on tables that are known.
+//! Measures the calibration on tables whose constants are known.
 
 use serde_json::json;
 
@@ -11,7 +11,7 @@ use crate::{
     table::{Table, TableDoubt},
 };
 
-/// Measures and tells.
+/// Measures how often the intervals contain the truth, and prints the result.
 pub fn run(table: &Table, doubt: &TableDoubt, tables: u32, seed: u64, is_json: bool) -> Result<(), Failure> {
     let constants = coverage(table, doubt, tables as usize, seed).map_err(Failure::wrong_input)?;
     let strokes: usize = PROTOCOL.iter().map(|test| test.times).sum();

@@ -1,4 +1,4 @@
-//! What is kept on this machine: folders, settings, tables, runs and practice, and what of it cannot be used.
+//! Stored data on this machine: folders, settings, tables, runs and practice, and problems with them.
 
 use std::path::{Path, PathBuf};
 
@@ -13,8 +13,8 @@ use crate::{
     terminal::{Complaint, SavedSession},
 };
 
-/// Room on the disk below which it counts as full, bytes: the last checkpoints of a run and a few sessions.
-const LITTLE: u64 = 50 << 20;
+/// Free disk space below which the disk counts as full, bytes: enough for the last checkpoints of a run and a few sessions.
+const LEAST_FREE: u64 = 50 << 20;
 
 /// A folder that the program writes into.
 #[derive(Serialize)]
@@ -22,15 +22,15 @@ pub struct Place {
     pub what: &'static str,
     #[serde(serialize_with = "lossy")]
     pub path: PathBuf,
-    /// It is made when something is kept.
+    /// Whether the folder exists. It is created on the first write.
     pub exists: bool,
-    /// Why nothing can be written there; none where it can.
+    /// Why the folder is not writable; `None` if it is.
     pub refusal: Option<String>,
-    /// None where the system does not tell.
+    /// `None` if the system does not report it.
     pub free_bytes: Option<u64>,
 }
 
-/// A path as it can be told: JSON has no form for one that is no text.
+/// Serializes a path, with replacement characters if it is not valid UTF-8: JSON cannot represent such paths.
 fn lossy<S: Serializer>(path: &Path, to: S) -> Result<S::Ok, S::Error> {
     to.collect_str(&path.display())
 }
@@ -42,18 +42,18 @@ impl Place {
         Self { what, path: path.to_owned(), exists: state.exists, refusal, free_bytes: state.free }
     }
 
-    /// Where nothing can be kept.
+    /// Returns a sentence if nothing can be stored there.
     pub fn problem(&self) -> Option<String> {
         let (what, path) = (self.what, self.path.display());
         if let Some(refusal) = &self.refusal {
             return Some(format!("nothing can be written to the folder of {what}, {path}: {refusal}"));
         }
-        let free = self.free_bytes.filter(|free| *free < LITTLE)?;
+        let free = self.free_bytes.filter(|free| *free < LEAST_FREE)?;
         Some(format!("the disk of the folder of {what}, {path}, is nearly full: {} MB are free", free / 1_000_000))
     }
 }
 
-/// The folders, each once.
+/// Returns the folders, each once.
 pub fn places(places: &Places) -> Vec<Place> {
     let folder = |file: &Path| file.parent().map(Path::to_owned).unwrap_or_default();
     [
@@ -65,26 +65,26 @@ pub fn places(places: &Places) -> Vec<Place> {
     .into()
 }
 
-/// What was kept.
+/// The stored data.
 #[derive(Serialize)]
 pub struct Kept {
     pub settings: Found,
-    /// Table files of the user's own.
+    /// The user's own table files.
     pub tables: Found,
     pub runs: Found,
     pub sessions: Found,
     pub positions: Found,
-    /// The skill that the player has kept as their own.
+    /// The skill that the player has saved as their own.
     pub player: Found,
     /// Strokes of a calibration.
     pub calibration: Found,
-    /// Strokes of the last check of the day.
+    /// Strokes of the last daily check.
     pub daily_check: Found,
-    /// Where the last session ended.
+    /// The saved state of the last session.
     pub last: Found,
 }
 
-/// How much there is of something, and what of it cannot be used.
+/// The number of stored items of a kind, and the problems with them.
 #[derive(Serialize)]
 pub struct Found {
     #[serde(serialize_with = "lossy")]
@@ -94,7 +94,7 @@ pub struct Found {
 }
 
 impl Found {
-    /// So many, or why they cannot be read.
+    /// Creates an entry from the number of items, or from the error of reading them.
     fn of(path: &Path, count: Result<usize, impl ToString>) -> Self {
         let wrong = count.as_ref().err().map(ToString::to_string);
         Self { path: path.to_owned(), count: count.unwrap_or(0), wrong: wrong.into_iter().collect() }
@@ -102,7 +102,7 @@ impl Found {
 }
 
 impl Kept {
-    /// Looks at everything.
+    /// Checks all stored data.
     pub fn find(places: &Places, complaints: &[Complaint]) -> Self {
         let store = Store::new(places);
         let (sessions, positions, own) = (store.sessions(), store.positions(), store.own_skill());
@@ -123,7 +123,7 @@ impl Kept {
         }
     }
 
-    /// A sentence for each thing that is wrong.
+    /// Returns a sentence for each problem.
     pub fn problems(&self) -> impl Iterator<Item = String> {
         let Self { settings, tables, runs, sessions, positions, player, calibration, daily_check, last } = self;
         let all = [settings, tables, runs, sessions, positions, player, calibration, daily_check, last];
@@ -131,18 +131,18 @@ impl Kept {
     }
 }
 
-/// The strokes in a file of a calibration.
+/// Checks the strokes in a calibration file.
 fn strokes(path: &Path) -> Found {
     Found::of(path, kept_entries(path).map(|entries| entries.trials.len()))
 }
 
-/// The last session, and those before it that can be gone on with.
+/// Checks the last session and the earlier ones that can be resumed.
 fn last(path: &Path) -> Found {
     let last = SavedSession::load(path).map_err(|error| format!("{}: {error}", path.display()));
     Found::of(path, last.map(|last| last.map_or(0, |last| last.with_former().len())))
 }
 
-/// The user's own tables.
+/// Checks the user's own tables.
 fn tables(places: &Places) -> Found {
     let mut found = Found { path: places.tables.clone(), count: 0, wrong: Vec::new() };
     for path in places.own_tables() {
@@ -154,7 +154,7 @@ fn tables(places: &Places) -> Found {
     found
 }
 
-/// The user's runs.
+/// Checks the user's runs.
 fn runs(folder: &Path) -> Found {
     match if folder.exists() { runs_in(folder) } else { Ok(Listing::default()) } {
         Ok(Listing { runs, unreadable }) => Found { path: folder.to_owned(), count: runs.len(), wrong: unreadable },

@@ -1,4 +1,4 @@
-//! `carom doctor`: what this program is, what it finds on this machine, and whether it computes what it should.
+//! `carom doctor`: reports the version, what it finds on this machine, and whether the program computes correctly.
 
 mod kept;
 mod screen;
@@ -18,9 +18,9 @@ use crate::{
     terminal::Settings,
 };
 
-/// Check this installation, changing nothing.
+/// Check this installation without changing anything.
 ///
-/// Checked are the version, folders, terminal, settings, tables and runs, and a second is spent on computing.
+/// The check covers version, folders, terminal, settings, tables and runs, and one second of computing.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Print one JSON object.
@@ -32,13 +32,13 @@ pub struct Args {
 #[derive(Serialize)]
 struct Program {
     version: &'static str,
-    /// None where it was built without git.
+    /// `None` if it was built without git.
     source: Option<&'static str>,
     target: &'static str,
     machine: Machine,
 }
 
-/// All that is found.
+/// The whole report.
 #[derive(Serialize)]
 struct Report {
     program: Program,
@@ -47,7 +47,7 @@ struct Report {
     #[serde(flatten)]
     kept: Kept,
     self_test: SelfTest,
-    /// A sentence for everything that is wrong.
+    /// A sentence for each problem.
     problems: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! What the terminal is, and what the screens would show there.
+//! The terminal and its abilities.
 
 use std::{
     env,
@@ -9,29 +9,29 @@ use serde::Serialize;
 
 use crate::terminal::{self, Depth, Glyphs, LEAST_SIZE, Settings};
 
-/// Variables of the environment that decide what is shown.
+/// Environment variables that affect the display.
 const VARIABLES: [&str; 8] =
     ["TERM", "COLORTERM", "NO_COLOR", "LC_ALL", "LC_CTYPE", "LANG", "CAROM_GLYPHS", "WT_SESSION"];
 
 /// The terminal.
 #[derive(Serialize)]
 pub struct Screen {
-    /// Whether the screens can open here.
+    /// Whether the full-screen program can open here.
     pub can_draw: bool,
-    /// Columns and rows, where there is a terminal.
+    /// Columns and rows; `None` if there is no terminal.
     pub size: Option<(u16, u16)>,
     pub colours: &'static str,
     pub glyphs: &'static str,
     /// Whether the locale is UTF-8.
     pub unicode: bool,
-    /// What lies between the program and the terminal.
+    /// Programs between carom and the terminal: tmux, screen or SSH.
     pub over: Vec<&'static str>,
-    /// What the environment says.
+    /// The variables that are set, with their values.
     pub environment: Vec<(&'static str, String)>,
 }
 
 impl Screen {
-    /// The terminal on the standard input and output, with the user's settings.
+    /// Detects the terminal on the standard input and output, with the user's settings.
     #[expect(clippy::disallowed_methods, reason = "nothing is written")]
     pub fn detect(settings: &Settings) -> Self {
         let set = |name: &str| env::var(name).ok().filter(|value| !value.is_empty());
@@ -60,7 +60,7 @@ impl Screen {
         }
     }
 
-    /// A screen that is too small.
+    /// Returns a sentence if the terminal is too small.
     pub fn problem(&self) -> Option<String> {
         let (columns, rows) = self.size?;
         let (least_columns, least_rows) = LEAST_SIZE;

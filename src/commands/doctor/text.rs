@@ -1,4 +1,4 @@
-//! The report for people: a line for each thing, and what is wrong at the end.
+//! The report as text: a line for each item, and the problems at the end.
 
 use std::io::{self, Write};
 
@@ -8,7 +8,7 @@ use crate::{
     printing::{FULL_VERSION, OneLine},
 };
 
-/// Writes all of it.
+/// Writes the whole report.
 pub fn write(out: &mut impl Write, report: &Report) -> io::Result<()> {
     for row in columns(&rows(report), &[]) {
         writeln!(out, "{row}")?;
@@ -33,7 +33,7 @@ fn rows(report: &Report) -> Vec<[String; 2]> {
     rows.push(("terminal", screen_words(screen)));
     let environment = screen.environment.iter().map(|(name, value)| format!("{name}={value}"));
     rows.push(("environment", environment.collect::<Vec<_>>().join(" ")));
-    let file = if kept.settings.count == 0 { "no file, all as by default" } else { "as in the file" };
+    let file = if kept.settings.count == 0 { "no file, all defaults" } else { "as in the file" };
     rows.push(("settings", format!("{file}, {}", plural(kept.settings.wrong.len(), "mistake"))));
     let kinds = [
         ("tables", &kept.tables),
@@ -48,7 +48,7 @@ fn rows(report: &Report) -> Vec<[String; 2]> {
     for (name, what, found) in [
         ("calibration", plural(kept.calibration.count, "stroke"), &kept.calibration),
         ("daily check", plural(kept.daily_check.count, "stroke"), &kept.daily_check),
-        ("last session", format!("{} to be gone on with", kept.last.count), &kept.last),
+        ("last session", format!("{} to resume", kept.last.count), &kept.last),
     ] {
         let unread = if found.wrong.is_empty() { "" } else { "; the file cannot be read" };
         rows.push((name, what + unread));
@@ -71,7 +71,7 @@ fn place_words(place: &Place) -> String {
     let state = match (refusal, exists) {
         (Some(refusal), _) => format!("cannot be written: {refusal}"),
         (None, true) => "can be written".to_owned(),
-        (None, false) => "not there yet, can be made".to_owned(),
+        (None, false) => "does not exist yet, can be created".to_owned(),
     };
     let free = free_bytes.map_or_else(String::new, |bytes| format!(", {:.1} GB free", bytes as f64 / 1e9));
     format!("{}: {state}{free} ({what})", path.display())

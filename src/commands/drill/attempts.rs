@@ -1,4 +1,4 @@
-//! `carom drill try`, `run` and `exam`: exercises that are played here.
+//! `carom drill try`, `run` and `exam`: exercises that are played in the simulator.
 
 use super::{
     PlayOptions, Workspace,
@@ -13,29 +13,30 @@ use crate::{
     },
 };
 
-/// Play a stroke at an exercise, with the player's errors, and compare it with the model shot, or with the coach's where there is none.
+/// Play a stroke at an exercise with the player's errors, and compare it with the model shot, or with the coach's shot if there is none.
 ///
 /// Every attempt is logged.
 #[derive(Debug, clap::Args)]
 pub struct TryArgs {
     /// The exercise: its name, its title, or the beginning of either.
     name: String,
-    /// The stroke that is meant: "a,b,theta,phi,V" in radii, degrees and m/s, words like "red 1/2 right, 1.5 left, 3 lengths", or "coach".
+    /// The intended stroke: "a,b,theta,phi,V" in radii, degrees and m/s, words like "red 1/2 right, 1.5 left, 3 lengths", or "coach".
     #[arg(long, allow_hyphen_values = true)]
     shot: String,
-    /// Attempts at it.
+    /// Number of attempts.
     #[arg(long, default_value_t = 1, value_parser = whole(1..=1_000_u32))]
     repeat: u32,
-    /// Shift the balls by half a ball at every repetition but the first.
+    /// Shift the balls by half a ball at each repetition except the first.
     #[arg(long)]
     shifted: bool,
     #[command(flatten)]
     options: PlayOptions,
 }
 
-/// Play an exercise until it was made so many times in a row.
+/// Play an exercise until it was made a given number of times in a row.
 ///
-/// Strokes are read line by line from the standard input: words like "red 1/2 right, 1.5 left, 3 lengths", "a,b,theta,phi,V", or the word coach.
+/// Strokes are read line by line from the standard input: words like "red 1/2 right, 1.5 left, 3 lengths", "a,b,theta,phi,V", or the word
+/// coach.
 #[derive(Debug, clap::Args)]
 pub struct RunArgs {
     /// The exercise: its name, its title, or the beginning of either.
@@ -43,13 +44,13 @@ pub struct RunArgs {
     /// Points in a row that end the session.
     #[arg(long, value_parser = whole(1..=10_000_u32))]
     goal: u32,
-    /// Shift the balls by half a ball at every repetition but the first.
+    /// Shift the balls by half a ball at each repetition except the first.
     #[arg(long)]
     shifted: bool,
-    /// Have the coach play.
+    /// Let the coach play.
     #[arg(long)]
     coach: bool,
-    /// Attempts after which it ends in any case.
+    /// Maximum number of attempts.
     #[arg(long, default_value_t = 1000, value_parser = whole(1..=MOST_STROKES))]
     strokes: u32,
     #[command(flatten)]
@@ -58,20 +59,21 @@ pub struct RunArgs {
 
 /// Take an exam: twenty exercises, one attempt each.
 ///
-/// Strokes are read line by line from the standard input: words like "red 1/2 right, 1.5 left, 3 lengths", "a,b,theta,phi,V", or the word coach.
+/// Strokes are read line by line from the standard input: words like "red 1/2 right, 1.5 left, 3 lengths", "a,b,theta,phi,V", or the word
+/// coach.
 #[derive(Debug, clap::Args)]
 pub struct ExamArgs {
-    /// How hard: 1, 2 or 3.
+    /// Difficulty: 1, 2 or 3.
     #[arg(long, default_value_t = 1, value_parser = whole(1..=HIGHEST_LEVEL))]
     level: u8,
-    /// Have the coach play.
+    /// Let the coach play.
     #[arg(long)]
     coach: bool,
     #[command(flatten)]
     options: PlayOptions,
 }
 
-pub fn once_and_again(args: &TryArgs) -> Result<(), Failure> {
+pub fn try_stroke(args: &TryArgs) -> Result<(), Failure> {
     let stroke: StrokeInput = args.shot.parse()?;
     let workspace = Workspace::open();
     let mut session = args.options.session(Goal::Free, vec![workspace.exercise(&args.name)?.clone()])?;
@@ -90,16 +92,16 @@ pub fn exam(args: &ExamArgs) -> Result<(), Failure> {
     let workspace = Workspace::open();
     if args.options.table.is_some() {
         return Err(Failure::wrong_input(
-            "an exam is played on the tables of its exercises, for which its averages are told; leave out --table",
+            "an exam is played on the tables of its exercises, for which its averages are known; leave out --table",
         ));
     }
     let mut session = args.options.session(Goal::Exam, Vec::new())?;
-    // The exam and the errors in it come from one seed.
+    // The same seed determines the exam and the errors in it.
     session.exercises = draw(workspace.library.exercises(), args.level, session.seed).map_err(Failure::failed)?;
     play(&workspace.store, session, &args.options, strokes(args.coach), LENGTH)
 }
 
-/// The coach's strokes, or those of the standard input.
+/// Returns the source of the strokes: the coach or the standard input.
 pub const fn strokes(coach: bool) -> Strokes {
     if coach { Strokes::Coach } else { Strokes::Input }
 }

@@ -1,4 +1,4 @@
-//! `carom drill history`: what was practised, and how it went.
+//! `carom drill history`: records and sessions of past practice.
 
 use serde::Serialize;
 
@@ -9,26 +9,26 @@ use super::{
 use crate::{
     commands::{
         Failure,
-        output::{json_line, line, print_table, tell},
+        output::{json_line, line, print_note, print_table},
     },
     drills::{Goal, Record, Session, Venue},
     game::Rule,
 };
 
-/// Show the records of all exercises and games, or the sessions of one.
+/// Show the records of all exercises and games, or the sessions of one of them.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// An exercise by its name or title, whose sessions are shown; one that is not in the library any more has its history still.
+    /// Name or title of the exercise whose sessions are shown. An exercise that is no longer in the library keeps its history.
     name: Option<String>,
-    /// The games under this rule instead: straight, one-cushion or three-cushion.
+    /// Show the games under this rule instead: straight, one-cushion or three-cushion.
     #[arg(long, value_name = "RULE", conflicts_with = "name")]
     games: Option<Rule>,
-    /// Print JSON, an object an exercise or session.
+    /// Print JSON: one object for each exercise or session.
     #[arg(long)]
     json: bool,
 }
 
-/// What a row is about.
+/// The subject of a row.
 #[derive(Clone, PartialEq)]
 enum Subject {
     Exercise(String),
@@ -36,7 +36,7 @@ enum Subject {
 }
 
 impl Subject {
-    /// Its record in these sessions.
+    /// Returns its record in these sessions.
     fn record<'a>(&self, sessions: impl IntoIterator<Item = &'a Session>) -> Record {
         match self {
             Self::Exercise(name) => Record::of_exercise(sessions, name),
@@ -89,7 +89,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         }
         (Some(name), _) => {
             let mut subject = Subject::Exercise(name.clone());
-            // An unknown name is an error; an exercise that was never tried is none.
+            // An unknown name is an error; an exercise that was never tried is not.
             if subject.record(&sessions).tried == 0 {
                 subject = Subject::Exercise(workspace.exercise(name)?.name.clone());
             }
@@ -108,7 +108,7 @@ fn average(record: &Record) -> String {
     record.average.map_or_else(|| "-".to_owned(), |average| format!("{average:.2}"))
 }
 
-/// Where no order is known, no run is.
+/// Formats the high run, or "-" if the order of the attempts is unknown.
 fn high_run(record: &Record) -> String {
     if record.innings > 0 { record.high_run.to_string() } else { "-".to_owned() }
 }
@@ -143,7 +143,7 @@ fn all(sessions: &[Session], json: bool) -> Result<(), Failure> {
         }
     }
     if rows.is_empty() {
-        tell("nothing was practised yet; carom drill list shows the exercises");
+        print_note("nothing was practised yet; carom drill list shows the exercises");
     } else if !json {
         let heads = ["name", "where", "made", "tried", "rate", "average", "high run", "last (UTC)"];
         print_table(heads, rows, &[2, 3, 4, 5, 6])?;
@@ -179,7 +179,7 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
         return Ok(());
     }
     if tried.is_empty() {
-        tell(format_args!("{}: not tried yet", subject.name()));
+        print_note(format_args!("{}: not tried yet", subject.name()));
         return Ok(());
     }
     print_table(["started (UTC)", "where", "goal or score", "made", "tried", "rate", "high run"], rows, &[3, 4, 5, 6])?;
@@ -190,10 +190,10 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
     Ok(())
 }
 
-/// Sessions that the chart shows, the last ones.
+/// Maximum number of sessions in the chart: the most recent ones.
 const BARS: usize = 60;
 
-/// The rate of each session as a bar, from 0 to 100 %.
+/// Returns the rate of each session as a bar, from 0 to 100 %.
 fn bars(sessions: &[(&Session, Record)]) -> String {
     const HEIGHTS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
     let highest = (HEIGHTS.len() - 1) as f64;

@@ -1,4 +1,4 @@
-//! `carom drill list` and `carom drill show`: the exercises there are.
+//! `carom drill list` and `carom drill show`: the available exercises.
 
 use serde::Serialize;
 
@@ -30,12 +30,12 @@ pub struct ListArgs {
     /// Only those with this tag, with or without #.
     #[arg(long, value_parser = tag)]
     tag: Option<String>,
-    /// Print JSON, an object an exercise.
+    /// Print JSON: one object for each exercise.
     #[arg(long)]
     json: bool,
 }
 
-/// Show an exercise: balls, what is to be learnt, the shot, its share code and the player's record.
+/// Show an exercise: balls, what to learn, the shot, its share code and the player's record.
 #[derive(Debug, clap::Args)]
 pub struct ShowArgs {
     /// The exercise: its name, its title, or the beginning of either.
@@ -50,7 +50,7 @@ pub struct ShowArgs {
 struct Entry<'a> {
     #[serde(flatten)]
     exercise: &'a Exercise,
-    /// Where the balls lie in diamonds from the lower left corner.
+    /// Positions of the balls in diamonds from the lower left corner.
     #[serde(skip_serializing_if = "Option::is_none")]
     diamonds: Option<[[f64; 2]; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]

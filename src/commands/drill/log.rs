@@ -1,4 +1,4 @@
-//! `carom drill log`: makes and misses at a real table.
+//! `carom drill log`: records makes and misses at a real table.
 
 use std::io::{self, IsTerminal};
 
@@ -13,7 +13,7 @@ use crate::{
     commands::{
         Failure,
         input::whole,
-        output::{ask, json_line, line, of_refused_lines, tell},
+        output::{ask, json_line, line, print_note, refused_lines_result},
     },
     drills::{Attempt, Goal, Session, Venue},
     storage::Lock,
@@ -24,14 +24,14 @@ use crate::{
 pub struct Args {
     /// The exercise: its name, its title, or the beginning of either.
     name: String,
-    /// What came of each attempt, in order: make or miss; "undo" takes the last one back, be it of an earlier call. Without
-    /// any, they are read from the standard input, a word a line, and each is safe on the disk when it is answered.
+    /// The results in order: make or miss; "undo" removes the last result, even one of an earlier call. Without results, they are read from
+    /// the standard input, one word a line, and each is saved to disk before it is answered.
     #[arg(conflicts_with_all = ["made", "of"])]
     results: Vec<String>,
-    /// Points made, where their order is not known: they do not count for runs.
+    /// Number of points made, if their order is not known: they do not count for runs.
     #[arg(long, requires = "of", value_parser = whole(0..=100_000_u32))]
     made: Option<u32>,
-    /// Attempts, points included.
+    /// Number of attempts, including the points.
     #[arg(long, requires = "made", value_parser = whole(1..=100_000_u32))]
     of: Option<u32>,
     /// Print JSON.
@@ -46,20 +46,20 @@ struct Logged<'a> {
     score: Score,
 }
 
-enum Word {
+enum LogEntry {
     Make,
     Miss,
     Undo,
 }
 
-impl Word {
+impl LogEntry {
     fn read(text: &str) -> Result<Self, Failure> {
         match text {
             "make" => Ok(Self::Make),
             "miss" => Ok(Self::Miss),
             "undo" => Ok(Self::Undo),
             _ => Err(Failure::wrong_input(format_args!(
-                "\"{text}\" is no result; accepted are make, miss and undo, or --made 7 --of 10"
+                "\"{text}\" is not a result; accepted are make, miss and undo, or --made 7 --of 10"
             ))),
         }
     }
@@ -79,17 +79,17 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         }
         log.session.unordered = true;
         for number in 0..of {
-            log.take(if number < made { &Word::Make } else { &Word::Miss })?;
+            log.apply(if number < made { &LogEntry::Make } else { &LogEntry::Miss })?;
         }
         return log.keep();
     }
     if args.results.is_empty() {
         return log.read();
     }
-    let words: Vec<Word> = args.results.iter().map(|text| Word::read(text)).collect::<Result<_, _>>()?;
-    for (taken, word) in words.iter().enumerate() {
-        if !log.take(word)? {
-            if taken > 0 {
+    let words: Vec<LogEntry> = args.results.iter().map(|text| LogEntry::read(text)).collect::<Result<_, _>>()?;
+    for (applied, word) in words.iter().enumerate() {
+        if !log.apply(word)? {
+            if applied > 0 {
                 log.keep()?;
             }
             return Err(Failure::failed(log.nothing_to_undo()));
@@ -101,26 +101,26 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 struct Log {
     workspace: Workspace,
     session: Session,
-    /// The exercise's.
+    /// Name of the exercise.
     name: String,
     json: bool,
-    /// The attempts that the session's file is known to have, once there is one.
+    /// The attempts that the session's file is known to contain; `None` before it exists.
     known: Option<Vec<Attempt>>,
-    /// Of the sessions, once something is on the disk: what another program has noted would be lost, or what it has taken back
-    /// come back.
+    /// Lock of the sessions, taken once something is on the disk. Without it, an attempt that another program adds could be lost, or one
+    /// that it removes could reappear.
     lock: Option<Lock>,
 }
 
 impl Log {
-    /// Does what a word says; `false` where there is nothing to take back.
-    fn take(&mut self, word: &Word) -> Result<bool, Failure> {
+    /// Applies a typed word; returns `false` if there is nothing to undo.
+    fn apply(&mut self, word: &LogEntry) -> Result<bool, Failure> {
         if self.known.is_some() {
             self.lock()?;
         }
         match word {
-            Word::Make => self.session.log(true).map_err(Failure::failed)?,
-            Word::Miss => self.session.log(false).map_err(Failure::failed)?,
-            Word::Undo => return self.undo(),
+            LogEntry::Make => self.session.log(true).map_err(Failure::failed)?,
+            LogEntry::Miss => self.session.log(false).map_err(Failure::failed)?,
+            LogEntry::Undo => return self.undo(),
         }
         Ok(true)
     }
@@ -129,8 +129,8 @@ impl Log {
         format!("there is no attempt at {} to take back", self.name)
     }
 
-    /// Takes the last note back; where there is none in this session, that of the last session at a table, which then goes on.
-    /// `false` where there is none at all.
+    /// Removes the last attempt. If this session has none, it removes that of the last session at a real table, which is then continued.
+    /// Returns `false` if there is no attempt at all.
     fn undo(&mut self) -> Result<bool, Failure> {
         self.lock()?;
         if self.session.attempts.is_empty() {
@@ -140,32 +140,32 @@ impl Log {
             };
             let mut earlier = self.workspace.sessions().into_iter().rev();
             let Some(noted) = earlier.find(is_noted) else { return Ok(false) };
-            self.go_on_with(noted);
+            self.continue_with(noted);
         }
         if self.session.unordered {
-            // They were noted together, so the last one is not known.
+            // They were entered together, so the last attempt is unknown.
             self.session.attempts.clear();
             self.session.unordered = false;
         } else {
             self.session.undo();
         }
-        // The next word may take back what stands in another session.
+        // Save now, because the next word may undo an attempt of another session.
         self.save().map(|()| true)
     }
 
-    /// Keeps other programs from changing what is noted, and goes on with what they have made of the session.
+    /// Prevents changes by other programs, and continues with their latest version of the session.
     fn lock(&mut self) -> Result<(), Failure> {
         if self.lock.is_none() {
             self.lock = Some(self.workspace.store.lock().map_err(Failure::failed)?);
             if let Some(known) = self.workspace.store.session(&self.session.id).map_err(Failure::failed)? {
-                self.go_on_with(known);
+                self.continue_with(known);
             }
         }
         Ok(())
     }
 
-    /// Goes on with a session as it is on the disk.
-    fn go_on_with(&mut self, session: Session) {
+    /// Continues with a session that was read from the disk.
+    fn continue_with(&mut self, session: Session) {
         self.known = Some(session.attempts.clone());
         self.session = session;
     }
@@ -182,48 +182,48 @@ impl Log {
         Ok(())
     }
 
-    /// Saves the session and tells the score.
+    /// Saves the session and prints the score.
     fn keep(&mut self) -> Result<(), Failure> {
         self.save()?;
-        // Another program may note something before the next word, and need not wait for a reader of this one.
+        // Unlock, so that another program can add attempts while this one waits for the next word.
         self.lock = None;
         let record = self.session.record();
         if self.json {
             return Ok(json_line(&Logged { session: &self.session.id, score: record.into() })?);
         }
         if record.tried == 0 {
-            return line("taken back; nothing else is noted in this session");
+            return line("taken back; this session has no other attempts");
         }
         line(words(&record))
     }
 
-    /// Takes results from the standard input, and answers each.
+    /// Reads results from the standard input, and answers each.
     fn read(&mut self) -> Result<(), Failure> {
         let (mut refused, mut lacked_undo) = (0, false);
         while let Some(text) = ask("make, miss or undo: ")? {
             if text.as_ref().is_ok_and(String::is_empty) {
                 continue;
             }
-            match text.and_then(|text| Word::read(&text)) {
+            match text.and_then(|text| LogEntry::read(&text)) {
                 Err(failure) => {
                     refused += 1;
-                    tell(failure);
+                    print_note(failure);
                 }
                 Ok(word) => {
-                    if self.take(&word)? {
-                        // Who reads no more answers still wants every note kept.
+                    if self.apply(&word)? {
+                        // Continue without a reader of the answers: every result must still be saved.
                         self.keep().or_else(|failure| if failure.is_silent() { Ok(()) } else { Err(failure) })?;
                     } else {
                         self.lock = None;
                         lacked_undo = true;
-                        tell(self.nothing_to_undo());
+                        print_note(self.nothing_to_undo());
                     }
                 }
             }
         }
-        of_refused_lines(refused)?;
+        refused_lines_result(refused)?;
         if lacked_undo && !io::stdin().is_terminal() {
-            return Err(Failure::failed("an undo had nothing to take back, as was told"));
+            return Err(Failure::failed("an undo had nothing to take back, as reported above"));
         }
         Ok(())
     }

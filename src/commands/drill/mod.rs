@@ -1,4 +1,4 @@
-//! `carom drill`: exercises, sessions, scores.
+//! `carom drill`: exercises, practice sessions, scores.
 
 mod attempts;
 mod history;
@@ -23,7 +23,7 @@ pub use self::{
 };
 use super::Failure;
 
-/// Practise: exercises, to play here or to note from a real table, exams and scores.
+/// Practise: exercises, played here or logged from a real table, exams and scores.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     #[command(subcommand)]
@@ -52,7 +52,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     match &args.drill {
         Drill::List(args) => listing::list(args),
         Drill::Show(args) => listing::show(args),
-        Drill::Try(args) => attempts::once_and_again(args),
+        Drill::Try(args) => attempts::try_stroke(args),
         Drill::Run(args) => attempts::run(args),
         Drill::Exam(args) => attempts::exam(args),
         Drill::Log(args) => log::run(args),

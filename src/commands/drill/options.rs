@@ -1,4 +1,4 @@
-//! Who plays a session, and what stroke is wanted.
+//! Options that the playing subcommands share, and the typed stroke.
 
 use std::io::{self, IsTerminal};
 
@@ -9,7 +9,7 @@ use crate::{
         Failure,
         input::{seed, table_named, whole},
         lookup::skill_called,
-        output::{tell, whom_words},
+        output::{player_and_rule_words, print_note},
         typed_stroke::TypedStroke,
     },
     drills::{Exercise, Goal, Session, Venue},
@@ -18,40 +18,40 @@ use crate::{
     table::Table,
 };
 
-/// The word for the coach's shot in the place of one's own.
+/// The word that requests the coach's shot.
 const COACH: &str = "coach";
 
-/// Who plays, and how results are printed.
+/// The player, and the form of the output.
 #[derive(Debug, clap::Args)]
 pub struct PlayOptions {
-    /// Who plays: perfect, expert, world-class, national, club, beginner, own, an average at three-cushion like 0.6, or
-    /// standard errors in mm, degrees and m/s like "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1".
-    /// Default: own where `carom drill skill --keep` has kept one, else expert.
+    /// Who plays: perfect, expert, world-class, national, club, beginner, own, an average at three-cushion like 0.6, or standard errors in
+    /// mm, degrees and m/s like "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". Default: own if `carom drill skill --keep` has saved one, otherwise
+    /// expert.
     #[arg(long, value_parser = skill_called)]
     skill: Option<Skill>,
-    /// Seed of the errors; without it they are others every time.
+    /// Seed of the errors; without it they differ every time.
     #[arg(long, value_parser = seed)]
     seed: Option<u64>,
     /// Time that the coach has for a shot, ms.
     #[arg(long, default_value_t = 300, value_parser = whole(0..=3_600_000_u64))]
     pub(super) budget_ms: u64,
-    /// The coach advises neither jumps over a ball nor massés, as most clubs have it.
+    /// Let the coach recommend neither jumps over a ball nor massés, which most clubs forbid.
     #[arg(long)]
     pub(super) no_jumps: bool,
-    /// The table that is played on: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file. It must
-    /// have the size of that for which the exercise was made. Default: that one
+    /// The table to play on: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file. It must have the size
+    /// of the exercise's table. Default: the exercise's table
     #[arg(long)]
     pub table: Option<String>,
-    /// Print JSON: an object a line, of the kinds "position", "attempt", "refused" and "result".
+    /// Print JSON: one object a line, of the kinds "position", "attempt", "refused" and "result".
     #[arg(long)]
     pub(super) json: bool,
 }
 
 impl PlayOptions {
-    /// A session that is played here.
+    /// Creates a session that is played in the simulator.
     ///
     /// # Errors
-    /// A table that there is not, or that has another size than that of an exercise.
+    /// Fails if the table does not exist, or if its size differs from that of an exercise.
     pub fn session(&self, goal: Goal, exercises: Vec<Exercise>) -> Result<Session, Failure> {
         let own = self.table.as_deref().map(table_named).transpose()?;
         if let Some(own) = &own {
@@ -64,15 +64,15 @@ impl PlayOptions {
         Ok(session)
     }
 
-    /// Tells a user at the terminal who plays and by which rule. Who knows the screen expects what is set there.
-    pub fn tell_whom(&self, session: &Session, rule: Rule) {
+    /// Prints skill and rule for a user at the terminal, who may expect those of the full-screen program.
+    pub fn print_player(&self, session: &Session, rule: Rule) {
         if !self.json && io::stdin().is_terminal() {
-            tell(whom_words(session.skill, rule));
+            print_note(player_and_rule_words(session.skill, rule));
         }
     }
 }
 
-/// Refuses a table on which the balls of the exercise cannot lie as they are to.
+/// Refuses a table on which the balls of the exercise cannot be placed.
 fn check_size(exercise: &Exercise, own: &Table) -> Result<(), Failure> {
     let table = exercise.table().map_err(Failure::failed)?;
     if own.has_size_of(&table) {
@@ -85,17 +85,17 @@ fn check_size(exercise: &Exercise, own: &Table) -> Result<(), Failure> {
     )))
 }
 
-/// How large a table and its balls are.
+/// Describes the size of a table and its balls.
 pub fn size_words(table: &Table) -> String {
     format!("{} by {} m with balls of {} mm", number(table.length), number(table.width), number(2e3 * table.radius))
 }
 
-/// A stroke that is wanted.
+/// A typed stroke, or a request for the coach's.
 #[derive(Clone, Copy, Debug)]
 pub enum StrokeInput {
-    /// The player's.
+    /// The player's stroke.
     Own(TypedStroke),
-    /// The coach's.
+    /// The coach's stroke.
     Coach,
 }
 

@@ -1,11 +1,11 @@
-//! `carom drill save`, `share`, `add` and `remove`: positions of one's own.
+//! `carom drill save`, `share`, `add` and `remove`: the user's own positions.
 
 use super::Workspace;
 use crate::{
     commands::{
         Failure,
         input::bundled_table,
-        output::{line, tell},
+        output::{line, print_note},
         typed_stroke::TypedStroke,
     },
     drills::{
@@ -16,10 +16,10 @@ use crate::{
     table::{CueBall, Layout},
 };
 
-/// Save a position of one's own.
+/// Save a position of your own.
 #[derive(Debug, clap::Args)]
 pub struct SaveArgs {
-    /// Its name: letters, digits, '-', '_' and '.'.
+    /// Name of the position: letters, digits, '-', '_' and '.'.
     name: String,
     /// The balls, cue ball first: "x,y x,y x,y" in metres from the centre, or in diamonds from the lower left corner
     /// ("2d,2d 6d,2d 2d,2.5d").
@@ -28,22 +28,22 @@ pub struct SaveArgs {
     /// What counts as a point: straight, one-cushion or three-cushion.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
-    /// Its heading; the name where there is none.
+    /// Title of the position. Default: its name.
     #[arg(long)]
     title: Option<String>,
-    /// What is to be learnt from it.
+    /// What to learn from the position.
     #[arg(long, default_value = "")]
     point: String,
-    /// A word to find it by, with or without #; may be given several times.
+    /// A word to find it by, with or without #. Can be repeated.
     #[arg(long = "tag", value_parser = tag)]
     tags: Vec<String>,
-    /// A shot that makes it: "a,b,theta,phi,V", or in words.
+    /// A shot that makes the point: "a,b,theta,phi,V", or in words.
     #[arg(long, allow_hyphen_values = true)]
     shot: Option<String>,
     /// The table: "match", "textbook" or "thesis".
     #[arg(long, default_value = "match")]
     table: String,
-    /// Save it over a position of this name.
+    /// Overwrite an existing position of this name.
     #[arg(long)]
     replace: bool,
 }
@@ -58,27 +58,27 @@ pub struct ShareArgs {
 /// Add a position from a share code.
 #[derive(Debug, clap::Args)]
 pub struct AddArgs {
-    /// Its code; line breaks and blanks in it do not matter.
+    /// The share code; line breaks and spaces in it do not matter.
     #[arg(required = true)]
     code: Vec<String>,
-    /// Another name for it.
+    /// Another name for the position.
     #[arg(long)]
     name: Option<String>,
-    /// Save it over a position of this name.
+    /// Overwrite an existing position of this name.
     #[arg(long)]
     replace: bool,
 }
 
-/// Remove a position of one's own.
+/// Remove a position of your own.
 ///
-/// What was practised on it stays in the history.
+/// Its practice sessions stay in the history.
 #[derive(Debug, clap::Args)]
 pub struct RemoveArgs {
     /// The position: its name or its title.
     name: String,
 }
 
-/// Reads a tag, which is shown with a `#` and kept without.
+/// Parses a tag, which is displayed with `#` and stored without.
 pub fn tag(text: &str) -> Result<String, String> {
     let word = bare_tag(text.trim());
     if word.is_empty() || word.contains(char::is_whitespace) || word.len() > LONGEST_TITLE {
@@ -107,9 +107,9 @@ pub fn save(args: &SaveArgs) -> Result<(), Failure> {
     keep(&Exercise { title, point: args.point.clone(), tags: args.tags.clone(), shot, ..position }, args.replace)?;
     if let Some(cue) = &shot {
         if !has_room(&table, &layout, cue) {
-            tell("note: the cue has no room for the shot at this elevation, so it is no model shot");
+            print_note("note: the cue has no room for the shot at this elevation, so it is not a model shot");
         } else if !scores(args.rule, &table, &layout, cue) {
-            tell(format_args!("note: the shot makes no point under the rule {}", args.rule));
+            print_note(format_args!("note: the shot makes no point under the rule {}", args.rule));
         }
     }
     Ok(())
@@ -133,7 +133,7 @@ pub fn add(args: &AddArgs) -> Result<(), Failure> {
 
 pub fn remove(args: &RemoveArgs) -> Result<(), Failure> {
     let workspace = Workspace::open();
-    // One that cannot be read is not in the library; its file is removed by its name.
+    // An unreadable position is not in the library; its file is removed by name.
     let name = match workspace.library.titled(&args.name) {
         Ok(exercise) => &exercise.name,
         Err(error @ LibraryError::Ambiguous { .. }) => return Err(Failure::failed(error)),
@@ -156,7 +156,7 @@ fn failure(error: StoreError) -> Failure {
     match error {
         StoreError::Exercise(error) => Failure::wrong_input(error),
         StoreError::Taken(name) => Failure::failed(format_args!(
-            "there is a position \"{name}\" already; --replace saves over it, another name beside it"
+            "there is a position \"{name}\" already; use --replace to overwrite it, or another name"
         )),
         error => Failure::failed(error),
     }

@@ -1,4 +1,4 @@
-//! Scores, layouts and moments as they are printed.
+//! Scores, layouts and times in the form in which they are printed.
 
 use std::time::{Duration, UNIX_EPOCH};
 
@@ -14,14 +14,14 @@ pub struct Score {
     /// Absent before the first attempt.
     #[serde(skip_serializing_if = "Option::is_none")]
     rate: Option<f64>,
-    /// The rate's 95 % interval.
+    /// The 95 % interval of the rate.
     interval: [f64; 2],
     innings: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     average: Option<f64>,
     high_run: u32,
     helped: usize,
-    /// The last attempt.
+    /// Time of the last attempt.
     #[serde(skip_serializing_if = "Option::is_none")]
     last: Option<String>,
 }
@@ -42,13 +42,13 @@ impl From<Record> for Score {
     }
 }
 
-/// A record in a sentence.
+/// Describes a record in a sentence.
 pub fn words(record: &Record) -> String {
     if record.tried == 0 {
         return "not tried yet".to_owned();
     }
     let average = record.average.map_or_else(String::new, |average| {
-        let of = if record.has_unordered { " of those noted one by one" } else { "" };
+        let of = if record.has_unordered { " of those logged one by one" } else { "" };
         format!(", average {average:.2} in {}, high run {}{of}", plural(record.innings, "inning"), record.high_run)
     });
     let helped = if record.helped > 0 { format!(", {} with a hint", record.helped) } else { String::new() };
@@ -62,12 +62,12 @@ pub fn words(record: &Record) -> String {
     )
 }
 
-/// Unix time as `2026-11-20T14:30:05Z`.
+/// Formats a Unix time as `2026-11-20T14:30:05Z`.
 pub fn time(seconds: u64) -> String {
     moment(UNIX_EPOCH + Duration::from_secs(seconds))
 }
 
-/// A layout as the command line takes it, to 0.1 mm.
+/// Formats a layout in the form that the command line accepts, to 0.1 mm.
 pub fn layout_text(layout: &Layout) -> String {
     layout.balls.map(|ball| format!("{:.4},{:.4}", ball.x, ball.y)).join(" ")
 }

@@ -1,4 +1,4 @@
-//! `carom drill skill`: what the results at a real table say of the player.
+//! `carom drill skill`: estimates the player's skill from results at a real table.
 
 use serde_json::json;
 
@@ -6,22 +6,23 @@ use super::Workspace;
 use crate::{
     commands::{
         Failure,
-        output::{json_line, line, plural, tell},
+        output::{json_line, line, plural, print_note},
     },
     drills::estimate::{Estimate, estimate},
 };
 
-/// What is said where the results give a bound alone.
-const NO_SKILL: &str = "that is a bound and no skill to keep: makes and misses at exercises of other grades tell more";
+/// The message if the results give only a bound.
+const NO_SKILL: &str =
+    "this is only a bound, not a skill that can be kept: results at exercises of other grades tell more";
 
 /// Estimate the player's skill from the results at a real table.
 ///
-/// It is told as the average at three-cushion that a player with such errors has, with the 95 % interval; averages from
-/// next to nothing to far above world class are looked at, and an interval that reaches one of these ends is open there. The player is taken to have played the exercises' own shots, or those that a
-/// hint has shown.
+/// The skill is reported as the three-cushion average of a player with the estimated errors, with the 95 % interval. Averages from almost
+/// zero to far above world class are considered; an interval that reaches one of these ends is open there. The estimate assumes that the
+/// player played the shots of the exercises, or those shown by a hint.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// Keep the estimate: `--skill own` is then this player.
+    /// Save the estimate: `--skill own` then means this player.
     #[arg(long)]
     keep: bool,
     /// Print one JSON object.
@@ -37,15 +38,16 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let skill = skill.ok_or_else(|| Failure::failed(format_args!("average {}; {NO_SKILL}", estimate.words())))?;
         workspace.store.keep_skill(skill).map_err(Failure::failed)?;
     }
-    // By its words: the file has degrees, which come back as nearly the same radians. A file that cannot be read keeps nobody.
+    // Compared as text: the file contains degrees, which convert back to nearly the same radians. An unreadable file counts as no saved
+    // skill.
     let own = workspace.store.own_skill().ok().flatten();
     let kept = own.is_some_and(|own| skill.is_some_and(|skill| own.skill.to_string() == skill.to_string()));
     if args.json {
         let [least, average, most] = estimate.averages();
         let mut answer = json!({
-            // Points an inning at three-cushion.
+            // Points per inning at three-cushion.
             "average": average, "average_interval": [least, most],
-            // Errors in multiples of those of the level 1, which are an expert's at the reference stroke.
+            // Errors as a multiple of those of level 1, which are an expert's at the reference stroke.
             "scale": scale, "interval": [low, high],
             "attempts": attempts, "made": made, "shots": shots, "left_out": left_out,
             // Whether this is the player of `--skill own`.
@@ -54,7 +56,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         if let Some(skill) = skill {
             answer["skill"] = json!(skill);
         }
-        // Which end of the interval alone is known: the player averages at least the lower one, or at most the upper one.
+        // The only known end of the interval: the player averages at least the lower end, or at most the upper end.
         if let Some((bound, _)) = estimate.bound() {
             answer["bound"] = bound.into();
         }
@@ -67,8 +69,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         None => line(NO_SKILL)?,
     }
     if left_out > 0 {
-        tell(format_args!(
-            "note: {} had no part in it, for their shot is not known or the cue has no room for it",
+        print_note(format_args!(
+            "note: {} not used, because the shot is unknown or the cue has no room for it",
             plural(left_out, "attempt")
         ));
     }

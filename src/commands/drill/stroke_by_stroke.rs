@@ -1,4 +1,4 @@
-//! A session that is played stroke by stroke: each is judged, saved, and then printed.
+//! A session that is played stroke by stroke: each stroke is judged, saved, and then printed.
 
 use std::time::Duration;
 
@@ -15,7 +15,7 @@ use crate::{
     },
     commands::{
         Failure,
-        output::{json_line, line, plural, shot_text, tell, units},
+        output::{json_line, line, plural, print_note, shot_text, units},
         recommend::coach_for,
     },
     drills::{
@@ -27,22 +27,22 @@ use crate::{
     table::{CueBall, Layout, Table},
 };
 
-/// A session that is being played.
+/// A session in progress.
 pub struct StrokeByStroke<'a> {
     store: &'a Store,
     session: Session,
     options: &'a PlayOptions,
-    /// Whether every stroke is compared with the model shot, or else with the coach's, which takes time.
+    /// Whether every stroke is compared with the model shot, or otherwise with the coach's shot, which takes time to find.
     compares: bool,
-    /// The coach for the table that was played on last.
+    /// The coach for the most recent table.
     coach: Option<Coach>,
-    /// The coach's shot in a layout: while nothing moves, it is looked for once.
+    /// The coach's shot for a layout: for the same layout it is searched only once.
     advice: Option<(Layout, Advice)>,
     /// The exercise and the layout that were printed last.
     shown: Option<(String, Layout)>,
 }
 
-/// Where the balls lie.
+/// The position of the balls before a stroke.
 #[derive(Serialize)]
 struct Position<'a> {
     kind: &'static str,
@@ -56,7 +56,7 @@ struct Position<'a> {
     layout: &'a Layout,
 }
 
-/// What came of a stroke.
+/// The result of a stroke.
 #[derive(Serialize)]
 struct AttemptLine<'a> {
     kind: &'static str,
@@ -70,16 +70,16 @@ struct AttemptLine<'a> {
     run: u32,
     meant: CueInputs,
     played: CueInputs,
-    /// How often the player makes what was meant, with its interval.
+    /// How often the player makes the intended shot, with its interval.
     chance: f64,
     chance_interval: [f64; 2],
     #[serde(flatten)]
     advised: Option<Advised>,
-    /// Where the balls came to rest.
+    /// Final positions of the balls.
     end: Layout,
 }
 
-/// The model shot, or the coach's, beside the player's.
+/// The model shot or the coach's shot, for comparison with the player's.
 #[derive(Serialize)]
 struct Advised {
     #[serde(rename = "advised")]
@@ -88,10 +88,10 @@ struct Advised {
     chance: f64,
     #[serde(rename = "advised_interval")]
     interval: [f64; 2],
-    /// Whose shot it is: the model shot where the balls lie for it, else the coach's.
+    /// Author of the shot: the model shot if the balls are in its position, otherwise the coach's.
     #[serde(rename = "advised_by")]
     by: &'static str,
-    /// What was meant less what is advised.
+    /// The intended inputs minus the advised ones.
     difference: CueInputs,
     /// What to change, in words.
     changes: Vec<String>,
@@ -111,13 +111,13 @@ struct Outcome {
     over: bool,
     #[serde(flatten)]
     score: Score,
-    /// Of an exam.
+    /// For an exam: expected scores.
     #[serde(skip_serializing_if = "Option::is_none")]
     expected: Option<Par>,
-    /// Of a match: white and yellow, each with its own score.
+    /// For a match: white and yellow, each with its own score.
     #[serde(skip_serializing_if = "Option::is_none")]
     sides: Option<Sides>,
-    /// Standard deviations of the same.
+    /// For an exam: standard deviations of the expected scores.
     #[serde(skip_serializing_if = "Option::is_none")]
     spread: Option<Par>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -140,12 +140,12 @@ impl<'a> StrokeByStroke<'a> {
         Self { store, session, options, compares, coach: None, advice: None, shown: None }
     }
 
-    /// The session as far as it was played.
+    /// Returns the session so far.
     pub const fn session(&self) -> &Session {
         &self.session
     }
 
-    /// Prints what is to be played, if that has changed.
+    /// Prints the position to be played, if it has changed.
     pub fn show(&mut self, table: &Table, layout: &Layout) -> Result<(), Failure> {
         let Some(Exercise { name, title, rule, .. }) = self.session.exercise() else { return Ok(()) };
         let shown = Some((name.clone(), *layout));
@@ -168,16 +168,16 @@ impl<'a> StrokeByStroke<'a> {
             })?;
         } else {
             let title = if title == name { String::new() } else { format!("{title}; ") };
-            // Where it is white in every stroke, it is not said.
-            let is_told = self.session.is_match() || cue_ball != CueBall::White;
-            let turn = if is_told { format!("; the cue ball is {cue_ball}") } else { String::new() };
+            // A cue ball that is always white is not mentioned.
+            let is_mentioned = self.session.is_match() || cue_ball != CueBall::White;
+            let turn = if is_mentioned { format!("; the cue ball is {cue_ball}") } else { String::new() };
             line(format_args!("{name} ({rule}): {title}balls {}{turn}", layout_text(layout)))?;
         }
         self.shown = shown;
         Ok(())
     }
 
-    /// Plays one stroke; when its result is printed, it is safe on the disk. `false` where the coach is asked for a stroke and finds no point.
+    /// Plays one stroke and saves it before its result is printed. Returns `false` if the coach was asked for a stroke and found no point.
     pub fn stroke(&mut self, table: &Table, layout: &Layout, stroke: StrokeInput) -> Result<bool, Failure> {
         let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(true) };
         let cue_ball = self.session.cue_ball_now();
@@ -187,7 +187,7 @@ impl<'a> StrokeByStroke<'a> {
         };
         typed.as_ref().map_or(Ok(()), |cue| check(table, cue)).map_err(Failure::wrong_input)?;
         let by_coach = typed.is_none();
-        let own = if by_coach { None } else { self.own(layout) };
+        let own = if by_coach { None } else { self.model_shot(layout) };
         let advice = match own {
             Some(cue) if self.compares => {
                 Some(Advice { cue, solved: true, chance: chance(self.session.shooter(), rule, table, layout, &cue) })
@@ -210,14 +210,14 @@ impl<'a> StrokeByStroke<'a> {
         let attempts = &self.session.attempts;
         let before = &attempts[..attempts.len() - 1];
         if let Err(error) = self.store.save(&self.session, before, before.len()) {
-            // The score counts what is kept.
+            // The score must count only saved attempts.
             self.session.undo();
             return Err(Failure::failed(error));
         }
 
         let by = if own.is_some() { "exercise" } else { "coach" };
         let number = self.session.attempts.len();
-        // JSON is the same whatever the settings say.
+        // JSON output does not depend on the settings.
         let units = if self.options.json { Units { tip: TipUnit::Mm, ..Units::default() } } else { units() };
         let (verdict, run) = (played.words(cue_ball, units.length), self.session.run());
         let changes = advice.map_or_else(Vec::new, |advice| changes(table, &meant, &advice.cue, units));
@@ -269,14 +269,14 @@ impl<'a> StrokeByStroke<'a> {
         Ok(true)
     }
 
-    /// Why the coach has not played.
+    /// Explains why the coach did not play.
     pub fn no_point(&self) -> Failure {
         let budget = self.options.budget_ms;
-        Failure::failed(format_args!("the coach found no point in {budget} ms; a larger --budget-ms may do"))
+        Failure::failed(format_args!("the coach found no point in {budget} ms; a larger --budget-ms may help"))
     }
 
-    /// The model shot, where the balls lie for it.
-    fn own(&self, layout: &Layout) -> Option<CueInputs> {
+    /// Returns the model shot, if the balls are in its position.
+    fn model_shot(&self, layout: &Layout) -> Option<CueInputs> {
         let exercise = self.session.exercise().filter(|exercise| exercise.layout == *layout)?;
         self.session.model_shot_of(exercise).filter(|_| !self.session.is_game())
     }
@@ -289,7 +289,7 @@ impl<'a> StrokeByStroke<'a> {
         }
         let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(None) };
         let (Shooter { skill, doubt }, seed) = (self.session.shooter(), self.session.seed);
-        // In a game the next point counts too.
+        // In a game, the next point counts, too.
         let plan = self.session.is_game();
         let budget = Duration::from_millis(self.options.budget_ms);
         let jumps = !self.options.no_jumps;
@@ -305,7 +305,7 @@ impl<'a> StrokeByStroke<'a> {
         if self.options.json {
             return Ok(json_line(&Refused { kind: "refused", line: number, error: failure.to_string() })?);
         }
-        tell(format_args!("line {number}: {failure}"));
+        print_note(format_args!("line {number}: {failure}"));
         Ok(())
     }
 

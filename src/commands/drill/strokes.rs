@@ -1,4 +1,4 @@
-//! Strokes, one after the other: from the standard input or by the coach, each played, judged, saved and answered at once.
+//! A sequence of strokes from the standard input or by the coach: each is played, judged, saved and answered at once.
 
 use super::{
     options::{PlayOptions, StrokeInput},
@@ -7,26 +7,26 @@ use super::{
 use crate::{
     commands::{
         Failure,
-        output::{ask, of_refused_lines, tell},
+        output::{ask, print_note, refused_lines_result},
     },
     drills::{Session, Store},
 };
 
-/// Most strokes that `--strokes` takes.
+/// Largest accepted value of `--strokes`.
 pub const MOST_STROKES: u32 = 10_000;
 
-/// Where the strokes come from.
+/// The source of the strokes.
 #[derive(Clone, Copy, Debug)]
 pub enum Strokes {
-    /// The standard input, a stroke a line, but for the strokes of the coach in a match against it.
+    /// The standard input, one stroke a line, except for the strokes of the coach in a match against it.
     Input,
     /// The coach.
     Coach,
-    /// One that is repeated.
+    /// One stroke that is repeated.
     Same(StrokeInput),
 }
 
-/// Plays a session until it is over, its input has ended, or it has `most` attempts.
+/// Plays a session until it is over, its input ends, or it has `most` attempts.
 pub fn play(
     store: &Store,
     session: Session,
@@ -60,9 +60,9 @@ pub fn play(
                 (failure, is_refused)
             }
         };
-        // What cannot be played does not end a session that others go on with.
+        // A stroke that cannot be played does not end the session if the input continues.
         if !is_refused {
-            // What was played counts all the same.
+            // Strokes that were already played still count.
             game.finish()?;
             return Err(failure);
         }
@@ -70,10 +70,12 @@ pub fn play(
         game.refuse(lines, &failure)?;
     }
     game.finish()?;
-    // A stroke that is repeated was asked for so many times.
+    // For a repeated stroke, the user asked for this number of attempts.
     let is_cut = game.session().attempts.len() >= most && !game.session().is_over();
     if is_cut && !matches!(strokes, Strokes::Same(_)) {
-        tell(format_args!("note: the limit of {most} strokes ended it; --strokes sets another, up to {MOST_STROKES}"));
+        print_note(format_args!(
+            "note: the limit of {most} strokes ended it; --strokes sets another, up to {MOST_STROKES}"
+        ));
     }
-    of_refused_lines(refused)
+    refused_lines_result(refused)
 }

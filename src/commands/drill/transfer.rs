@@ -1,4 +1,4 @@
-//! `carom drill export` and `carom drill import`: all of one's practice as one JSON file, and back.
+//! `carom drill export` and `carom drill import`: all practice data of a player as one JSON file.
 
 use std::{
     io::{self, Read},
@@ -9,7 +9,7 @@ use super::{Workspace, workspace::note};
 use crate::{
     commands::{
         Failure,
-        output::{json_line, line, need_folder, plural, tell},
+        output::{json_line, line, need_folder, plural, print_note},
     },
     drills::{
         Store,
@@ -19,17 +19,17 @@ use crate::{
     storage::{self, Places, target_of, write_atomic},
 };
 
-/// Write all sessions, positions and the skill of one's own as one JSON file.
+/// Write all sessions, your own positions and your own skill to one JSON file.
 #[derive(Debug, clap::Args)]
 pub struct ExportArgs {
-    /// The file, in a folder that is there, or an earlier export to replace; without one, or for "-", the standard output.
+    /// The file: a new one in an existing folder, or an earlier export to replace; without one, or for "-", the standard output.
     file: Option<PathBuf>,
 }
 
-/// Take in a file that `carom drill export` wrote, or a library of exercises.
+/// Import a file that `carom drill export` wrote, or a library of exercises.
 ///
-/// Nothing that is here is lost. Of a session on both sides the longer version is kept. One that has gone on on both sides is
-/// refused, and so is a position whose name is that of another.
+/// No data of this account is lost. If both sides have a session, the longer version is kept. A session that was continued differently on
+/// both sides is refused, and so is a position whose name is already used by another.
 #[derive(Debug, clap::Args)]
 pub struct ImportArgs {
     /// The file; "-" reads the standard input.
@@ -53,13 +53,13 @@ pub fn export(args: &ExportArgs) -> Result<(), Failure> {
             if target.exists() && !storage::read_text(&target, storage::PRACTICE).is_ok_and(is_export) {
                 let file = file.display();
                 return Err(Failure::failed(format_args!(
-                    "{file} is there already and is no export, so it stays as it is; accepted is a new name"
+                    "{file} already exists and is not an export, so it stays as it is; accepted is a new name"
                 )));
             }
             let bytes = serde_json::to_vec(&practice).map_err(|error| refuse(error.into()))?;
             write_atomic(&target, &bytes).map_err(refuse)?;
             let (positions, sessions) = (practice.library.exercises.len(), practice.sessions.len());
-            tell(format_args!(
+            print_note(format_args!(
                 "{} and {} written to {}",
                 plural(positions, "position"),
                 plural(sessions, "session"),
@@ -70,10 +70,7 @@ pub fn export(args: &ExportArgs) -> Result<(), Failure> {
     if notes.is_empty() {
         return Ok(());
     }
-    Err(Failure::failed(format_args!(
-        "{} could not be read and had no part in the export",
-        plural(notes.len(), "file")
-    )))
+    Err(Failure::failed(format_args!("{} could not be read; the export lacks this data", plural(notes.len(), "file"))))
 }
 
 pub fn import(args: &ImportArgs) -> Result<(), Failure> {
@@ -93,16 +90,16 @@ pub fn import(args: &ImportArgs) -> Result<(), Failure> {
         json_line(&imported)?;
     } else {
         line(format_args!(
-            "{} and {} taken in, {longer} of those here replaced by longer ones, {known} known already",
+            "{} and {} imported, {longer} existing ones replaced by longer ones, {known} already known",
             plural(*positions, "position"),
             plural(*sessions, "session")
         ))?;
     }
     for sentence in refused {
-        tell(format_args!("refused: {}", OneLine(sentence)));
+        print_note(format_args!("refused: {}", OneLine(sentence)));
     }
     if refused.is_empty() {
         return Ok(());
     }
-    Err(Failure::failed(format_args!("{} of what {file} holds could not be taken in", plural(refused.len(), "part"))))
+    Err(Failure::failed(format_args!("{} of {file} could not be imported", plural(refused.len(), "part"))))
 }

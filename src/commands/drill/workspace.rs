@@ -1,21 +1,21 @@
-//! What every practice command starts from: the user's store and the library.
+//! The common start of the practice commands: the user's store and the library.
 
 use crate::{
     coach::Skill,
-    commands::{Failure, lookup::own_skill, output::tell},
+    commands::{Failure, lookup::own_skill, output::print_note},
     drills::{Exercise, Library, LibraryError, Session, Store},
     printing::OneLine,
     storage::{self, Places},
 };
 
-/// The user's store and the library with the user's own positions.
+/// The user's store, and the library with the user's own positions.
 pub struct Workspace {
     pub store: Store,
     pub library: Library,
 }
 
 impl Workspace {
-    /// Reads the library; files that cannot be read are named on the standard error.
+    /// Opens the store and reads the library. Unreadable files are reported on the standard error.
     pub fn open() -> Self {
         let places = Places::of_this_user();
         note(storage::notice(&places).map(str::to_owned).as_slice());
@@ -25,7 +25,7 @@ impl Workspace {
         Self { store, library }
     }
 
-    /// The exercise that is meant by `text`: a name, a title, or the beginning of one.
+    /// Returns the exercise that `text` identifies: a name, a title, or the beginning of one.
     pub fn exercise(&self, text: &str) -> Result<&Exercise, Failure> {
         self.library.called(text).map_err(|error| match (&error, self.library.like(text)) {
             (LibraryError::Unknown(_), Some(name)) => Failure::failed(format_args!(
@@ -35,7 +35,7 @@ impl Workspace {
         })
     }
 
-    /// All sessions; files that cannot be read are named on the standard error.
+    /// Returns all sessions. Unreadable files are reported on the standard error.
     pub fn sessions(&self) -> Vec<Session> {
         let found = self.store.sessions();
         note(&found.notes);
@@ -43,7 +43,7 @@ impl Workspace {
     }
 }
 
-/// The skill that was given, else the user's own, else an expert's: also where the user's own cannot be read, with a warning.
+/// Returns the given skill, otherwise the user's own, otherwise an expert's. An unreadable skill file gives a note and an expert's skill.
 pub fn player(given: Option<Skill>) -> Skill {
     let own = || {
         own_skill().unwrap_or_else(|failure| {
@@ -54,9 +54,9 @@ pub fn player(given: Option<Skill>) -> Skill {
     given.or_else(own).unwrap_or(Skill::EXPERT)
 }
 
-/// Tells what could not be read.
+/// Prints notes about unreadable files.
 pub fn note(notes: &[String]) {
     for sentence in notes {
-        tell(format_args!("note: {}", OneLine(sentence)));
+        print_note(format_args!("note: {}", OneLine(sentence)));
     }
 }

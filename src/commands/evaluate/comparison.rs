@@ -1,11 +1,11 @@
-//! Two measurements on the same layouts, compared layout by layout: what is alike on both does not blur the difference.
+//! Paired comparison of two measurements on the same layouts: differences between the layouts cancel.
 
 use std::{fmt, path::PathBuf};
 
 use serde::Serialize;
 
 use super::{
-    robustness::{FEWEST, Z},
+    robustness::{LEAST_LAYOUTS, Z},
     shots::ShotRecord,
     spec::{Records, Spec, merged},
 };
@@ -14,39 +14,41 @@ use crate::{
     statistics::mean_and_deviation,
 };
 
-/// By how much one measurement is better than another.
+/// The difference between two measurements.
 #[derive(Debug, PartialEq, Serialize)]
 pub struct Comparison {
-    /// What is compared: the make probability where both measured it, else the reward without errors.
+    /// The compared quantity: the make probability if both measured it, otherwise the reward without errors.
     compared: &'static str,
     layouts: usize,
-    /// The mean of the differences.
+    /// Mean of the differences.
     difference: f64,
-    /// Its 95 % interval, from their spread; none of too few layouts, nor where all differences are the same.
+    /// Its 95 % interval, from their spread; `None` for too few layouts, or if all differences are equal.
     difference_interval: Option<[f64; 2]>,
-    /// Layouts on which the first is better, and on which it is worse.
+    /// Number of layouts on which the first measurement is better, and on which it is worse.
     better: usize,
     worse: usize,
 }
 
 impl Comparison {
-    /// Of the whole that the first files hold with that of the `others`.
+    /// Compares the measurement `records` with the one in the files `others`.
     pub fn of(spec: &Spec, records: &Records, others: &[PathBuf]) -> Result<Self, Failure> {
         let (other, theirs) = merged(others)?;
         let (Records::Shots(own), Records::Shots(theirs)) = (records, &theirs) else {
-            return Err(Failure::wrong_input("innings of self-play are not compared: only one shot a layout is"));
+            return Err(Failure::wrong_input(
+                "innings of self-play cannot be compared: --against needs one shot per layout",
+            ));
         };
         if let Some(what) = spec.difference_of_layouts(&other) {
             return Err(Failure::wrong_input(format_args!(
                 "only measurements on the same layouts are compared: {what}"
             )));
         }
-        // Of players who err differently the shots alone say the same of both.
+        // For players with different errors, only the rewards without errors are comparable.
         let is_same_player = (spec.skill, spec.doubt) == (other.skill, other.doubt);
         Ok(Self::between(own, theirs, is_same_player))
     }
 
-    /// Of records of the same layouts, in the same order.
+    /// Compares records of the same layouts in the same order.
     fn between(own: &[ShotRecord], theirs: &[ShotRecord], is_same_player: bool) -> Self {
         let pairs = || own.iter().zip(theirs);
         let chances = pairs().map(|(own, theirs)| Some(own.chance? - theirs.chance?)).collect::<Option<Vec<f64>>>();
@@ -56,12 +58,12 @@ impl Comparison {
         };
         let (mean, deviation) = mean_and_deviation(&differences);
         let spread = Z * deviation.unwrap_or(0.0) / (differences.len() as f64).sqrt();
-        let says_something = differences.len() >= FEWEST && spread > 0.0;
+        let is_meaningful = differences.len() >= LEAST_LAYOUTS && spread > 0.0;
         Self {
             compared,
             layouts: differences.len(),
             difference: mean,
-            difference_interval: says_something.then_some([mean - spread, mean + spread]),
+            difference_interval: is_meaningful.then_some([mean - spread, mean + spread]),
             better: differences.iter().filter(|difference| **difference > 0.0).count(),
             worse: differences.iter().filter(|difference| **difference < 0.0).count(),
         }
@@ -75,7 +77,7 @@ impl fmt::Display for Comparison {
         write!(formatter, "difference of {compared} on the same {}: {difference:+.4}", plural(*layouts, "layout"))?;
         match self.difference_interval {
             Some([low, high]) => write!(formatter, " (95 % interval {low:+.4} to {high:+.4})")?,
-            None => write!(formatter, " (too little to say anything of other layouts)")?,
+            None => write!(formatter, " (too little to say anything about other layouts)")?,
         }
         write!(formatter, ", better on {better}, worse on {worse}")
     }
@@ -88,7 +90,7 @@ mod tests {
     #[test]
     fn what_is_alike_on_both_does_not_blur_the_difference() {
         let record = |layout: u32, chance| ShotRecord { layout, chance, ..ShotRecord::default() };
-        // Layouts differ by up to 0.6, and the first is better by 0.05 or 0.07 on each.
+        // Layouts differ by up to 0.6, and the first measurement is better by 0.05 or 0.07 on each.
         let of = |more: f64, less: f64| -> Vec<ShotRecord> {
             let chance =
                 |layout: u32| 0.2 + 0.006 * f64::from(layout) + if layout.is_multiple_of(2) { more } else { less };

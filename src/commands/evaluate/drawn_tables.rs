@@ -1,4 +1,4 @@
-//! Tables as clubs have them, one for each layout.
+//! Random tables like those in clubs, one for each layout.
 
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -10,7 +10,7 @@ use crate::{
     table::{Table, TableDoubt, TableSampler},
 };
 
-/// Tables around one.
+/// A distribution of tables around a given one.
 #[derive(Debug)]
 pub struct DrawnTables {
     around: Table,
@@ -19,15 +19,15 @@ pub struct DrawnTables {
 }
 
 impl DrawnTables {
-    /// Tables that differ from `table` as tables do of which nothing is known. Each is then as well known as `match`, but that the
-    /// law of its rails is not in doubt.
+    /// Creates tables that differ from `table` as unknown tables do. The player knows each of them as well as `match`, except that the rail
+    /// model is certain.
     pub fn around(table: &Table, seed: u64) -> Self {
         let known = TableDoubt { laws: Vec::new(), ..TableDoubt::of(&Table::default()) };
         let around = Table { name: format!("like {}", table.name), doubt: Some(known), ..table.clone() };
         Self { around, sampler: TableSampler::new(table, &prior(table), 1.0), seed }
     }
 
-    /// That of the layout with this number.
+    /// Returns the table of the layout with this number.
     pub fn of(&self, index: u32) -> Table {
         let Self { around, sampler, seed } = self;
         let Some(sampler) = sampler else { return around.clone() };

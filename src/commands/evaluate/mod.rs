@@ -1,4 +1,4 @@
-//! `carom evaluate`: measure the recommender or a policy on held-out layouts.
+//! `carom evaluate`: measures the recommender or a policy on held-out layouts.
 
 mod comparison;
 mod drawn_tables;
@@ -32,14 +32,14 @@ use crate::{
     printing::{SOURCE, VERSION},
 };
 
-/// What goes with a search of shots, and not with the networks alone. clap does not ask for `--policy-only` beside one of these.
+/// Options that need a search of shots, so that they conflict with the networks alone. clap does not require `--policy-only` if one of
+/// these is given.
 const OF_SEARCHES: [&str; 7] =
     ["random_search", "self_play", "choose_doubt", "plan", "no_jumps", "budget_ms", "simulations"];
 
 /// Measure the recommender, or with --policy-only the networks alone.
 ///
-/// They play layouts that nobody has practised. What is printed is the share on which the shot succeeds, with the 95 % confidence
-/// interval.
+/// The layouts took no part in any training. The output is the success rate of the shots, with its 95 % confidence interval.
 #[derive(Debug, clap::Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct Args {
@@ -52,77 +52,76 @@ pub struct Args {
     /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
     #[arg(long, default_value = "match")]
     table: String,
-    /// The policy: "bundled", the path of a file that `carom train` wrote, its run (the folder, or the name), the name under which one
-    /// was kept, or the name of a bundled one like "match-r3".
+    /// The policy: "bundled", the path of a file that `carom train` wrote, its run (the folder or the name), the name of a saved policy, or
+    /// the name of a bundled one like "match-r3".
     #[arg(long, value_name = "FILE", default_value = "bundled", value_parser = NonEmptyStringValueParser::new())]
     policy: String,
-    /// Play the networks' own shot: one pass, no simulator call. What they say of it is set against what comes of it.
+    /// Play the networks' own shot: one pass, no simulator call. Their predictions are compared with the results.
     #[arg(long)]
     policy_only: bool,
-    /// With --policy-only, play every layout on a table of its own, drawn from what tables in clubs differ by from --table. The
-    /// networks are told its constants, if they take them; with --skill it is as well known as "match".
+    /// With --policy-only: play every layout on its own random table, which differs from --table as tables in clubs do. Networks that
+    /// accept the constants of the table receive them; with --skill, the table is as well known as "match".
     #[arg(long, requires = "policy_only", conflicts_with_all = OF_SEARCHES)]
     drawn_tables: bool,
     /// What counts as a point: straight, one-cushion or three-cushion.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
-    /// With --policy-only, what is measured in place of the rule: r1, r1-difficulty, r2, r3, r4, one-cushion or three-cushion. Where it is more than
-    /// yes or no, the mean is given.
+    /// With --policy-only: measure this reward instead of the rule: r1, r1-difficulty, r2, r3, r4, one-cushion or three-cushion. If the
+    /// reward is not just 0 or 1, the mean is reported.
     #[arg(long, requires = "policy_only", conflicts_with_all = OF_SEARCHES, conflicts_with = "rule")]
     reward: Option<Reward>,
-    /// Measure a search of so many shots of random phi and V, which the simulator checks: the first that succeeds counts.
+    /// Measure a search of this many shots with random phi and V, which the simulator checks: the first success counts.
     #[arg(long, value_name = "SHOTS", conflicts_with_all = ["policy_only", "policy", "budget_ms"],
         value_parser = whole_from(1_u32))]
     random_search: Option<u32>,
-    /// Who plays the shots: perfect, expert, world-class, national, club, beginner, own (what
-    /// `carom drill skill --keep` kept), an average at three-cushion like 0.6, or a player's own standard errors in mm, degrees and
-    /// m/s like "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The make probability is measured too, on independent errors.
+    /// Who plays the shots: perfect, expert, world-class, national, club, beginner, own (saved by `carom drill skill --keep`), an average
+    /// at three-cushion like 0.6, or a player's own standard errors in mm, degrees and m/s like "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The
+    /// make probability is then measured, too, with independent errors.
     #[arg(long, value_parser = skill_called, conflicts_with_all = ["random_search", "reward"])]
     skill: Option<Skill>,
-    /// What is not known besides the hand's errors: full, none, or like "table=1,placing=3". Shots are chosen with it and
-    /// played on tables and from places that are drawn from it.
+    /// Uncertainty in addition to the errors of the hand: full, none, or like "table=1,placing=3". Shots are chosen with it and played on
+    /// tables and from positions that are drawn from it.
     #[arg(long, default_value_t = Doubt::FULL, conflicts_with_all = ["random_search", "reward"])]
     doubt: Doubt,
-    /// Choose shots with this doubt instead, and only play them with --doubt.
+    /// Choose shots with this doubt instead, but still play them with --doubt.
     #[arg(long, value_name = "DOUBT", requires = "skill", conflicts_with_all = ["policy_only", "random_search", "self_play"])]
     choose_doubt: Option<Doubt>,
-    /// Play innings: the recommended shot with the player's errors, until a miss, one inning a layout. The skill is
-    /// expert where none is given.
+    /// Play innings: the recommended shot with the player's errors, until a miss, one inning for each layout. Default skill: expert.
     #[arg(long, conflicts_with_all = ["policy_only", "random_search", "reward"])]
     self_play: bool,
-    /// With --self-play, points after which an inning is broken off.
+    /// With --self-play: points after which an inning is stopped.
     #[arg(long, requires = "self_play", conflicts_with_all = ["policy_only", "random_search"], default_value_t = 1000, value_parser = whole_from(1_u32))]
     most_points: u32,
-    /// With --self-play, minutes after which play is broken off; fractions are accepted.
+    /// With --self-play: minutes after which play is stopped; fractions are accepted.
     #[arg(long, requires = "self_play", conflicts_with_all = ["policy_only", "random_search"])]
     minutes: Option<f64>,
     /// Rank shots by the probability of this point and the next.
     #[arg(long, conflicts_with_all = ["policy_only", "random_search"])]
     plan: bool,
-    /// Advise neither jumps over a ball nor massés, as most clubs have it.
+    /// Recommend neither jumps over a ball nor massés, which most clubs forbid.
     #[arg(long, conflicts_with_all = ["policy_only", "random_search"])]
     no_jumps: bool,
     /// Time that the recommender has for a layout, ms.
     #[arg(long, default_value_t = 500, conflicts_with = "policy_only", value_parser = whole(0..=3_600_000_u64))]
     budget_ms: u64,
-    /// Simulations after which the recommender begins nothing new on a layout, in place of a time: the answer is then the same
-    /// on any machine. As for `carom recommend`, what has to be done in any case comes on top.
+    /// Number of simulations after which the recommender starts nothing new on a layout, instead of a time: the answer is then the same on
+    /// every machine. As for `carom recommend`, a minimum of work is always done in addition.
     #[arg(long, value_name = "COUNT", conflicts_with_all = ["policy_only", "random_search", "budget_ms"],
         value_parser = whole_from(1_u64))]
     simulations: Option<u64>,
     /// Threads that the recommender may use. Default: one on each processor
     #[arg(long, value_name = "N", conflicts_with_all = ["policy_only", "random_search"], value_parser = whole(1..=1024_u16))]
     threads: Option<u16>,
-    /// Measure part K of N of the layouts only, and print what was measured as JSON for --merge.
+    /// Measure only part K of N of the layouts, and print the records as JSON for --merge.
     #[arg(long, value_name = "K/N", conflicts_with = "json")]
     shard: Option<Shard>,
-    /// Measure nothing; report what the files of all parts hold together.
+    /// Measure nothing; report the combined result from the files of all parts.
     #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = [
         "layouts", "seed", "table", "policy", "policy_only", "drawn_tables", "rule", "reward", "random_search", "skill", "doubt", "choose_doubt",
         "self_play", "most_points", "minutes", "plan", "no_jumps", "budget_ms", "simulations", "threads", "shard",
     ])]
     merge: Vec<PathBuf>,
-    /// With --merge, compare with what these files hold together, on the same layouts: the mean difference, with its 95 % interval.
+    /// With --merge: compare with the combined result from these files on the same layouts: the mean difference, with its 95 % interval.
     #[arg(long, value_name = "FILE", num_args = 1.., requires = "merge")]
     against: Vec<PathBuf>,
     /// Print one JSON object.
@@ -151,7 +150,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Measures the layouts of one part, or all.
+/// Measures all layouts, or those of one part.
 fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
     if let Some(threads) = args.threads {
         limit_threads(threads.into());
@@ -164,7 +163,7 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
         Player::RandomSearch(shots)
     } else if args.policy_only {
         let errs = skill.is_some_and(|skill| !skill.is_perfect());
-        // None of the drawn tables has a policy of its own.
+        // All drawn tables use the same policy.
         let on = if args.drawn_tables { DrawnTables::around(&table, args.seed).of(0) } else { table.clone() };
         if args.drawn_tables && args.policy == BUNDLED && Policy::bundled_for(&on, Rule::default(), errs).is_none() {
             return Err(Failure::wrong_input(format_args!(
@@ -216,7 +215,7 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
     Ok((spec, records))
 }
 
-/// What the recommender is asked for.
+/// Returns the request to the recommender.
 fn request(args: &Args, skill: Skill) -> Request {
     let (budget, simulations) = match args.simulations {
         Some(simulations) => (Duration::MAX, simulations),

@@ -1,4 +1,4 @@
-//! How often a player makes the shots that were chosen, on errors that the chooser never saw.
+//! Make probability of the chosen shots, with errors that took no part in the choice.
 
 use std::fmt;
 
@@ -14,14 +14,14 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Independent attempts at each shot.
+/// Number of independent attempts at each shot.
 const ATTEMPTS: usize = 1000;
 
-/// Two-sided 95 % of the normal distribution.
+/// Two-sided 95 % quantile of the normal distribution.
 pub const Z: f64 = 1.96;
 
-/// Fewest layouts from which something is said of all others.
-pub const FEWEST: usize = 10;
+/// Minimum number of layouts for a statement about other layouts.
+pub const LEAST_LAYOUTS: usize = 10;
 
 /// The make probability over all layouts.
 #[derive(Debug, Serialize)]
@@ -30,31 +30,31 @@ pub struct Robustness {
     doubt: Doubt,
     /// Mean make probability.
     make_probability: f64,
-    /// Its 95 % interval, from the spread between layouts; none of fewer than [`FEWEST`].
+    /// Its 95 % interval, from the spread between layouts; `None` for fewer than [`LEAST_LAYOUTS`].
     make_interval: Option<[f64; 2]>,
-    /// Make probability that a tenth of the layouts stay below; none of fewer than [`FEWEST`].
+    /// The first decile of the make probability over the layouts; `None` for fewer than [`LEAST_LAYOUTS`].
     worst_tenth: Option<f64>,
-    /// What was predicted, where anything was.
+    /// The predictions, if there were any.
     #[serde(flatten)]
     reliability: Option<Reliability>,
-    /// On each layout.
+    /// Make probability on each layout.
     #[serde(skip)]
     chances: Vec<f64>,
 }
 
-/// What the recommender or the networks predicted of their shots, against what was observed.
+/// Predictions of the recommender or the networks, compared with the observations.
 #[derive(Debug, Serialize)]
 pub struct Reliability {
-    /// The mean of what was predicted; where no shot was found, that is a miss.
+    /// Mean of the predictions; a layout without a shot counts as a predicted miss.
     #[serde(rename = "claimed")]
     predicted: f64,
-    /// By tenths of what was predicted; only those with a layout.
+    /// By tenths of the prediction; only those that contain a layout.
     #[serde(rename = "tenths")]
     bins: Vec<Bin>,
 }
 
 impl Reliability {
-    /// From what was predicted and observed on every layout.
+    /// Compares the predictions with the observations, layout by layout.
     pub fn new(predicted: &[Option<f64>], observed: &[f64]) -> Self {
         let tenth = |predicted: f64| ((10.0 * predicted) as usize).min(9);
         let bins = (0..10).filter_map(|which| {
@@ -88,7 +88,7 @@ impl fmt::Display for Reliability {
     }
 }
 
-/// The layouts of which about the same was predicted.
+/// The layouts with about the same prediction.
 #[derive(Debug, Serialize)]
 struct Bin {
     layouts: usize,
@@ -98,7 +98,7 @@ struct Bin {
     observed: f64,
 }
 
-/// The make probability of a shot on the layout with number `index`; 0 where the cue has no room for it.
+/// Returns the make probability of a shot on the layout with number `index`; 0 if the cue has no room for it.
 pub fn chance(
     spec: &Spec,
     rule: Rule,
@@ -110,27 +110,27 @@ pub fn chance(
     if !has_room(table, layout, cue) {
         return 0.0;
     }
-    // Another stream than the recommender's, which has the measurement's seed too. Errors that layouts had in common would move all
-    // their chances together, and the interval, which takes layouts as independent, would be too narrow.
+    // Not the recommender's random stream, which also uses the measurement's seed. Each layout has its own errors: common errors would
+    // correlate the chances, and the interval, which assumes independent layouts, would be too narrow.
     let shooter = Shooter { skill, doubt: spec.doubt };
     make_probability(shooter, rule, table, layout, cue, ATTEMPTS, !layout_seed(spec.seed, index)).rate
 }
 
 impl Robustness {
-    /// From the make probability on every layout; there is at least one.
+    /// Computes the statistics from the make probability on every layout; `chances` must not be empty.
     pub fn new(skill: Skill, doubt: Doubt, chances: Vec<f64>) -> Self {
         let (count, (mean, deviation)) = (chances.len() as f64, mean_and_deviation(&chances));
         let spread = Z * deviation.unwrap_or(0.0) / count.sqrt();
         let mut sorted = chances.clone();
         sorted.sort_by(f64::total_cmp);
-        // Where every shot is made, or missed, each layout says no more than one attempt.
+        // If every shot is made or every shot is missed, each layout counts as one attempt.
         let interval = if spread > 0.0 {
             [(mean - spread).max(0.0), (mean + spread).min(1.0)]
         } else {
             let alike = SuccessRate::new((mean * count).round() as usize, chances.len());
             [alike.low, alike.high]
         };
-        let is_enough = chances.len() >= FEWEST;
+        let is_enough = chances.len() >= LEAST_LAYOUTS;
         Self {
             skill,
             doubt,
@@ -142,7 +142,7 @@ impl Robustness {
         }
     }
 
-    /// Compares with what was predicted of the shots.
+    /// Adds the comparison with the predictions.
     pub fn compare(&mut self, predicted: &[Option<f64>]) {
         self.reliability = Some(Reliability::new(predicted, &self.chances));
     }
@@ -164,7 +164,7 @@ impl fmt::Display for Robustness {
                 100.0 * high,
                 100.0 * worst
             )?,
-            _ => write!(formatter, "; fewer than {FEWEST} layouts say nothing of others")?,
+            _ => write!(formatter, "; fewer than {LEAST_LAYOUTS} layouts say nothing about others")?,
         }
         self.reliability.as_ref().map_or(Ok(()), |reliability| write!(formatter, "\n{reliability}"))
     }
@@ -179,7 +179,10 @@ mod tests {
         let of = |chances: &[f64]| Robustness::new(Skill::CLUB, Doubt::FULL, chances.to_vec());
         let few = of(&[0.737; 9]);
         assert_eq!((few.make_interval, few.worst_tenth), (None, None));
-        assert!(few.to_string().ends_with("73.70 % of the time; fewer than 10 layouts say nothing of others"), "{few}");
+        assert!(
+            few.to_string().ends_with("73.70 % of the time; fewer than 10 layouts say nothing about others"),
+            "{few}"
+        );
         let [low, high] = of(&[1.0; 20]).make_interval.unwrap();
         assert!(low < 0.9 && high == 1.0, "20 of 20 can be luck: {low}");
         let spread = of(&[0.2, 0.8].repeat(50));

@@ -14,7 +14,7 @@ use crate::{
     coach::{Coach, Doubt, Inning, Request, Skill, inning, layout_seed},
     commands::{
         Failure,
-        output::{json_line, plural, tell},
+        output::{json_line, plural, print_note},
     },
     learning::evaluation::held_out_layouts,
     printing,
@@ -22,27 +22,27 @@ use crate::{
     table::Layout,
 };
 
-/// Longest play where no limit is given: a hundred years' worth of nobody waiting.
+/// Limit of the play time if none is given: a hundred years.
 const NO_LIMIT: Duration = Duration::from_secs(100 * 365 * 24 * 3600);
 
-/// Turns between two lines of progress.
+/// Number of points between two lines of progress.
 const PROGRESS: u32 = 100;
 
-/// What was measured from one layout on.
+/// The result of an inning from one layout.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InningRecord {
-    /// The layout's number, from 0.
+    /// Number of the layout, from 0.
     pub layout: u32,
     points: u32,
     missed: bool,
     simulations: u64,
-    /// Of the coach, for all turns.
+    /// Total time of the coach, for all turns.
     seconds: f64,
-    /// Of the turn that took longest.
+    /// Time of the slowest turn.
     slowest_seconds: f64,
 }
 
-/// What is printed.
+/// The report.
 #[derive(Debug, Serialize)]
 struct SelfPlayReport<'a> {
     player: &'a str,
@@ -57,18 +57,18 @@ struct SelfPlayReport<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     simulations: Option<u64>,
     plan: bool,
-    /// Layouts from which an inning was to be played.
+    /// Layouts that were planned to be played.
     layouts: u32,
-    /// Innings begun, and among them those that were broken off, by the limit of points or of time.
+    /// Innings that were started, and those of them that were stopped by the limit of points or of time.
     innings: usize,
     broken_off: usize,
     points: u32,
     misses: u32,
-    /// Mean points of the innings, a broken-off one as long as it got.
+    /// Mean points per inning; a stopped inning counts with its points so far.
     mean_run: f64,
-    /// Points for each miss.
+    /// Points per miss.
     average: Option<f64>,
-    /// Its 95 % interval, from Wilson's for the share of misses: turns are taken as independent.
+    /// Its 95 % interval, from Wilson's interval for the share of misses; turns are assumed to be independent.
     average_interval: [Option<f64>; 2],
     longest: u32,
     runs: Vec<u32>,
@@ -77,7 +77,7 @@ struct SelfPlayReport<'a> {
     slowest_ms: f64,
 }
 
-/// Plays an inning from every layout of the part; no further ones after the `limit` of time.
+/// Plays an inning from every layout of the part, but starts none after the time `limit`.
 pub fn play(
     spec: &Spec,
     shard: Shard,
@@ -96,13 +96,13 @@ pub fn play(
         let number = index + 1;
         let mut say = |so_far: &Inning, _: &Layout| {
             if so_far.points.is_multiple_of(PROGRESS) {
-                tell(format_args!("inning {number}: {}", plural(so_far.points as usize, "point")));
+                print_note(format_args!("inning {number}: {}", plural(so_far.points as usize, "point")));
             }
         };
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(!layout_seed(spec.seed, index));
         let Inning { points, missed, simulations, elapsed, slowest } =
             inning(coach, layout, request, most, until, &mut rng, &mut say).map_err(Failure::wrong_input)?;
-        tell(format_args!(
+        print_note(format_args!(
             "inning {number}: {}{}",
             plural(points as usize, "point"),
             if missed { "" } else { ", broken off" }
@@ -162,7 +162,7 @@ fn print_text(out: &mut impl Write, report: &SelfPlayReport<'_>) -> std::io::Res
     let [low, high] = report.average_interval.map(end);
     let not_begun = match (report.layouts as usize).saturating_sub(report.innings) {
         0 => String::new(),
-        missing => format!("; on {missing} of {} layouts none was begun, for the time was up", report.layouts),
+        missing => format!("; on {missing} of {} layouts none was started, because the time was up", report.layouts),
     };
     writeln!(
         out,
@@ -180,7 +180,9 @@ fn print_text(out: &mut impl Write, report: &SelfPlayReport<'_>) -> std::io::Res
     writeln!(
         out,
         "average {} (95 % interval {low} to {high}), mean run {:.1}, longest {}",
-        report.average.map_or_else(|| "unknown, for nothing was missed".to_owned(), |average| format!("{average:.2}")),
+        report
+            .average
+            .map_or_else(|| "unknown, because nothing was missed".to_owned(), |average| format!("{average:.2}")),
         report.mean_run,
         report.longest
     )?;

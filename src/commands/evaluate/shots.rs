@@ -1,4 +1,4 @@
-//! One shot a layout: who decides, what each layout showed, and the report over all of them.
+//! Measurements with one shot per layout: the players, the record of each layout, and the report over all of them.
 
 use std::{f64::consts::PI, io::Write, time::Instant};
 
@@ -22,24 +22,25 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Speed above which a stroke counts as a hard one, m/s: filmed players' balls leave the cue at 3.5 m/s, after a stroke of 2.5.
-const HARD: f64 = 5.0;
+/// Speed of the cue above which a stroke counts as hard, m/s. In filmed matches the balls leave the cue at 3.5 m/s, after a stroke at 2.5
+/// m/s.
+const HARD_SPEED: f64 = 5.0;
 
-/// What a recommender plays that refuses a layout. Held-out layouts are possible, so none is refused.
+/// The shot if the recommender refuses a layout. Held-out layouts are valid, so it refuses none.
 const NO_SHOT: CueInputs = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 1e-3 };
 
-/// Who decides on a shot.
+/// The player that decides on a shot.
 pub enum Player {
     /// Networks and search together.
     Recommender(Box<Coach>, Request),
     /// The networks alone.
     Policy(Box<Policy>),
-    /// The first of so many random shots that makes the point.
+    /// The first of this many random shots that makes the point.
     RandomSearch(u32),
 }
 
 impl Player {
-    /// Its name in reports.
+    /// Returns the name of the player in reports.
     pub const fn name(&self) -> &'static str {
         match self {
             Self::Recommender(..) => "recommender",
@@ -48,7 +49,7 @@ impl Player {
         }
     }
 
-    /// The checksum of its networks, if it has any.
+    /// Returns the checksum of its networks, if it has any.
     ///
     /// # Errors
     /// As [`Policy::checksum`].
@@ -61,7 +62,7 @@ impl Player {
         policy.map(Policy::checksum).transpose()
     }
 
-    /// Which of the bundled networks play alone, if any do.
+    /// Returns the name of the bundled networks, if they play alone.
     pub fn networks(&self) -> Option<&'static str> {
         match self {
             Self::Policy(policy) => policy.bundled_name(),
@@ -75,14 +76,14 @@ struct Decision {
     cue: CueInputs,
     simulations: Option<u64>,
     predicted: Option<f64>,
-    /// What else the networks propose, where these play alone for what is yes or no.
+    /// Other proposals of the networks, if they play alone and the reward is just 0 or 1.
     others: Option<Vec<Proposal>>,
 }
 
-/// What was measured on one layout.
+/// The record of one layout.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ShotRecord {
-    /// Its number, from 0.
+    /// Number of the layout, from 0.
     pub layout: u32,
     /// The reward of the shot without errors.
     pub earned: f64,
@@ -90,18 +91,18 @@ pub struct ShotRecord {
     pub speed: f64,
     /// Time of the decision, s.
     pub seconds: f64,
-    /// Of players that search.
+    /// For players that search.
     pub simulations: Option<u64>,
-    /// What the player predicted of the shot's make probability.
+    /// Make probability of the shot, as the player predicted it.
     #[serde(rename = "claimed")]
     pub predicted: Option<f64>,
-    /// How often the player of the skill makes it.
+    /// How often the player of the given skill makes the shot.
     pub chance: Option<f64>,
-    /// Of networks that play alone, whether any of their proposals makes the point without errors.
+    /// For networks that play alone: whether any of their proposals makes the point without errors.
     pub best_of_k: Option<bool>,
 }
 
-/// Lets `player` decide on every layout of the part and plays what it decides.
+/// Lets `player` decide on every layout of the part, and plays the decisions.
 pub fn measure(spec: &Spec, shard: Shard, player: &Player, rule: Rule, reward: Reward) -> Vec<ShotRecord> {
     let layouts = held_out_layouts(&spec.table, spec.layouts as usize, spec.seed);
     let mine = (0..).zip(&layouts).filter(|(index, _)| shard.holds(*index));
@@ -150,7 +151,7 @@ fn decide(
             let skill = spec.skill.unwrap_or(Skill::PERFECT);
             let mut proposals = policy.proposals(table, layout, &skill);
             let Proposal { cue, success } = proposals.remove(0);
-            // What it says of another reward, or of a player whom it is not told, is no probability of what is measured.
+            // A prediction for another reward, or for a skill that is not an input of the networks, is not the measured probability.
             let is_of_this = policy.origin().reward == reward && (skill.is_perfect() || policy.speaks_of(&skill));
             let others = spec.is_yes_or_no.then_some(proposals);
             Decision { predicted: is_of_this.then_some(success), others, ..shot(cue) }
@@ -162,8 +163,8 @@ fn decide(
     }
 }
 
-/// The first of `shots` shots in a random direction at a random speed that the cue has room for and that makes the point; the last
-/// one where none does.
+/// Returns the first of `shots` shots with random direction and speed that makes the point and for which the cue has room; the last one if
+/// there is none.
 fn random_search(table: &Table, layout: &Layout, rule: Rule, shots: u32, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
     let mut cue = NO_SHOT;
     for _ in 0..shots {
@@ -176,38 +177,38 @@ fn random_search(table: &Table, layout: &Layout, rule: Rule, shots: u32, rng: &m
     cue
 }
 
-/// What is printed.
+/// The report.
 #[derive(Debug, Serialize)]
 struct EvaluationReport<'a> {
     player: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
     policy: Option<&'a str>,
-    /// Of bundled networks that play alone.
+    /// For bundled networks that play alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     networks: Option<&'a str>,
     table: String,
-    /// The reward or the rule.
+    /// Name of the reward or the rule.
     measure: &'a str,
     seed: u64,
     mean_reward: f64,
-    /// Of rewards that are 0 or 1.
+    /// For rewards that are 0 or 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     success: Option<SuccessRate>,
-    /// Of networks that play alone, the share of layouts on which any of their proposals makes the point without errors.
+    /// For networks that play alone: the share of layouts on which any of their proposals makes the point without errors.
     #[serde(skip_serializing_if = "Option::is_none")]
     best_of_k: Option<f64>,
-    /// Decisions a second; judging the shots is not counted.
+    /// Decisions per second; the time to judge the shots is not included.
     layouts_per_second: f64,
     slowest_ms: f64,
-    /// The share of the strokes that are harder than [`HARD`].
+    /// Share of strokes that are harder than [`HARD_SPEED`].
     hard_share: f64,
-    /// Of players that search.
+    /// For players that search.
     #[serde(skip_serializing_if = "Option::is_none")]
     simulations_per_layout: Option<f64>,
-    /// What the networks predict of their shots, where no skill is given.
+    /// Predictions of the networks, if no skill is given.
     #[serde(flatten)]
     reliability: Option<Reliability>,
-    /// How often the player of the skill makes the shots.
+    /// How often the player of the given skill makes the shots.
     #[serde(skip_serializing_if = "Option::is_none")]
     robustness: Option<Robustness>,
 }
@@ -228,7 +229,7 @@ fn report<'a>(spec: &'a Spec, records: &[ShotRecord]) -> EvaluationReport<'a> {
     let has_predicted = is_searching || records.iter().any(|record| record.predicted.is_some());
     let predicted: Vec<_> = records.iter().map(|record| record.predicted).collect();
     let earned: Vec<_> = records.iter().map(|record| record.earned).collect();
-    // Of the player's attempts, or else of the shot itself where that is a point or none.
+    // Predictions are compared with the player's attempts, or otherwise with the shot itself if the reward is 0 or 1.
     let compares_shots = spec.player == "policy" && spec.skill.is_none() && spec.is_yes_or_no && has_predicted;
     let robustness = spec.skill.zip(chances).map(|(skill, chances)| {
         let mut robustness = Robustness::new(skill, spec.doubt, chances);
@@ -250,7 +251,7 @@ fn report<'a>(spec: &'a Spec, records: &[ShotRecord]) -> EvaluationReport<'a> {
         best_of_k: best_of_k.map(|made| made.iter().filter(|made| **made).count() as f64 / count as f64),
         layouts_per_second: count as f64 / seconds.max(f64::MIN_POSITIVE),
         slowest_ms: 1e3 * records.iter().map(|record| record.seconds).fold(0.0, f64::max),
-        hard_share: mean(&|record| f64::from(record.speed > HARD)),
+        hard_share: mean(&|record| f64::from(record.speed > HARD_SPEED)),
         simulations_per_layout: is_searching.then(|| mean(&|record| record.simulations.unwrap_or(0) as f64)),
         reliability: compares_shots.then(|| Reliability::new(&predicted, &earned)),
         robustness,
@@ -282,7 +283,7 @@ fn print_text(out: &mut impl Write, report: &EvaluationReport<'_>, layouts: usiz
         Some(simulations) => writeln!(out, ", {simulations:.1} simulations a layout")?,
         None => writeln!(out)?,
     }
-    writeln!(out, "{:.1} % of the strokes are harder than {HARD} m/s", 100.0 * report.hard_share)?;
+    writeln!(out, "{:.1} % of the strokes are harder than {HARD_SPEED} m/s", 100.0 * report.hard_share)?;
     report.reliability.as_ref().map_or(Ok(()), |reliability| writeln!(out, "{reliability}"))?;
     report.robustness.as_ref().map_or(Ok(()), |robustness| writeln!(out, "{robustness}"))
 }

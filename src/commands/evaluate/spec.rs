@@ -1,4 +1,4 @@
-//! What an evaluation measures, and the parts that several processes or machines share it out in.
+//! Specification of an evaluation, and its parts, which several processes or machines can measure.
 
 use std::{
     collections::BTreeSet,
@@ -18,47 +18,47 @@ use crate::{
     table::Table,
 };
 
-/// What is measured: all parts of an evaluation have it in common.
+/// The specification of an evaluation, which all its parts share.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line, or follows from some")]
 pub struct Spec {
-    /// Who decides: "recommender", "policy" or "random search".
+    /// The player: "recommender", "policy" or "random search".
     pub player: String,
-    /// The policy, of players that have one.
+    /// The policy, for players that have one.
     pub policy: Option<String>,
-    /// Checksum of its networks, whatever it is called; parts of earlier versions have none.
+    /// Checksum of its networks, independent of its name; absent in parts from earlier versions.
     pub checksum: Option<String>,
-    /// Version and source of the program that measured; parts of earlier versions have none.
+    /// Version and source of the program that measured; absent in parts from earlier versions.
     pub version: Option<String>,
-    /// Which of the bundled networks they are, where these play alone.
+    /// Name of the bundled networks, if they play alone.
     pub networks: Option<String>,
     pub table: Table,
-    /// Whether every layout has a table of its own, drawn around that one.
+    /// Whether every layout has its own table, drawn around `table`.
     pub drawn_tables: bool,
-    /// The reward or the rule.
+    /// Name of the reward or the rule.
     pub measure: String,
-    /// Whether that is yes or no.
+    /// Whether the reward is just 0 or 1.
     pub is_yes_or_no: bool,
     pub seed: u64,
-    /// Layouts of all parts together.
+    /// Number of layouts of all parts together.
     pub layouts: u32,
     pub skill: Option<Skill>,
     pub doubt: Doubt,
-    /// The doubt that shots are chosen with, where it is another.
+    /// The doubt with which shots are chosen, if it differs.
     pub choose_doubt: Option<Doubt>,
     pub plan: bool,
     pub no_jumps: bool,
-    /// What the recommender has for a layout: a time, or a number of simulations.
+    /// The limit of the recommender for a layout: a time, or a number of simulations.
     pub budget_ms: Option<u64>,
     pub simulations: Option<u64>,
-    /// Shots of the random search.
+    /// Number of shots of the random search.
     pub random_search: Option<u32>,
-    /// Points after which an inning of self-play is broken off.
+    /// Points after which an inning of self-play is stopped.
     pub most_points: Option<u32>,
 }
 
 impl Spec {
-    /// In what the layouts of another measurement differ, or what is measured on them.
+    /// Describes how the layouts of another measurement, or the quantity measured on them, differ.
     pub fn difference_of_layouts(&self, other: &Self) -> Option<String> {
         let of = |spec: &Self| {
             let Self { measure, seed, layouts, drawn_tables, table, .. } = spec;
@@ -69,14 +69,14 @@ impl Spec {
         difference(&of(self), &of(other)).map(|(name, values)| format!("{name} {values}"))
     }
 
-    /// Takes from the specification of another part what this one, of an earlier version, does not say.
+    /// Completes this specification, which an earlier version may have written, from that of another part.
     fn learn_from(&mut self, other: &Self) {
         self.checksum = self.checksum.take().or_else(|| other.checksum.clone());
         self.version = self.version.take().or_else(|| other.version.clone());
     }
 }
 
-/// A part of the layouts: `k/n` is every n-th layout from the k-th on.
+/// A part of the layouts: `k/n` is every n-th layout, starting with the k-th.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Shard {
@@ -88,7 +88,7 @@ impl Shard {
     /// All layouts.
     pub const WHOLE: Self = Self { part: 1, of: 1 };
 
-    /// Whether the layout with this number, from 0, belongs to it.
+    /// Whether the layout with this number, from 0, belongs to the part.
     pub const fn holds(self, index: u32) -> bool {
         index % self.of == self.part - 1
     }
@@ -107,7 +107,7 @@ impl FromStr for Shard {
         let shard = text.split_once('/').and_then(|(part, of)| Some((part.parse().ok()?, of.parse().ok()?)));
         match shard {
             Some((part, of)) if (1..=of).contains(&part) => Ok(Self { part, of }),
-            _ => Err(format!("\"{text}\" is no part: write K/N like 2/8, K from 1 to N")),
+            _ => Err(format!("\"{text}\" is not a part: write K/N like 2/8, K from 1 to N")),
         }
     }
 }
@@ -126,17 +126,17 @@ impl From<Shard> for String {
     }
 }
 
-/// What was measured on each layout.
+/// The records of all layouts.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Records {
-    /// One shot a layout.
+    /// One shot per layout.
     Shots(Vec<ShotRecord>),
-    /// One inning a layout.
+    /// One inning per layout.
     Innings(Vec<InningRecord>),
 }
 
-/// What one process measured.
+/// The measurement of one process.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Part {
     #[serde(rename = "order")]
@@ -146,7 +146,7 @@ pub struct Part {
 }
 
 impl Part {
-    /// What another part has measured otherwise, or in how many parts; `None` where both are of one evaluation.
+    /// Describes how another part differs in its specification or its number of parts; `None` if both belong to one evaluation.
     fn difference(&self, other: &Self) -> Option<String> {
         let [mut own, mut others] = [self, other].map(|part| part.spec.clone());
         own.learn_from(&others);
@@ -156,35 +156,35 @@ impl Part {
             return (own != others).then(|| format!("of {own} and of {others} parts"));
         }
         let [one, two] = [own, others].map(|spec| serde_json::to_value(spec).unwrap_or_default());
-        let told = |(name, values): (String, String)| match name.as_str() {
+        let describe = |(name, values): (String, String)| match name.as_str() {
             "checksum" => format!("not by the same networks, whatever they are called (checksums {values})"),
             "version" => format!("by different versions of carom, {values}"),
             name => format!("{name} {values}"),
         };
-        Some(difference(&one, &two).map_or_else(|| "other settings".to_owned(), told))
+        Some(difference(&one, &two).map_or_else(|| "other settings".to_owned(), describe))
     }
 }
 
-/// The first field in which two objects differ, and its values.
+/// Returns the first field in which two objects differ, with both values.
 fn difference(one: &Value, two: &Value) -> Option<(String, String)> {
     let mut fields = one.as_object().into_iter().flatten();
     let (name, value) = fields.find(|(name, value)| two[name.as_str()] != **value)?;
     Some((name.clone(), format!("{value} and {}", two[name.as_str()])))
 }
 
-/// Why parts cannot be put together.
+/// Reasons why parts cannot be merged.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
     /// A file cannot be read.
     #[error("{} cannot be read: {error}", path.display())]
     File { path: PathBuf, error: std::io::Error },
-    /// Its contents are no part.
-    #[error("{} is no part of an evaluation, as carom evaluate --shard prints it: {}", path.display(), what_is_wrong(error))]
+    /// Its content is not a part.
+    #[error("{} is not a part of an evaluation, as carom evaluate --shard prints it: {}", path.display(), what_is_wrong(error))]
     Contents { path: PathBuf, error: serde_json::Error },
     /// The parts measured different things.
     #[error("{} and {} are parts of different evaluations: {what}", one.display(), other.display())]
     Different { one: PathBuf, other: PathBuf, what: String },
-    /// The same layouts twice.
+    /// Two files contain the same part.
     #[error("{} holds part {shard}, which another file holds too", path.display())]
     Twice { path: PathBuf, shard: Shard },
     /// Parts are missing.
@@ -201,22 +201,22 @@ impl From<MergeError> for Failure {
     }
 }
 
-/// Where the contents stop being a part, without the words of the library that reads them.
+/// Explains where the content stops being a part, without the jargon of the JSON library.
 fn what_is_wrong(error: &serde_json::Error) -> String {
     if error.is_data() {
-        return format!("it holds something else at line {}, column {}", error.line(), error.column());
+        return format!("it contains something else at line {}, column {}", error.line(), error.column());
     }
     storage::json_flaw(error)
 }
 
-/// The whole of which these files hold the parts.
+/// Merges the parts in these files into the whole.
 pub fn merged(files: &[PathBuf]) -> Result<(Spec, Records), MergeError> {
     let mut whole: Option<Part> = None;
     let mut seen = BTreeSet::new();
     for path in files {
         let part = read(path)?;
         let different = |what| MergeError::Different { one: files[0].clone(), other: path.clone(), what };
-        // First, as parts of another evaluation may have the same number.
+        // Check this first, because parts of another evaluation may have the same number.
         if let Some(what) = whole.as_ref().and_then(|whole| whole.difference(&part)) {
             return Err(different(what));
         }
@@ -233,7 +233,7 @@ pub fn merged(files: &[PathBuf]) -> Result<(Spec, Records), MergeError> {
             }
         }
     }
-    // The command line asks for one file at least.
+    // The command line requires at least one file.
     let Some(Part { spec, shard: Shard { of, .. }, mut records }) = whole else {
         return Err(MergeError::Missing { shard: Shard::WHOLE });
     };
@@ -251,7 +251,7 @@ fn read(path: &Path) -> Result<Part, MergeError> {
 }
 
 impl Records {
-    /// Takes the records of another part; not if they are of the other kind.
+    /// Appends the records of another part; returns `false` if they are of the other kind.
     fn append(&mut self, other: Self) -> bool {
         match (self, other) {
             (Self::Shots(all), Self::Shots(more)) => all.extend(more),
@@ -261,7 +261,7 @@ impl Records {
         true
     }
 
-    /// Brings them into the order of the layouts.
+    /// Sorts the records by layout.
     fn sort(&mut self) {
         match self {
             Self::Shots(records) => records.sort_by_key(|record| record.layout),

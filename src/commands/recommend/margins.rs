@@ -1,4 +1,4 @@
-//! `carom recommend --margins`: how far off the shot may be, and where to aim.
+//! `carom recommend --margins`: tolerances of the inputs, and where to aim.
 
 use std::io::{self, Write};
 
@@ -12,30 +12,30 @@ use crate::{
     table::{BALL_NAMES, Layout, Table},
 };
 
-/// Columns and rows of a map.
+/// Number of columns and rows of a map.
 const CELLS: usize = 41;
 
-/// How far the map of the tip reaches to every side, mm.
+/// Range of the tip map to each side, mm.
 const TIP: f64 = 8.0;
 
-/// How far the map of direction and speed reaches to either side, degrees and m/s.
+/// Ranges of the direction and speed map to each side, degrees and m/s.
 const DIRECTION: f64 = 1.5;
 const SPEED: f64 = 1.5;
 
-/// What is said of a shot besides its inputs.
+/// The aim, the tolerances and the maps of a shot.
 #[derive(Serialize)]
 pub struct Margins {
     aim: Aim,
-    /// Of a shot that makes the point.
+    /// Present for a shot that makes the point.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[serde(rename = "margins")]
     inputs: Option<[Margin; 5]>,
-    /// Over the tip's place, and over direction and speed.
+    /// A map over the tip position, and one over direction and speed.
     maps: [Map; 2],
 }
 
 impl Margins {
-    /// Of one shot.
+    /// Computes the margins of one shot.
     pub fn of(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs, doubt: Doubt) -> Result<Self, ShotError> {
         let sensitivity = Sensitivity::new(rule, table, layout, doubt);
         let draw = |across, up| sensitivity.map(cue, cue, across, up, CELLS);
@@ -49,7 +49,7 @@ impl Margins {
         })
     }
 
-    /// The same for people to read.
+    /// Describes them as text, without the maps.
     pub fn describe(&self, out: &mut impl Write, table: &Table, units: Units) -> io::Result<()> {
         let Aim { ahead, behind, hit } = &self.aim;
         let place =

@@ -1,8 +1,8 @@
-//! `carom recommend`: a shot for a layout, or for a file of layouts.
+//! `carom recommend`: recommends a shot for a layout, or for each layout in a file.
 
+mod description;
 mod in_time;
 mod margins;
-mod told;
 
 use std::{
     collections::HashSet,
@@ -14,16 +14,16 @@ use clap::builder::NonEmptyStringValueParser;
 use serde::{Deserialize, Serialize};
 
 use self::{
+    description::{Description, Reasons},
     in_time::in_time,
     margins::Margins,
-    told::{Reasons, Told},
 };
 use super::{
     Failure,
     input::{ByTable, PositionArgs, answer_lines, note_doubts, seed, whole, whole_from},
     lookup::{policy_called, skill_called},
-    output::{chance_words, impulse_words, units, whom_words},
-    question::{Key, Keys, RuleName},
+    output::{chance_words, impulse_words, player_and_rule_words, units},
+    request::{Key, Keys, RuleName},
 };
 use crate::{
     coach::{
@@ -39,7 +39,7 @@ use crate::{
     table::{BALL_NAMES, Layout, Table},
 };
 
-/// Time to look for a shot, ms, where neither a time nor simulations are given.
+/// Default time of the search, ms, if neither a time nor a number of simulations is given.
 const BUDGET_MS: u64 = 500;
 
 /// Recommend a shot for a layout, or for a file of layouts.
@@ -53,48 +53,48 @@ pub struct Args {
     rule: Rule,
     /// Who plays the shot: perfect, expert, world-class, national, club, beginner or own.
     ///
-    /// "own" is what `carom drill skill --keep` kept. An average at three-cushion like 0.6 is accepted too, and standard
-    /// errors in mm, degrees and m/s, like "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The shot that this player makes most often is
-    /// recommended; to a perfect one the first that makes the point.
+    /// "own" is the skill that `carom drill skill --keep` saved. An average at three-cushion like 0.6 is accepted, too, and standard errors
+    /// in mm, degrees and m/s, like "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The recommended shot is the one that this player makes most
+    /// often; for a perfect player it is the first one that makes the point.
     #[arg(long, default_value_t = Skill::EXPERT, value_parser = skill_called)]
     skill: Skill,
-    /// What is not known besides the hand's errors: full or none.
+    /// Uncertainty in addition to the errors of the hand: full or none.
     ///
-    /// With "full" the table is known as well as it was measured, and where the balls lie within 3 mm. A multiple of the first
-    /// and the second in mm is accepted too, like "table=1,placing=3". A perfect player has no doubts.
+    /// With "full", the table is known as well as it was measured, and the positions of the balls within 3 mm. A multiple of the first and
+    /// a value in mm for the second are accepted, too, like "table=1,placing=3". A perfect player has no doubts.
     #[arg(long, default_value_t = Doubt::FULL)]
     doubt: Doubt,
     /// Rank shots by the probability of this point and the next, so that the balls stay easy to play.
     #[arg(long, conflicts_with = "policy_only")]
     plan: bool,
-    /// Advise neither jumps over a ball nor massés, as most clubs have it.
+    /// Recommend neither jumps over a ball nor massés, which most clubs forbid.
     #[arg(long, conflicts_with = "policy_only")]
     no_jumps: bool,
-    /// What the cue ball is to meet first: any, yellow, red or cushion.
+    /// What the cue ball must meet first: any, yellow, red or cushion.
     ///
-    /// Shots that begin otherwise are not looked for. Yellow and red are met with no cushion before; after a cushion either may come.
+    /// Only shots that begin in this way are searched. "yellow" and "red" mean without a cushion before; after a cushion, the cue ball may
+    /// meet either ball.
     #[arg(long, default_value = "any", conflicts_with = "policy_only")]
     first: FirstMet,
-    /// Say also how far off each input may be, with maps of the outcome, and where to aim.
+    /// Also report how far off each input may be, with maps of the outcome, and where to aim.
     #[arg(long)]
     margins: bool,
-    /// Time to look for a shot, ms. Default: 500, and without end where --simulations is given.
+    /// Time of the search, ms. Default: 500, or unlimited if --simulations is given.
     #[arg(long, value_parser = whole(0..=3_600_000_u64))]
     budget_ms: Option<u64>,
-    /// Simulations after which the search begins nothing new.
+    /// Number of simulations after which the search starts nothing new.
     ///
-    /// Without --budget-ms the answer is the same on every machine then; with it both share the search out. It is no limit: a
-    /// least search and judging the shots that were found come on top, thousands of simulations.
+    /// Without --budget-ms, the answer is then the same on every machine; with it, both limits apply. This is not a hard limit: a minimal
+    /// search and judging the shots that were found take thousands of simulations in addition.
     #[arg(long, value_parser = whole_from(1_u64))]
     simulations: Option<u64>,
-    /// Give the networks' own shot, without any search.
+    /// Return the networks' own shot, without any search.
     #[arg(long)]
     policy_only: bool,
-    /// The policy: "bundled", the path of a file that `carom train` wrote, the folder of its run, or the name under which one was
-    /// kept.
+    /// The policy: "bundled", the path of a file that `carom train` wrote, the folder of its run, or the name of a saved policy.
     #[arg(long, value_name = "FILE", default_value = "bundled", value_parser = NonEmptyStringValueParser::new())]
     policy: String,
-    /// Seed of the search: while time does not run out, the same seed finds the same shot.
+    /// Seed of the search: if time does not run out, the same seed finds the same shot.
     #[arg(long, default_value_t = 0, value_parser = seed)]
     seed: u64,
     /// Print one JSON object.
@@ -119,17 +119,17 @@ impl Keys for BatchLine {
     const FORM: &'static str = "preset (the table, like \"match\") and layout; rule may be left out";
 }
 
-/// A shot in JSON. What is not known of it is absent.
+/// A shot in JSON. Unknown values are absent.
 #[derive(Serialize)]
 struct Shot {
     cue: CueInputs,
     /// How often the player makes it.
     #[serde(skip_serializing_if = "Option::is_none")]
     make_probability: Option<f64>,
-    /// The 95 % interval.
+    /// Its 95 % interval.
     #[serde(skip_serializing_if = "Option::is_none")]
     make_interval: Option<[f64; 2]>,
-    /// Of the next point, where it was looked for.
+    /// Probability of the next point, if it was estimated.
     #[serde(skip_serializing_if = "Option::is_none")]
     next_probability: Option<f64>,
     source: Source,
@@ -137,9 +137,9 @@ struct Shot {
     kind: Option<Kind>,
     #[serde(skip_serializing_if = "Option::is_none")]
     description: Option<String>,
-    /// Where anything was simulated.
+    /// The shot in words, if anything was simulated.
     #[serde(flatten)]
-    told: Option<Told>,
+    description_in_words: Option<Description>,
 }
 
 /// The answer in JSON.
@@ -147,22 +147,22 @@ struct Shot {
 struct RecommendAnswer {
     #[serde(flatten)]
     shot: Shot,
-    /// Absent where nothing was simulated.
+    /// Absent if nothing was simulated.
     #[serde(skip_serializing_if = "Option::is_none")]
     solved: Option<bool>,
-    /// What would miss the shot by itself, where anything is in doubt.
+    /// How often each source of error alone misses the shot, if anything is in doubt.
     #[serde(skip_serializing_if = "Option::is_none")]
     risk: Option<Risk>,
     simulations: u64,
     elapsed_ms: f64,
     alternatives: Vec<Shot>,
-    /// Where they were asked for.
+    /// Present if they were requested.
     #[serde(flatten)]
     margins: Option<Margins>,
-    /// Of a shot that makes the point.
+    /// Present for a shot that makes the point.
     #[serde(skip_serializing_if = "Option::is_none")]
     why: Option<Reasons>,
-    /// What a player counts on the diamonds for it, where a system applies.
+    /// The player's calculation on the diamonds, if a system applies.
     #[serde(skip_serializing_if = "Option::is_none")]
     system: Option<Guide>,
 }
@@ -177,7 +177,7 @@ impl Shot {
             source,
             kind,
             description: kind.map(|kind| kind.to_string()),
-            told: None,
+            description_in_words: None,
         }
     }
 }
@@ -223,10 +223,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if answer.solved == Some(false) {
         let begins = args.first.begins(BALL_NAMES);
         let without = if args.no_jumps { " without jumps and massés" } else { "" };
-        let keeps_wish = answer.shot.told.as_ref().is_none_or(|told| told.begins_with(args.first));
-        let attempt = if keeps_wish { "this is the best attempt" } else { NO_ATTEMPT };
+        let meets_first = answer.shot.description_in_words.as_ref().is_none_or(|words| words.begins_with(args.first));
+        let attempt = if meets_first { "this is the best attempt" } else { NO_ATTEMPT };
         return Err(Failure::failed(format_args!(
-            "no point was found{begins}{without} in {:.0} ms; {attempt}, a larger {} may do",
+            "no point was found{begins}{without} in {:.0} ms; {attempt}, a larger {} may help",
             answer.elapsed_ms,
             if args.simulations.is_some() { "--simulations" } else { "--budget-ms" }
         )));
@@ -234,7 +234,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The coach for `table` with the bundled policy, or with that of a file.
+/// Returns the coach for `table` with the bundled policy, or with another one.
 pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
     let coach = Coach::new(table);
     if policy == BUNDLED {
@@ -243,7 +243,7 @@ pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
     Ok(coach.with_policy(policy_called(policy)?))
 }
 
-/// Says what speaks against the networks' own shots, where these are asked for.
+/// Prints notes about the networks' own shots, if these are requested.
 fn note(args: &Args, coach: &Coach, rule: Rule) {
     if let Some(policy) = coach.policy(rule, &args.skill).filter(|_| args.policy_only) {
         note_doubts(policy, coach.table(), Some(rule));
@@ -273,9 +273,9 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
         let start = Instant::now();
         let policy = coach.policy(rule, &args.skill).ok_or_else(|| no_policy(coach.table()))?;
         let Proposal { cue, success } = policy.proposals(coach.table(), layout, &args.skill)[0];
-        // Others speak of the shot as it is meant, whoever plays it.
-        let told = policy.speaks_of(&args.skill).then_some(success);
-        let shot = Shot { make_probability: told, ..Shot::of(cue, None, None, Source::Policy, None) };
+        // Other networks predict the success of the shot without execution errors, whoever plays it.
+        let predicted = policy.speaks_of(&args.skill).then_some(success);
+        let shot = Shot { make_probability: predicted, ..Shot::of(cue, None, None, Source::Policy, None) };
         return Ok(RecommendAnswer::of(shot, 0, start.elapsed()));
     }
     let request = Request {
@@ -300,14 +300,14 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
     let shots: Vec<CueInputs> =
         std::iter::once(advice.cue).chain(advice.alternatives.iter().map(|shot| shot.cue)).collect();
     let words = in_time("the words for the shot", move || {
-        let told = shots.iter().map(|cue| Told::of(&table, &layout, cue)).collect::<Result<Vec<_>, _>>()?;
+        let described = shots.iter().map(|cue| Description::of(&table, &layout, cue)).collect::<Result<Vec<_>, _>>()?;
         let why = advice.solved.then(|| Reasons::of(shooter, rule, &table, &layout, &advice, seed)).transpose()?;
-        Ok::<_, ShotError>((told, why))
+        Ok::<_, ShotError>((described, why))
     })?;
-    if let Some((told, why)) = words {
-        let mut told = told.into_iter();
-        answer.shot.told = told.next();
-        answer.alternatives.iter_mut().zip(told).for_each(|(shot, told)| shot.told = Some(told));
+    if let Some((described, why)) = words {
+        let mut described = described.into_iter();
+        answer.shot.description_in_words = described.next();
+        answer.alternatives.iter_mut().zip(described).for_each(|(shot, words)| shot.description_in_words = Some(words));
         answer.why = why;
     }
     Ok(answer)
@@ -336,17 +336,17 @@ impl From<Recommendation> for RecommendAnswer {
     }
 }
 
-/// The recommendation for people to read.
+/// Describes the recommendation as text.
 fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &RecommendAnswer) -> io::Result<()> {
     let shot = &answer.shot;
-    if let Some(told) = &shot.told {
-        told.describe(out, units())?;
+    if let Some(description) = &shot.description_in_words {
+        description.describe(out, units())?;
     }
     if let Some(why) = &answer.why {
         why.describe(out, units())?;
     }
-    writeln!(out, "{}", whom_words(args.skill, args.rule))?;
-    if shot.told.is_some() {
+    writeln!(out, "{}", player_and_rule_words(args.skill, args.rule))?;
+    if shot.description_in_words.is_some() {
         writeln!(out)?;
     }
     let CueInputs { a, b, theta, speed, .. } = shot.cue;
@@ -360,7 +360,7 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
     writeln!(out, "theta  {:>8.3} degrees", theta.to_degrees())?;
     writeln!(out, "phi    {:>8} degrees", shot.cue.phi_text(3))?;
     let (factor, symbol) = units().length.speed();
-    // A shot is typed in metres a second, whatever it is told in.
+    // A typed shot is always in metres per second, whatever unit is displayed.
     let typed = if symbol == "m/s" { String::new() } else { format!(" ({speed:.3} m/s where a shot is typed)") };
     writeln!(out, "V      {:>8.3} {symbol}{typed}", factor * speed)?;
     writeln!(out, "{}", impulse_words(&strike(table, &shot.cue), units().length))?;
@@ -368,7 +368,11 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
         Some(true) => writeln!(out, "a point by simulation: {}", words(shot, args))?,
         Some(false) => writeln!(out, "no point by simulation: the best attempt")?,
         None => {
-            writeln!(out, "the networks' own shot, not simulated{}", told_chance(shot.make_probability, args.skill))?;
+            writeln!(
+                out,
+                "the networks' own shot, not simulated{}",
+                predicted_chance(shot.make_probability, args.skill)
+            )?;
         }
     }
     if let Some(system) = &answer.system {
@@ -384,27 +388,30 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
         margins.describe(out, table, units())?;
     }
     for shot in &answer.alternatives {
-        let Shot { cue, told, next_probability: next, .. } = shot;
+        let Shot { cue, description_in_words: description, next_probability: next, .. } = shot;
         let CueInputs { a, b, theta, speed, .. } = *cue;
         let ([a, b], theta, phi) = ([a, b].map(|place| fixed(place, 3)), theta.to_degrees(), cue.phi_text(3));
-        let pattern = told.as_ref().and_then(|told| told.pattern).map_or_else(String::new, |name| format!("{name}; "));
+        let pattern = description
+            .as_ref()
+            .and_then(|description| description.pattern)
+            .map_or_else(String::new, |name| format!("{name}; "));
         let next = next.map_or_else(String::new, |next| format!(", the next point {:.0} %", 100.0 * next));
         writeln!(out, "or {a},{b},{theta:.3},{phi},{speed:.3}: {pattern}{}{next}", words(shot, args))?;
-        if let Some(told) = told {
-            writeln!(out, "   {}", told.sentence(units()))?;
+        if let Some(description) = description {
+            writeln!(out, "   {}", description.sentence(units()))?;
         }
     }
     writeln!(out, "source: {}, {} simulations in {:.1} ms", shot.source, answer.simulations, answer.elapsed_ms)
 }
 
-/// How often the networks think that the player makes their shot, where they do.
-fn told_chance(told: Option<f64>, skill: Skill) -> String {
-    told.map_or_else(String::new, |told| {
-        format!("; they say that a player of skill \"{skill}\" makes it {:.0} % of the time", 100.0 * told)
+/// States the make probability that the networks predict for their shot, if they do.
+fn predicted_chance(predicted: Option<f64>, skill: Skill) -> String {
+    predicted.map_or_else(String::new, |rate| {
+        format!("; they say that a player of skill \"{skill}\" makes it {:.0} % of the time", 100.0 * rate)
     })
 }
 
-/// What sort of shot, and how often the player makes it.
+/// Describes the kind of shot, and how often the player makes it.
 fn words(shot: &Shot, args: &Args) -> String {
     let description = shot.kind.map(|kind| kind.words(units().length)).unwrap_or_default();
     match (shot.make_probability, shot.make_interval) {

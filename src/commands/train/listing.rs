@@ -1,21 +1,21 @@
-//! `carom train --list`: the runs there are.
+//! `carom train --list`: the existing runs.
 
 use std::path::Path;
 
 use crate::{
     commands::{
         Failure,
-        output::{json_line, print_table, tell},
+        output::{json_line, print_note, print_table},
     },
     learning::run::list::{Listing, Summary, runs_in},
     printing::OneLine,
     storage::Places,
 };
 
-/// Prints the runs in `folder`, or the user's, and tells whether there are any.
+/// Prints the runs in `folder`, or the user's runs, and returns whether there are any.
 pub fn print(folder: Option<&Path>, json: bool) -> Result<bool, Failure> {
     let own = Places::of_this_user().runs;
-    // Somebody who has never trained has no folder yet.
+    // A user who has never trained has no such folder yet.
     let Listing { runs, unreadable } = match (folder, folder.unwrap_or(&own)) {
         (None, own) if !own.exists() => Listing::default(),
         (_, folder) => runs_in(folder).map_err(|error| {
@@ -23,10 +23,10 @@ pub fn print(folder: Option<&Path>, json: bool) -> Result<bool, Failure> {
         })?,
     };
     for sentence in unreadable {
-        tell(format_args!("note: {}", OneLine(sentence)));
+        print_note(format_args!("note: {}", OneLine(sentence)));
     }
     if runs.is_empty() {
-        tell(format_args!("no runs in {}; start one with carom train", folder.unwrap_or(&own).display()));
+        print_note(format_args!("no runs in {}; start one with carom train", folder.unwrap_or(&own).display()));
     } else if json {
         runs.iter().try_for_each(json_line)?;
     } else {
@@ -38,7 +38,7 @@ pub fn print(folder: Option<&Path>, json: bool) -> Result<bool, Failure> {
 const HEADINGS: [&str; 11] =
     ["name", "agent", "reward", "table", "seed", "shots", "of", "best", "last", "last written (UTC)", "state"];
 
-/// Columns that are numbers and stand to the right.
+/// The columns with numbers, which are right-aligned.
 const NUMBERS: [usize; 5] = [4, 5, 6, 7, 8];
 
 fn row(run: &Summary) -> [String; HEADINGS.len()] {

@@ -1,4 +1,4 @@
-//! Several seeds: one after the other or side by side, and the spread between them.
+//! Training with several seeds: sequential or parallel, and the spread between them.
 
 use std::{
     io::Write,
@@ -6,9 +6,9 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{TrainOptions, abandon, failure, how_to_go_on, progress::Progress, spec::Read};
+use super::{TrainOptions, abandon, failure, how_to_resume, progress::Progress, spec::TrainingRequest};
 use crate::{
-    commands::{Failure, output::tell},
+    commands::{Failure, output::print_note},
     learning::run::{
         Ending, RunError,
         seeds::{Group, Spread},
@@ -18,13 +18,14 @@ use crate::{
 };
 
 /// Trains new runs with `seeds` seeds, `jobs` at a time.
-pub fn start(read: &Read, seeds: u64, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Failure> {
-    let Read { spec, weights, .. } = read;
-    let group = read.begin(|folder| Group::create(folder, spec.clone(), seeds, weights.as_ref())).map_err(failure)?;
+pub fn start(request: &TrainingRequest, seeds: u64, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Failure> {
+    let TrainingRequest { spec, weights, .. } = request;
+    let group =
+        request.begin(|folder| Group::create(folder, spec.clone(), seeds, weights.as_ref())).map_err(failure)?;
     train(&group, jobs, options)
 }
 
-/// Goes on with the runs in `folder`.
+/// Resumes the runs in `folder`.
 pub fn resume(folder: &Path, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Failure> {
     train(&Group::resume(folder).map_err(failure)?, jobs, options)
 }
@@ -32,7 +33,7 @@ pub fn resume(folder: &Path, jobs: u32, options: &TrainOptions<'_>) -> Result<()
 fn train(group: &Group, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Failure> {
     let seeds: Vec<u64> = group.seeds().collect();
     let begin = Instant::now();
-    // Whether the seed's run is finished, or what went wrong. Once time is up or somebody asks for an end, no other run is begun.
+    // Each outcome: whether the seed's run is finished, or the error. After the time limit or a signal, no other run is started.
     let outcomes = parallel::map(jobs as usize, &seeds, |seed| {
         let left = options.limit.map(|limit| limit.saturating_sub(begin.elapsed()));
         if (options.stop)() || left.is_some_and(|left| left.is_zero()) {
@@ -42,9 +43,9 @@ fn train(group: &Group, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Fai
     });
     let finished = outcomes.iter().all(|outcome| *outcome == Ok(true));
     let mut errors: Vec<String> = outcomes.into_iter().filter_map(Result::err).collect();
-    // Whether or not it can be told: who called has to know of errors, and that this is not the end.
-    let told = match group.write_spread() {
-        Ok(spread) => tell_spread(group, spread, finished, options),
+    // Ignore output errors at first: the caller must learn about failed or incomplete runs from the exit code.
+    let printed = match group.write_spread() {
+        Ok(spread) => print_spread(group, spread, finished, options),
         Err(error) => {
             errors.push(error.to_string());
             Ok(())
@@ -53,18 +54,18 @@ fn train(group: &Group, jobs: u32, options: &TrainOptions<'_>) -> Result<(), Fai
     if !errors.is_empty() {
         return Err(Failure::failed(errors.join("; ")));
     }
-    if finished { told } else { Err(how_to_go_on(group.folder())) }
+    if finished { printed } else { Err(how_to_resume(group.folder())) }
 }
 
-/// Says what the seeds have reached.
-fn tell_spread(
+/// Prints the results of the seeds.
+fn print_spread(
     group: &Group,
     spread: Option<Spread>,
     finished: bool,
     options: &TrainOptions<'_>,
 ) -> Result<(), Failure> {
     if options.objective {
-        // Seeds that stand at other shots are not to be compared with those of another run.
+        // Seeds at different numbers of shots cannot be compared with those of another run.
         let last = spread.filter(|spread| finished && spread.seeds == group.seeds().count());
         if let Some(spread) = last {
             writeln!(printing::stdout(), "{}", spread.mean)?;
@@ -87,11 +88,11 @@ fn tell_spread(
     Ok(())
 }
 
-/// Trains the run with this seed and returns whether it is finished.
+/// Trains the run with this seed, and returns whether it is finished.
 fn train_one(group: &Group, seed: u64, limit: Option<Duration>, options: &TrainOptions<'_>) -> Result<bool, RunError> {
     let (mut run, notices) = group.run(seed)?;
     for notice in notices {
-        tell(format_args!("warning: seed {seed}: {notice}"));
+        print_note(format_args!("warning: seed {seed}: {notice}"));
     }
     if run.result().is_some() {
         return Ok(true);
@@ -99,13 +100,13 @@ fn train_one(group: &Group, seed: u64, limit: Option<Duration>, options: &TrainO
     let mut progress = Progress::new(&run, options.json, Some(seed));
     let ending = run.train(&options.limits(limit), &mut progress)?;
     if let Err(error) = progress.close() {
-        tell(format_args!("warning: seed {seed}: the output cannot be written: {error}"));
+        print_note(format_args!("warning: seed {seed}: the output cannot be written: {error}"));
     }
     match ending {
         Ending::Finished(_) => Ok(true),
         Ending::Stopped(_) => Ok(false),
         Ending::Abandoned => abandon(run).map(|removed| {
-            tell(removed);
+            print_note(removed);
             false
         }),
     }

@@ -1,4 +1,4 @@
-//! What the user sees while training: a bar on a terminal, else a line for every measurement.
+//! The progress display of a training: a bar on a terminal, otherwise a line for every measurement.
 
 use std::io::{self, Write as _};
 
@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use crate::{
-    commands::output::tell,
+    commands::output::print_note,
     learning::run::{Run, Watcher, metrics::Record},
     printing::{self, shell_word},
 };
@@ -15,9 +15,9 @@ use crate::{
 pub struct Progress {
     bar: ProgressBar,
     json: bool,
-    /// The run's seed, where there are several runs.
+    /// The run's seed, if there are several runs.
     seed: Option<u64>,
-    /// Why a line could not be written, where one could not.
+    /// The error of the last line that could not be written, if any.
     unwritten: Option<io::Error>,
 }
 
@@ -31,7 +31,7 @@ struct Line<'a> {
 }
 
 impl Progress {
-    /// For a run that is about to start, alone or one of several with different seeds.
+    /// Creates the display for a run that is about to start, alone or as one of several with different seeds.
     pub fn new(run: &Run, json: bool, seed: Option<u64>) -> Self {
         let learner = run.learner();
         let plan = learner.plan();
@@ -41,7 +41,7 @@ impl Progress {
             ProgressBar::hidden()
         };
         if !learner.is_finished() {
-            tell(format_args!(
+            print_note(format_args!(
                 "training {} for {} on \"{}\" with seed {} in {}; from any terminal: carom watch {}",
                 learner.agent(),
                 plan.reward,
@@ -60,17 +60,17 @@ impl Progress {
         Self { bar, json, seed, unwritten: None }
     }
 
-    /// Takes the bar away.
+    /// Removes the bar.
     ///
     /// # Errors
-    /// Where a line could not be written.
+    /// Fails if a line could not be written.
     pub fn close(self) -> io::Result<()> {
         self.bar.finish_and_clear();
         self.unwritten.map_or(Ok(()), Err)
     }
 }
 
-/// A measurement in a line; nothing where the record has none.
+/// Formats a measurement as a line; `None` if the record has none.
 pub fn line(record: &Record) -> Option<String> {
     let Record { seconds, shots, .. } = record;
     let speed = *shots as f64 / seconds.max(1e-9);
@@ -87,7 +87,7 @@ impl Watcher for Progress {
         if self.json
             && let Ok(line) = printing::json_text(&Line { seed: self.seed, record })
         {
-            // A reader that has gone away must not end the training.
+            // A closed output must not end the training.
             self.unwritten = writeln!(printing::stdout(), "{line}").err().or(self.unwritten.take());
         }
         self.bar.set_position(record.shots);
@@ -95,12 +95,12 @@ impl Watcher for Progress {
         self.bar.set_message(summary);
         if let Some(line) = line(record).filter(|_| self.bar.is_hidden()) {
             let whose = self.seed.map(|seed| format!(", seed {seed}")).unwrap_or_default();
-            tell(format_args!("{line}{whose}"));
+            print_note(format_args!("{line}{whose}"));
         }
     }
 
     fn warn(&mut self, sentence: &str) {
         let whose = self.seed.map(|seed| format!("seed {seed}: ")).unwrap_or_default();
-        self.bar.suspend(|| tell(format_args!("warning: {whose}{sentence}")));
+        self.bar.suspend(|| print_note(format_args!("warning: {whose}{sentence}")));
     }
 }

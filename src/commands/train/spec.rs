@@ -1,4 +1,4 @@
-//! From the command line to what a new run is made of.
+//! Builds the specification of a new run from the command line.
 
 use std::{
     fs::canonicalize,
@@ -13,7 +13,7 @@ use crate::{
         Failure,
         input::table_named,
         lookup::{Source, weights_named},
-        output::tell,
+        output::print_note,
     },
     game::Reward,
     learning::{
@@ -30,25 +30,25 @@ use crate::{
     table::Table,
 };
 
-/// What to train, with which weights, where.
-pub struct Read {
+/// A training run to start: its specification, its initial weights and its folder.
+pub struct TrainingRequest {
     pub spec: TrainingSpec,
     pub weights: Option<Weights>,
     pub folder: PathBuf,
-    /// Whether the folder was chosen by whoever gave the command.
+    /// Whether the user chose the folder.
     pub is_named: bool,
 }
 
-impl Read {
-    /// What `start` begins in the folder. One that nobody has named gets a number where it is taken: its name is exact to the
-    /// second, and another training may have begun in the same one.
+impl TrainingRequest {
+    /// Calls `start` with the folder. If the user did not choose it and it exists, a number is appended: the default name has a resolution
+    /// of one second, and another training may have started in the same second.
     pub fn begin<T>(&self, start: impl Fn(&Path) -> Result<T, RunError>) -> Result<T, RunError> {
-        if self.is_named { start(&self.folder) } else { begin_in_free(&self.folder, start) }
+        if self.is_named { start(&self.folder) } else { start_in_free_folder(&self.folder, start) }
     }
 }
 
-/// What `start` begins in `folder`, or in the first of those with -2, -3 and so on behind its name that is not taken.
-fn begin_in_free<T>(folder: &Path, start: impl Fn(&Path) -> Result<T, RunError>) -> Result<T, RunError> {
+/// Calls `start` with `folder`, or with the first free name with -2, -3 and so on appended.
+fn start_in_free_folder<T>(folder: &Path, start: impl Fn(&Path) -> Result<T, RunError>) -> Result<T, RunError> {
     let mut begun = start(folder);
     for number in 2_u32.. {
         if !matches!(begun, Err(RunError::Occupied(_) | RunError::Foreign { .. } | RunError::Busy(_))) {
@@ -61,11 +61,11 @@ fn begin_in_free<T>(folder: &Path, start: impl Fn(&Path) -> Result<T, RunError>)
     begun
 }
 
-/// What the command line asks for. Whatever it leaves open is as in the run that the weights come from, or the default.
-pub fn read(args: &Args) -> Result<Read, Failure> {
+/// Reads the request from the command line. Missing values are those of the run that the weights come from, or the defaults.
+pub fn read(args: &Args) -> Result<TrainingRequest, Failure> {
     let weights = source(args)?.and_then(weights_of).transpose().map_err(failure)?;
     if let Some(notice) = weights.as_ref().and_then(|weights| weights.notice.as_ref()) {
-        tell(format_args!("warning: {notice}"));
+        print_note(format_args!("warning: {notice}"));
     }
     let base = weights.as_ref().map(|weights| base_of(weights, args)).transpose()?;
     let spec = specified(args, base)?;
@@ -73,17 +73,17 @@ pub fn read(args: &Args) -> Result<Read, Failure> {
         let name = run_name(&timestamp(), &spec.agent, &spec.table.name, spec.plan.reward, args.seed);
         Places::of_this_user().runs.join(name)
     });
-    Ok(Read { spec, weights, folder, is_named: args.run.is_some() })
+    Ok(TrainingRequest { spec, weights, folder, is_named: args.run.is_some() })
 }
 
-/// What `--from` names, if it is there.
+/// Returns the source that `--from` names, if it is given.
 fn source(args: &Args) -> Result<Option<Source>, Failure> {
     let Some(name) = &args.from else { return Ok(None) };
     let table = table_named(args.table.as_deref().unwrap_or("match"))?;
     weights_named(name, &table, args.reward.unwrap_or_default().rule().unwrap_or_default()).map(Some)
 }
 
-/// The weights that a source has.
+/// Loads the weights of a source.
 fn weights_of(source: Source) -> Option<Result<Weights, RunError>> {
     match source {
         Source::Path(path) => Some(Weights::load(&path)),
@@ -91,7 +91,7 @@ fn weights_of(source: Source) -> Option<Result<Weights, RunError>> {
     }
 }
 
-/// What a run trains by default, unlike one that starts from nothing.
+/// The defaults for a run, if it starts from weights.
 struct Base {
     agent: String,
     reward: Reward,
@@ -99,7 +99,7 @@ struct Base {
     settings: Value,
 }
 
-/// What the weights bring along. Their own table is not asked for where another one is named.
+/// Returns the defaults that the weights bring along. Their own table is not looked up if another one is named.
 fn base_of(weights: &Weights, args: &Args) -> Result<Base, Failure> {
     let Weights { start: Provenance { agent, reward, table, .. }, settings, .. } = weights.clone();
     let table = match (&args.table, &weights.table) {
@@ -114,7 +114,7 @@ fn base_of(weights: &Weights, args: &Args) -> Result<Base, Failure> {
     Ok(Base { agent, reward, table, settings })
 }
 
-/// What the command line asks for, and where it leaves anything open, `base` or the default.
+/// Returns the specification in the command line; missing values come from `base` or the defaults.
 fn specified(args: &Args, base: Option<Base>) -> Result<TrainingSpec, Failure> {
     let agent = args.agent.clone().or_else(|| base.as_ref().map(|base| base.agent.clone()));
     let agent = agent.unwrap_or_else(|| "ddpg".to_owned());
@@ -124,9 +124,9 @@ fn specified(args: &Args, base: Option<Base>) -> Result<TrainingSpec, Failure> {
         (None, Some(base)) => base.table.clone(),
         (None, None) => table_named("match")?,
     };
-    // Another agent's settings mean nothing here; that its weights do not either is said when they are given.
+    // Settings of another agent are meaningless here. That its weights cannot be used either is reported when they are loaded.
     let known = base.filter(|base| base.agent == agent).map(|base| base.settings);
-    // An agent that is not known is refused by name when the run starts.
+    // An unknown agent is refused by name when the run starts.
     let of_kind = |kind: AgentKind| (kind.settings)(&serde_json::json!({})).ok();
     let defaults = AgentKind::named(&agent).ok().and_then(of_kind).unwrap_or_default();
     let settings = settings(args.config.as_deref(), &args.set, known, &defaults)?;
@@ -136,11 +136,11 @@ fn specified(args: &Args, base: Option<Base>) -> Result<TrainingSpec, Failure> {
     Ok(TrainingSpec { agent, plan, settings, schedule: Schedule::new(every, layouts), table })
 }
 
-/// Refuses to go on with the run, or the group of seeds, in `folder` where it was started with other settings. The weights that it
-/// started from may be gone, or others by now: then what the command leaves open is taken for what the run has.
+/// Refuses to resume the run, or the group of seeds, in `folder` if it was started with other settings. The weights it started from may be
+/// missing or changed by now; then values that the command omits count as equal to those of the run.
 pub fn same_spec(args: &Args, folder: &Path) -> Result<(), Failure> {
-    // What cannot be read is told by whoever goes on with it.
-    let Some((theirs, start, their_seeds)) = known_spec(folder) else { return Ok(()) };
+    // A folder that cannot be read is reported by the code that resumes it.
+    let Some((theirs, start, their_seeds)) = stored_spec(folder) else { return Ok(()) };
     let as_before = source(args).ok().flatten().and_then(|source| weights_of(source)?.ok());
     let are_same = |start: &Provenance, weights: &Weights| {
         *start == Provenance { path: start.path.clone(), ..weights.start.clone() }
@@ -188,35 +188,35 @@ pub fn same_spec(args: &Args, folder: &Path) -> Result<(), Failure> {
     });
     if theirs.agent == ours.agent {
         let [theirs, ours] = [&theirs, &ours].map(|spec| spec.all_settings().map_err(failure));
-        tell_settings(&mut differences, "", &theirs?, &ours?);
+        add_setting_differences(&mut differences, "", &theirs?, &ours?);
     }
     if differences.is_empty() {
         return Ok(());
     }
     Err(Failure::failed(format_args!(
-        "the run in {} was started {}: --continue resumes a run that was started with the same settings; choose another folder by --run",
+        "the run in {} was started {}: --continue resumes a run that was started with the same settings; choose another folder with --run",
         folder.display(),
         differences.join("; ")
     )))
 }
 
-/// Adds the settings, below the name `above`, that differ.
-fn tell_settings(differences: &mut Vec<String>, above: &str, theirs: &Value, ours: &Value) {
+/// Adds the settings that differ; `above` is the prefix of their names.
+fn add_setting_differences(differences: &mut Vec<String>, above: &str, theirs: &Value, ours: &Value) {
     for (name, theirs) in theirs.as_object().into_iter().flatten() {
         match &ours[name.as_str()] {
             ours if ours == theirs => {}
-            ours if ours.is_object() => tell_settings(differences, &format!("{above}{name}."), theirs, ours),
+            ours if ours.is_object() => add_setting_differences(differences, &format!("{above}{name}."), theirs, ours),
             ours => differences.push(format!("with {above}{name} = {theirs}, not {ours}")),
         }
     }
 }
 
-/// Whether `--from` names what a run was started from, `theirs` as the run says. Of what is gone nothing but the name is known.
+/// Whether `--from` names the source `theirs` that a run was started from. If it no longer exists, only the names are compared.
 fn is_same_source(theirs: &str, args: &Args) -> bool {
     let ours = match source(args) {
         Ok(Some(Source::Path(path))) => path,
         Ok(Some(Source::Bundled(name))) => name.into(),
-        // It is gone.
+        // The source no longer exists.
         _ => args.from.clone().unwrap_or_default(),
     };
     let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().replace(".safetensors", ""));
@@ -226,8 +226,8 @@ fn is_same_source(theirs: &str, args: &Args) -> bool {
     }
 }
 
-/// What the run or the group in the folder was started with: what it trains, whose weights, and how many seeds.
-fn known_spec(folder: &Path) -> Option<(TrainingSpec, Option<Provenance>, Option<u64>)> {
+/// Returns how the run or the group in the folder was started: its specification, the origin of its weights, and the number of seeds.
+fn stored_spec(folder: &Path) -> Option<(TrainingSpec, Option<Provenance>, Option<u64>)> {
     if is_group(folder) {
         let GroupFile { spec, seeds, from } = described(folder).ok()?;
         return Some((spec, from, Some(seeds)));
@@ -236,8 +236,8 @@ fn known_spec(folder: &Path) -> Option<(TrainingSpec, Option<Provenance>, Option
     Some((TrainingSpec { agent, plan, settings, schedule, table }, from, None))
 }
 
-/// The settings `known` with what the TOML file at `path` and then the pairs in `set` say instead of them. Where the agent's
-/// `defaults` have parts, a part may be named alone.
+/// Returns the settings `known`, overridden by the TOML file at `path` and then by the pairs in `set`. If the agent's `defaults` are
+/// nested, a part can be set alone.
 fn settings(path: Option<&Path>, set: &[String], known: Option<Value>, defaults: &Value) -> Result<Value, Failure> {
     let mut settings = known.unwrap_or_else(|| serde_json::json!({}));
     if let Some(path) = path {
@@ -258,17 +258,17 @@ fn settings(path: Option<&Path>, set: &[String], known: Option<Value>, defaults:
     Ok(settings)
 }
 
-/// Puts the values of a TOML text in the place of those of the same names ([`lay_over`]).
+/// Overrides the settings of the same names by the values of a TOML text ([`lay_over`]).
 fn replace(settings: &mut Value, text: &str, origin: &str, defaults: &Value) -> Result<(), Failure> {
     let refuse = |reason: &str| Failure::wrong_input(format_args!("{origin}: {reason}"));
     let read: toml::Table = toml::from_str(text).map_err(|error| {
         refuse(&format!("{}; accepted are lines like heads = 8, with words in quotes", toml_flaw(text, &error)))
     })?;
     for (name, value) in read {
-        // JSON knows no dates either, and no setting is one: as a word it is refused by its own type.
+        // JSON has no dates, and no setting is one: as text it is refused by the type of the setting.
         let value = if value.is_datetime() { value.to_string().into() } else { value };
         let value = serde_json::to_value(value).map_err(|error| refuse(&error.to_string()))?;
-        // TOML knows nan and inf, JSON does not.
+        // TOML has nan and inf, JSON does not.
         if value.is_null() {
             return Err(refuse(&format!("{name} is not a finite number")));
         }
@@ -288,9 +288,9 @@ mod tests {
             name if name == "runs/a-1-2" => Err(RunError::Busy(name)),
             name => Ok(name),
         };
-        assert_eq!(begin_in_free(Path::new("runs/a-1"), taken).unwrap(), "runs/a-1-3");
-        assert_eq!(begin_in_free(Path::new("runs/b-1"), taken).unwrap(), "runs/b-1");
+        assert_eq!(start_in_free_folder(Path::new("runs/a-1"), taken).unwrap(), "runs/a-1-3");
+        assert_eq!(start_in_free_folder(Path::new("runs/b-1"), taken).unwrap(), "runs/b-1");
         let missing = |folder: &Path| Err::<(), _>(RunError::Missing(folder.display().to_string()));
-        assert!(begin_in_free(Path::new("runs/a-1"), missing).is_err(), "no other name helps");
+        assert!(start_in_free_folder(Path::new("runs/a-1"), missing).is_err(), "no other name helps");
     }
 }

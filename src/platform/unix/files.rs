@@ -1,4 +1,4 @@
-//! Files: rights, identity, what outlives a power cut, and room on the disk.
+//! Files: permissions, identity, durability and free disk space.
 
 use std::{
     fs::{File, Metadata},
@@ -11,26 +11,26 @@ use std::{
 use rustix::io::Errno;
 use signal_hook::{consts::SIGXFSZ, flag};
 
-/// Gives new files the rights that the user's umask gives any other; a temporary file's own are the owner's alone.
-pub fn for_all_to_read(builder: &mut tempfile::Builder<'_, '_>) {
+/// Gives a temporary file the permissions that the umask grants to any new file, instead of access for the owner alone.
+pub fn use_umask_permissions(builder: &mut tempfile::Builder<'_, '_>) {
     builder.permissions(PermissionsExt::from_mode(0o666));
 }
 
-/// A number that a file keeps when it is written to, and loses when another takes its place.
+/// Returns the inode number: a file keeps it when it is written to, and a replacement has another.
 pub fn file_identity(data: &Metadata) -> u64 {
     data.ino()
 }
 
-/// Has the names in a folder outlive a power cut, where the file system can be asked for that: some, over a network or of other
-/// systems, keep names in their own way and refuse.
+/// Makes the names in a folder survive a power cut, if the file system supports the request. Some network and foreign file systems store
+/// names in their own way and refuse it.
 ///
 /// # Errors
-/// Whatever else the file system reports.
+/// Returns any other error of the file system.
 pub fn sync_folder(folder: &Path) -> io::Result<()> {
     unless_unsupported(File::open(folder)?.sync_all())
 }
 
-/// The `answer`, where a file system that does not know the request counts as success.
+/// Returns `answer`, but counts the error of a file system that does not know the request as success.
 fn unless_unsupported(answer: io::Result<()>) -> io::Result<()> {
     let is_unknown = |errno| [Errno::INVAL, Errno::NOTSUP, Errno::OPNOTSUPP, Errno::NOSYS].contains(&errno);
     match answer {
@@ -39,20 +39,20 @@ fn unless_unsupported(answer: io::Result<()>) -> io::Result<()> {
     }
 }
 
-/// Bytes that this user may still write where `path` is; none where the system does not tell.
+/// Returns the number of bytes that this user can still write at `path`; `None` if the system does not report it.
 ///
 /// # Errors
-/// Whatever the file system reports.
+/// Returns any error of the file system.
 pub fn free_space(path: &Path) -> io::Result<Option<u64>> {
     let found = rustix::fs::statvfs(path)?;
     Ok(Some(found.f_bavail.saturating_mul(found.f_frsize)))
 }
 
-/// Makes a write beyond the limit on file sizes fail with an error, like a full disk; otherwise a signal ends the process there,
-/// without a word and with half a file left.
+/// Makes a write beyond the file size limit fail with an error, as on a full disk. By default a signal would end the process there, without
+/// a message and with half a file left.
 ///
 /// # Errors
-/// Where the system refuses a handler.
+/// Fails if the system refuses a signal handler.
 pub fn refuse_large_files() -> io::Result<()> {
     flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false))).map(|_| ())
 }

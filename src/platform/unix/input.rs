@@ -1,4 +1,4 @@
-//! The terminal's two ends: bytes that come within a time, and an output that can be let go.
+//! Terminal input with a timeout, and terminal output that can be discarded.
 
 use std::{
     fs::File,
@@ -16,28 +16,28 @@ use rustix::{
 
 use crate::platform::Came;
 
-/// Time that the screen has to end after a signal, before output that the terminal does not take is thrown away.
-const ENDING: Duration = Duration::from_millis(300);
+/// Time that the screen has to end after a signal, before output that the terminal does not accept is discarded.
+const EXIT_GRACE: Duration = Duration::from_millis(300);
 
-/// What comes from the terminal, as bytes.
+/// Terminal input as bytes.
 #[derive(Debug)]
 pub struct Input(Stdin);
 
 impl Input {
-    /// The standard input.
+    /// Returns the standard input.
     pub fn open() -> Self {
         Self(io::stdin())
     }
 
-    /// Waits for bytes, up to `patience` if that is given, and reads them into `bytes`.
+    /// Waits for bytes, at most `timeout` if it is given, and reads them into `bytes`.
     ///
     /// # Errors
-    /// What the terminal answers.
-    pub fn next(&mut self, bytes: &mut [u8], patience: Option<Duration>) -> io::Result<Came> {
-        let patience = patience.and_then(|time| Timespec::try_from(time).ok());
+    /// Returns the error of the terminal.
+    pub fn next(&mut self, bytes: &mut [u8], timeout: Option<Duration>) -> io::Result<Came> {
+        let timeout = timeout.and_then(|time| Timespec::try_from(time).ok());
         let mut input = [PollFd::new(&self.0, PollFlags::IN)];
         loop {
-            match poll(&mut input, patience.as_ref()) {
+            match poll(&mut input, timeout.as_ref()) {
                 Ok(0) => return Ok(Came::Silence),
                 Ok(_) if input[0].revents().intersects(PollFlags::HUP | PollFlags::ERR | PollFlags::NVAL) => {
                     return Ok(Came::Gone);
@@ -56,25 +56,25 @@ impl Input {
     }
 }
 
-/// The terminal that pictures go to, past all buffers.
+/// Returns the terminal for drawing the screen, without any buffer.
 ///
 /// # Errors
-/// Where the process has no room for another file.
+/// Fails if the process cannot open another file.
 #[expect(clippy::disallowed_methods, reason = "a screen is control characters; text goes through the ANSI backend")]
 pub fn terminal_output() -> io::Result<File> {
     Ok(File::from(io::stdout().as_fd().try_clone_to_owned()?))
 }
 
-/// Lets a screen end that waits for a terminal which takes nothing any more, as over a link that stands still: what has
-/// not been taken is thrown away, as often as that is in the way. The process ends meanwhile, and this thread with it.
+/// Lets a screen end that is blocked on a terminal which accepts no more output, for example over a stalled link. Discards the pending
+/// output whenever the terminal is full, until the process ends and this thread with it.
 #[expect(clippy::disallowed_methods, reason = "nothing is written")]
 pub fn free_the_screen() -> ! {
     let output = io::stdout();
     loop {
-        thread::sleep(ENDING);
+        thread::sleep(EXIT_GRACE);
         let mut room = [PollFd::new(&output, PollFlags::OUT)];
         let is_full = poll(&mut room, Some(&Timespec::default())).is_ok() && room[0].revents().is_empty();
-        // The screen wakes when the output is stopped and started. Where the terminal is gone there is nothing to do.
+        // Stopping and restarting the output wakes the blocked writer. If the terminal is gone, there is nothing to do.
         if is_full && tcflush(&output, QueueSelector::OFlush).is_ok() && tcflow(&output, Action::OOff).is_ok() {
             let _ = tcflow(&output, Action::OOn);
         }

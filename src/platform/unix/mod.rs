@@ -1,4 +1,4 @@
-//! Unix: Linux, where all of it is tested, and its relatives.
+//! Unix: Linux, where all of it is tested, and similar systems.
 
 mod clock;
 mod files;
@@ -8,14 +8,14 @@ mod signals;
 
 pub use self::{
     clock::{CLOCK, thread_time},
-    files::{file_identity, for_all_to_read, free_space, refuse_large_files, sync_folder},
+    files::{file_identity, free_space, refuse_large_files, sync_folder, use_umask_permissions},
     input::{Input, free_the_screen, terminal_output},
     processes::own_group,
     signals::{die, listen, suspend},
 };
 
-/// Whether the shell can stop the program and let it go on.
+/// Whether the shell can suspend the program and continue it.
 pub const CAN_SUSPEND: bool = true;
 
-/// Whether a terminal says in `TERM` that it is one.
+/// Whether a terminal identifies itself in the variable `TERM`.
 pub const NEEDS_TERM: bool = true;

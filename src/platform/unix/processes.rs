@@ -1,8 +1,8 @@
-//! Processes that this one starts.
+//! Child processes.
 
 use std::{os::unix::process::CommandExt, process::Command};
 
-/// Has a process start in a group of its own: what the terminal sends to this program does not reach it.
+/// Starts the process in its own process group, so that signals from the terminal to this program do not reach it.
 pub fn own_group(command: &mut Command) -> &mut Command {
     command.process_group(0)
 }

@@ -1,7 +1,7 @@
-//! Signals while the program has the terminal: whatever can be caught gives it back first.
+//! Signals while the program controls the terminal: each signal that can be caught first restores the terminal.
 //!
-//! KILL and STOP cannot be caught. Those that tell a fault of the program itself (SEGV, BUS, ILL, FPE) can, but a handler
-//! would return into the fault. A real-time signal and those below end a program that does not catch them.
+//! SIGKILL and SIGSTOP cannot be caught. Signals of a fault in the program itself (SEGV, BUS, ILL, FPE) can, but the handler would return
+//! into the fault. A real-time signal or one of those listed below ends a program that does not catch it.
 
 use std::{io, process};
 
@@ -20,31 +20,31 @@ use signal_hook::{
 
 use crate::platform::Signal;
 
-/// Those that a shell, a user or the system sends in the ordinary course of things. XFSZ is the whole program's: see
+/// Signals that a shell, a user or the system sends in normal operation. XFSZ is handled for the whole program: see
 /// [`super::refuse_large_files`].
 const KNOWN: [i32; 19] = [
     SIGABRT, SIGALRM, SIGCONT, SIGHUP, SIGINT, SIGIO, SIGPROF, SIGQUIT, SIGSYS, SIGTERM, SIGTRAP, SIGTSTP, SIGTTIN,
     SIGTTOU, SIGUSR1, SIGUSR2, SIGVTALRM, SIGWINCH, SIGXCPU,
 ];
 
-/// The real-time signals, by signal(7).
+/// The real-time signals, according to signal(7).
 #[cfg(target_os = "linux")]
 const REAL_TIME: std::ops::RangeInclusive<i32> = 34..=64;
 
-/// Catches every signal that can be, and tells `hear` of each on a thread of its own, until that wants no more.
+/// Catches every signal that can be caught and passes each to `on_signal` on a separate thread, until `on_signal` returns false.
 ///
 /// # Errors
-/// Where the system refuses a thread, or a handler for a signal that every system knows.
-pub fn listen(mut hear: impl FnMut(Signal) -> bool + Send + 'static) -> io::Result<()> {
+/// Fails if the system refuses the thread, or a handler for a signal that every system knows.
+pub fn listen(mut on_signal: impl FnMut(Signal) -> bool + Send + 'static) -> io::Result<()> {
     let mut signals = catch()?;
     let listener = move || {
         for signal in signals.forever() {
-            // The system says so that another process has the terminal now.
+            // The system sends these when another process controls the terminal.
             if matches!(signal, SIGTTIN | SIGTTOU) && !has_the_terminal() {
                 let _ = suspend();
                 continue;
             }
-            if !hear(meaning(signal)) {
+            if !on_signal(meaning(signal)) {
                 break;
             }
         }
@@ -56,7 +56,7 @@ fn catch() -> io::Result<Signals> {
     let signals = Signals::new(KNOWN)?;
     #[cfg(target_os = "linux")]
     for signal in REAL_TIME.chain([Known::POWER.as_raw(), Known::STKFLT.as_raw()]) {
-        // Some C libraries keep a few to themselves.
+        // Some C libraries reserve a few signals for themselves.
         let _ = signals.add_signal(signal);
     }
     Ok(signals)
@@ -71,22 +71,22 @@ const fn meaning(signal: i32) -> Signal {
     }
 }
 
-/// Whether the program has the terminal to itself. In the background it may not touch it, not even to give it back.
+/// Whether the program is in the foreground. In the background it must not touch the terminal, not even to restore it.
 fn has_the_terminal() -> bool {
     tcgetpgrp(io::stdin()).is_ok_and(|group| group == getpgrp())
 }
 
-/// Stops until the shell continues the program.
+/// Suspends the program until the shell continues it.
 ///
 /// # Errors
-/// What the system answers.
+/// Returns the error of the system.
 pub fn suspend() -> io::Result<()> {
     emulate_default_handler(SIGTSTP)
 }
 
-/// Ends as this signal ends a program that does not catch it, for the parent to see.
+/// Ends the process as the uncaught signal would, so that the parent process sees the signal.
 pub fn die(signal: i32) -> ! {
-    // It comes back for those that it does not know.
+    // The call returns for signals that it does not know.
     let _ = emulate_default_handler(signal);
     process::exit(128 + signal)
 }

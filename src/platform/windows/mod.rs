@@ -1,4 +1,4 @@
-//! Windows: crossterm's own events, no signals but Ctrl-C, and rights as folders hand them down.
+//! Windows: crossterm's own events, no signals except Ctrl-C, and inherited permissions.
 
 use std::{
     fs::{File, Metadata},
@@ -13,119 +13,119 @@ use std::{
 
 use crate::platform::{Came, Signal};
 
-/// What the clock shows, for reports.
+/// Name of the clock, for reports.
 pub const CLOCK: &str = "wall time";
 
-/// Whether the shell can stop the program and let it go on.
+/// Whether the shell can suspend the program and continue it.
 pub const CAN_SUSPEND: bool = false;
 
-/// Whether a terminal says in `TERM` that it is one.
+/// Whether a terminal identifies itself in the variable `TERM`.
 pub const NEEDS_TERM: bool = false;
 
-/// `CREATE_NEW_PROCESS_GROUP` of the Windows API: Ctrl-C does not reach the process.
+/// `CREATE_NEW_PROCESS_GROUP` of the Windows API: Ctrl-C does not reach the child process.
 const NEW_GROUP: u32 = 0x0000_0200;
 
-/// Time on the wall's clock, where the thread's own is not to be had without unsafe code.
+/// Returns wall time: the thread's CPU time is not available here without unsafe code.
 pub fn thread_time() -> Duration {
     static START: LazyLock<Instant> = LazyLock::new(Instant::now);
     START.elapsed()
 }
 
-/// New files have the rights that their folder hands down: nothing is to be done.
-pub const fn for_all_to_read(_: &mut tempfile::Builder<'_, '_>) {}
+/// Does nothing: new files inherit the permissions of their folder.
+pub const fn use_umask_permissions(_: &mut tempfile::Builder<'_, '_>) {}
 
-/// A file's number is not to be had from what is known of it; its time and length have to do.
+/// Returns zero: the metadata contains no file number here, so callers depend on its time and length.
 pub const fn file_identity(_: &Metadata) -> u64 {
     0
 }
 
-/// A folder cannot be opened here to be synced: its names are the file system's business.
+/// Does nothing: folders cannot be opened and synced here, and the file system is responsible for names.
 ///
 /// # Errors
-/// None.
+/// Never fails.
 pub const fn sync_folder(_: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Bytes that may still be written where `path` is: not told without unsafe code.
+/// Returns `None`: the free space is not available without unsafe code.
 ///
 /// # Errors
-/// None.
+/// Never fails.
 pub const fn free_space(_: &Path) -> io::Result<Option<u64>> {
     Ok(None)
 }
 
-/// There is no limit on the size of files that a signal would tell of.
+/// Does nothing: there is no file size limit that is reported by a signal.
 ///
 /// # Errors
-/// None.
+/// Never fails.
 pub const fn refuse_large_files() -> io::Result<()> {
     Ok(())
 }
 
-/// Has a process start in a group of its own: Ctrl-C does not reach it.
+/// Starts the process in its own process group, so that Ctrl-C does not reach it.
 pub fn own_group(command: &mut Command) -> &mut Command {
     command.creation_flags(NEW_GROUP)
 }
 
-/// What comes from the console, as events.
+/// Console input as events.
 #[derive(Debug)]
 pub struct Input;
 
 impl Input {
-    /// The console.
+    /// Returns the console.
     pub const fn open() -> Self {
         Self
     }
 
-    /// Waits for an event, up to `patience` if that is given.
+    /// Waits for an event, at most `timeout` if it is given.
     ///
     /// # Errors
-    /// What the console answers.
-    pub fn next(&mut self, _: &mut [u8], patience: Option<Duration>) -> io::Result<Came> {
+    /// Returns the error of the console.
+    pub fn next(&mut self, _: &mut [u8], timeout: Option<Duration>) -> io::Result<Came> {
         if !io::stdin().is_terminal() {
             return Ok(Came::Gone);
         }
-        match patience {
+        match timeout {
             Some(time) if !crossterm::event::poll(time)? => Ok(Came::Silence),
             _ => crossterm::event::read().map(Came::Event),
         }
     }
 }
 
-/// The console that pictures go to, past all buffers.
+/// Returns the console for drawing the screen, without any buffer.
 ///
 /// # Errors
-/// Where the process has no room for another file.
+/// Fails if the process cannot open another file.
 #[expect(clippy::disallowed_methods, reason = "a screen is control characters; text goes through the ANSI backend")]
 pub fn terminal_output() -> io::Result<File> {
     Ok(File::from(io::stdout().as_handle().try_clone_to_owned()?))
 }
 
-/// Nothing holds a console's output up that could be thrown away.
+/// Sleeps forever: console output never blocks, so there is nothing to discard.
 pub fn free_the_screen() -> ! {
     loop {
         thread::park();
     }
 }
 
-/// In raw mode Ctrl-C is a key, and the size of the console is an event: there are no signals to hear.
+/// Does nothing: in raw mode Ctrl-C is a key and a resize is an event, so there are no signals to handle.
 ///
 /// # Errors
-/// None.
+/// Never fails.
 pub fn listen(_: impl FnMut(Signal) -> bool + Send + 'static) -> io::Result<()> {
     Ok(())
 }
 
-/// A console has no way to stop a program until it is continued.
+/// A console cannot suspend a program.
 ///
 /// # Errors
-/// Always.
+/// Always fails.
 pub fn suspend() -> io::Result<()> {
     Err(io::Error::from(io::ErrorKind::Unsupported))
 }
 
-/// Ends with the exit code that shells give to a program which a signal has ended.
+/// Ends the process with the exit code that shells report for a program ended by this signal.
 pub fn die(signal: i32) -> ! {
     process::exit(128 + signal)
 }

@@ -1,4 +1,4 @@
-//! Positions of one's own, codes, export and import.
+//! The user's own positions, share codes, export and import.
 
 use std::fs;
 
@@ -9,7 +9,7 @@ fn a_position_is_shared_added_replaced_and_removed() {
     let folder = folder();
     let code = drill(folder.path(), &["share", "mine"]).out;
     assert_eq!(code.lines().count(), 1);
-    // As a chat may wrap it.
+    // Split in two, as a chat may wrap it.
     let (begin, end) = code.trim().split_at(30);
     assert_eq!(drill(folder.path(), &["add", begin, end]).code, Some(1), "there is one of this name");
     assert_eq!(drill(folder.path(), &["add", begin, end, "--name", "yours"]).code, Some(0));
@@ -73,7 +73,7 @@ fn only_what_an_older_version_has_saved_brings_its_notice() {
     let text = fs::read_to_string(&position).unwrap();
     assert!(text.contains(&version), "{text}");
     fs::write(&position, text.replace(&version, "")).unwrap();
-    assert!(listed_anew().contains("\"match\" is now a table as filmed balls show it"));
+    assert!(listed_anew().contains("\"match\" is now a table with constants from filmed shots"));
     assert_eq!(drill(folder.path(), &["list", "--category", "own"]).err, "", "once");
     assert_eq!(tried(folder.path()), 1);
 }
@@ -82,7 +82,7 @@ fn only_what_an_older_version_has_saved_brings_its_notice() {
 fn what_is_no_export_is_refused_in_plain_words() {
     let folder = folder();
     for (text, says) in [
-        ("name = \"mine\"", "line 1, column 2 is no JSON"),
+        ("name = \"mine\"", "line 1, column 2 is not JSON"),
         ("[1,2]", "does not begin with a \"format\" and a \"version\""),
         (r#"{"format":"carom-library","version":1,"exercises":[{"name":3}]}"#, "at line 1, column "),
         (r#"{"format":"carom-library","version":1,"sessions":3}"#, "invalid type"),
@@ -100,7 +100,7 @@ fn an_export_takes_the_place_of_an_export_and_of_no_library() {
     let library = r#"{"format":"carom-library","version":1,"exercises":[]}"#;
     fs::write(folder.path().join("library.json"), library).unwrap();
     let refused = drill(folder.path(), &["export", "library.json"]);
-    assert!(refused.code == Some(1) && refused.err.contains("is no export"), "{}", refused.err);
+    assert!(refused.code == Some(1) && refused.err.contains("is not an export"), "{}", refused.err);
     assert_eq!(fs::read_to_string(folder.path().join("library.json")).unwrap(), library);
     for _ in 0..2 {
         assert_eq!(drill(folder.path(), &["export", "all.json"]).code, Some(0));
@@ -124,7 +124,7 @@ fn what_is_exported_is_imported_elsewhere_and_once() {
     assert_eq!((tried(there.path()), import()["known"].as_u64()), (3, Some(3)));
     assert_eq!(drill(there.path(), &["export", "-"]).out, drill(there.path(), &["export"]).out);
     assert_eq!(drill(there.path(), &["export"]).out.trim(), fs::read_to_string(file).unwrap().trim());
-    // Of what has grown there since, the longer is taken; a file of a newer version is refused whole.
+    // Of sessions that have grown here since, the longer version is kept; a file of a newer version is refused completely.
     let text = fs::read_to_string(file).unwrap();
     fs::write(file, text.replace("\"version\":1", "\"version\":2")).unwrap();
     let newer = drill(there.path(), &["import", file]);

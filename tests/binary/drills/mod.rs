@@ -1,4 +1,4 @@
-//! Practice through the real binary: sessions, scores, positions, and what becomes of them when something goes wrong.
+//! Practice through the real binary: sessions, scores, positions, and their safety when something goes wrong.
 
 mod kept;
 mod scores;

@@ -1,4 +1,4 @@
-//! Playing, logging, and the scores that come of it.
+//! Playing, logging, and the resulting scores.
 
 use serde_json::{Value, json};
 
@@ -31,14 +31,14 @@ fn results_at_a_table_are_scored_as_by_hand() {
     assert_eq!(drill(folder.path(), &["history", "mine", "--json"]).json().len(), 3);
     let text = drill(folder.path(), &["history", "mine"]).out;
     assert!(text.contains("13 of 17 made, 76 %") && text.contains('█'), "{text}");
-    // Four words for what was noted one by one, one for what was noted together, three again.
+    // Four undos for the results logged one by one, one for those logged together, three more for the first ones.
     assert_eq!(undo(8), Some(0));
     let text = drill(folder.path(), &["history", "mine"]).err;
     assert!(text.contains("not tried yet"), "{text}");
     assert_eq!(undo(1), Some(1));
     let refused = fed(command(folder.path(), &["drill", "log", "mine"]), "undo\n");
     assert!(refused.code == Some(1) && refused.err.contains("to take back"), "{}", refused.err);
-    // What was taken back whole is no session to others.
+    // A session without any remaining attempt is not exported.
     let file = folder.path().join("all.json");
     let written = drill(folder.path(), &["export", file.to_str().unwrap()]);
     assert!((written.out + &written.err).contains("0 sessions"), "{}", written.code.unwrap());
@@ -50,7 +50,7 @@ fn what_has_gone_is_told_where_one_more_undo_finds_nothing() {
     drill(folder.path(), &["log", "mine", "make", "miss"]);
     let undone = drill(folder.path(), &["log", "mine", "undo", "undo", "undo"]);
     assert_eq!(undone.code, Some(1));
-    assert!(undone.out.contains("taken back; nothing else is noted"), "{}", undone.out);
+    assert!(undone.out.contains("taken back; this session has no other attempts"), "{}", undone.out);
     assert!(undone.err.contains("there is no attempt at mine to take back"), "{}", undone.err);
 }
 
@@ -135,7 +135,7 @@ fn a_game_goes_on_from_where_the_balls_stop_and_ends_after_its_innings() {
     let lines = carom(folder.path(), &[&args[..], &["--budget-ms", "300"]].concat()).json();
     let mut lie = &Value::Null;
     for line in &lines {
-        // After a miscue the balls lie as they did, and nothing is told.
+        // After a miscue the balls stay where they are, and no position is printed.
         match line["kind"].as_str() {
             Some("attempt") => lie = &line["end"],
             Some("position") => assert!(lie.is_null() || *lie == line["layout"], "{lie} {line}"),
@@ -264,7 +264,7 @@ fn an_exam_asks_twenty_exercises_once_and_says_whose_score_it_is() {
     let points = result["made"].as_u64().unwrap();
     assert_eq!((&result["over"], &result["nearest"]), (&json!(true), &json!("world-class")), "{result}");
     assert!(points > 15, "a perfect player makes what the coach finds: {points}");
-    // The same seed asks the same; one that ends early is kept as far as it went.
+    // The same seed selects the same exercises; an exam that ends early is saved as far as it was played.
     let lines = fed(command(folder.path(), &[&["drill"], &args[..]].concat()), "0,0,0,0,1\n").json();
     assert_eq!(kinds(&lines, "position")[0]["exercise"], attempts[0]["exercise"]);
     let result = lines.last().unwrap();
@@ -283,7 +283,7 @@ fn a_game_that_the_limit_of_strokes_ends_says_so() {
     let cut = played("2");
     let says = "the limit of 2 strokes ended it; --strokes sets another, up to 10000";
     assert!(cut.code == Some(0) && cut.err.contains(says), "{}", cut.err);
-    // The miss that ends the last inning ends the game, wherever the limit is.
+    // The miss that ends the last inning ends the game, even at the limit of strokes.
     let missing = fed(
         command(folder.path(), &["play", "--innings", "1", "--strokes", "1", "--skill", "perfect"]),
         "0,0,0,90,1\n",

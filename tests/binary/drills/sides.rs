@@ -1,4 +1,4 @@
-//! Games of two sides: whose turn it is, which ball is the cue ball, and each side's own score.
+//! Games of two sides: whose turn it is, which ball is the cue ball, and the score of each side.
 
 use serde_json::Value;
 

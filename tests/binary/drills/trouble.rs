@@ -1,4 +1,4 @@
-//! Nothing is lost: kills, a full disk, newer versions, damaged files, several programs at once.
+//! No data is lost: kills, a full disk, newer versions, damaged files, several programs at once.
 
 use std::{
     fs,
@@ -12,7 +12,7 @@ use assert_cmd::cargo::cargo_bin;
 
 use crate::program::{SAVE, command, drill, fed, folder, outcome, program, sessions, tried};
 
-/// The attempts in a session's file, which must be whole.
+/// Returns the number of attempts in a session file, which must be valid.
 fn attempts(file: &Path) -> usize {
     let text = fs::read_to_string(file).unwrap();
     let session: serde_json::Value = serde_json::from_str(&text).unwrap();
@@ -34,7 +34,7 @@ fn a_note_that_another_program_has_taken_back_does_not_come_back() {
     assert_eq!([tried_after("make"), tried_after("make")], [1, 2]);
     undo();
     assert_eq!(tried_after("miss"), 2);
-    // Until nothing is left of it.
+    // Until no attempt is left.
     undo();
     undo();
     assert_eq!(tried_after("make"), 1);
@@ -54,7 +54,7 @@ fn a_program_that_is_killed_at_any_moment_loses_no_attempt_that_it_has_told() {
         let mut input = child.stdin.take().unwrap();
         let feeder = std::thread::spawn(move || while writeln!(input, "0,0.3,3,1,4").is_ok() {});
         let lines = BufReader::new(child.stdout.take().unwrap()).lines();
-        // All kills at another moment, most of them while an attempt is played or written.
+        // Each kill comes at another time, mostly while an attempt is played or written.
         std::thread::sleep(Duration::from_millis(40 + 37 * kill));
         child.kill().unwrap();
         child.wait().unwrap();
@@ -86,7 +86,7 @@ fn programs_at_the_same_time_lose_nothing_of_each_others() {
         assert_eq!(outcome(child).code, Some(0));
     }
     assert_eq!((tried(folder.path()), sessions(folder.path()).len()), (100, 4));
-    // Of several who save under the same new name, one does.
+    // If several programs save under the same new name, exactly one succeeds.
     let saves: Vec<_> = (0..4)
         .map(|title| {
             let title = title.to_string();
@@ -98,7 +98,7 @@ fn programs_at_the_same_time_lose_nothing_of_each_others() {
     assert_eq!(codes.iter().filter(|code| **code == Some(0)).count(), 1, "{codes:?}");
 }
 
-/// The program in a shell that lets no file grow beyond so many blocks, as a full disk does not.
+/// Runs the program in a shell with a file size limit of this many blocks, which acts like a full disk.
 #[cfg(unix)]
 #[test]
 fn on_a_full_disk_a_sentence_says_so_and_what_was_written_stays() {

@@ -1,4 +1,4 @@
-//! Files that somebody else has written, or half of one: settings, practice, runs, policies.
+//! Files written by others, or only half of one: settings, practice, runs, policies.
 
 use std::{fs, process::Command, sync::LazyLock};
 
@@ -21,13 +21,13 @@ use tempfile::TempDir;
 use super::mutation::mutated;
 use crate::program::home;
 
-/// Files cost a thousand times what text in memory does.
+/// Tests with files are a thousand times slower than those with text in memory.
 fn few() -> ProptestConfig {
     let default = ProptestConfig::default();
     ProptestConfig { cases: (default.cases / 4).max(16), ..default }
 }
 
-/// A run and a session as the program writes them.
+/// A valid run and a valid session, written by the program.
 static SOUND: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     let small = "actor_layers = [4]\ncritic_layers = [4]\nbatch = 8\nactor_batch = 4\nreplay = 1000\n";
@@ -49,22 +49,22 @@ fn sound(name: &str) -> Vec<u8> {
     fs::read(SOUND.path().join(name)).unwrap()
 }
 
-/// The only file in a folder of practice.
+/// Returns the only file in a folder of practice data.
 fn only(folder: &str) -> (String, Vec<u8>) {
     let mut files = fs::read_dir(SOUND.path().join(folder)).unwrap().map(|entry| entry.unwrap().path());
     let file = files.find(|file| file.extension().is_some_and(|extension| extension == "json")).unwrap();
     (file.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(file).unwrap())
 }
 
-/// Files that a run is known by.
+/// Files that identify a run.
 const OF_RUN: [&str; 5] = ["config.json", "metrics.jsonl", "state.json", "shots.json", "checkpoint.safetensors"];
 
-/// One of them, damaged.
+/// One of these files, damaged.
 fn one_of_run() -> impl Strategy<Value = (&'static str, Vec<u8>)> {
     prop::sample::select(&OF_RUN).prop_flat_map(|name| (Just(name), mutated(sound(&format!("run/{name}")))))
 }
 
-/// A folder that holds a sound run called `run`.
+/// Returns a folder that contains a valid run called `run`.
 fn folder_of_run() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("run")).unwrap();
@@ -129,7 +129,7 @@ proptest! {
             } else {
                 let _ = fs::remove_file(run.join(name));
             }
-            // What changes seldom is looked at once a second, but by a new follower at once.
+            // Files that rarely change are read once a second, but at once by a new follower.
             for follower in [&mut follower, &mut Follower::new(&run)] {
                 if let Some(update) = follower.look() {
                     followed.apply(update);

@@ -1,4 +1,4 @@
-//! JSON Lines to the real program: every line is answered, and nothing that a terminal obeys comes out.
+//! JSON Lines to the real program: every line is answered, and no control character reaches the output.
 
 use std::{
     io::Write,
@@ -18,7 +18,7 @@ use crate::program::home;
 
 const LINE: &str = r#"{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"cue":{"a":0.1,"b":0.3,"theta_deg":5,"phi_deg":1,"speed":4},"rule":"straight"}"#;
 
-/// Runs `args` on so many damaged lines.
+/// Runs `args` on this many damaged lines.
 fn check(args: &[&str], lines: usize) {
     let (mut runner, mutated) = (TestRunner::new(Config::default()), mutated(LINE.as_bytes().to_vec()));
     let line = |runner: &mut TestRunner| {
@@ -89,7 +89,7 @@ fn conversation() {
         said.extend(line);
         said.push(b'\n');
     }
-    // Some lines ask the coach, who is to answer soon.
+    // Some lines ask the coach, who must answer quickly.
     let config = tempfile::tempdir().unwrap();
     std::fs::create_dir(config.path().join("carom")).unwrap();
     std::fs::write(config.path().join("carom/config.toml"), "think_ms = 100\n").unwrap();
@@ -104,7 +104,7 @@ fn conversation() {
     let mut input = child.stdin.take().unwrap();
     let feeder = thread::spawn(move || input.write_all(&said));
     let output = child.wait_with_output().unwrap();
-    // It may have understood "quit".
+    // The program may have understood "quit".
     let _ = feeder.join().unwrap();
     // Most lines are refused.
     assert!(matches!(output.status.code(), Some(0 | 2)), "{}", output.status);

@@ -1,5 +1,5 @@
-//! A monkey at the terminal: keys, pastes, mouse reports, cut sequences and resizes at random, and in the end Ctrl-C, which
-//! has to end the program with the terminal as it was.
+//! Monkey test at the terminal: random keys, pastes, mouse reports, cut sequences and resizes, and finally Ctrl-C, which must end the
+//! program and restore the terminal.
 //!
 //! `CAROM_MONKEY=3600 cargo test --profile quick --test binary fuzz::monkey -- --nocapture` plays for an hour.
 
@@ -15,7 +15,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::terminal::{OPENING, Session};
 
-/// Events of a session.
+/// Number of events in a session.
 const EVENTS: u32 = 300;
 
 const KEYS: [&str; 60] = [
@@ -118,7 +118,7 @@ fn a_monkey_leaves_no_trace() {
                 3 => {
                     session.count(Duration::from_millis(20));
                 }
-                // Ctrl-Z would stop it, and nobody is there to go on.
+                // Ctrl-Z would stop the program, and nothing would continue it.
                 _ => session.send(KEYS.choose(&mut rng).unwrap().trim_start_matches('\x1a')),
             }
             if session.child.try_wait().unwrap().is_some() {
@@ -127,7 +127,7 @@ fn a_monkey_leaves_no_trace() {
             session.count(Duration::from_millis(1));
         }
         most = most.max(memory(&session));
-        // A paste that has no end may stand still for a second.
+        // A paste without an end may block for a second.
         session.count(Duration::from_millis(1200));
         if session.child.try_wait().unwrap().is_none() {
             session.send("\x03");
@@ -145,12 +145,12 @@ fn a_monkey_leaves_no_trace() {
     println!("{sessions} sessions, {events} events, at most {most} kB");
 }
 
-/// Has the runs given up that the keys have started: they outlive the screen.
+/// Abandons the runs that the keys have started: they outlive the screen.
 fn abandon(runs: &Path) {
     let Ok(entries) = fs::read_dir(runs) else { return };
     for run in entries.map(|entry| entry.unwrap().path()) {
         let asked = Instant::now();
-        // One that has ended by itself asks nobody any more.
+        // A run that has ended by itself does not read requests any more.
         while run.exists() && asked.elapsed() < Duration::from_secs(10) {
             let _ = fs::write(run.join("request"), "abandon");
             thread::sleep(Duration::from_millis(100));
@@ -158,7 +158,7 @@ fn abandon(runs: &Path) {
     }
 }
 
-/// Resident memory, kB.
+/// Returns the resident memory, kB.
 fn memory(session: &Session) -> u64 {
     let id = session.child.process_id().unwrap_or_default();
     let status = std::fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();

@@ -1,8 +1,8 @@
-//! Inputs that are nearly right: what a sound one becomes by damage, which gets further than mere noise.
+//! Nearly valid inputs: a valid input with damage gets further than mere noise.
 
 use proptest::prelude::*;
 
-/// What stands where a number, a name or a bracket stood.
+/// Replacements for a number, a name or a bracket.
 const TOKENS: [&str; 25] = [
     "0",
     "-1",
@@ -31,7 +31,7 @@ const TOKENS: [&str; 25] = [
     ",",
 ];
 
-/// One damage.
+/// A single damage.
 #[derive(Clone, Debug)]
 enum Damage {
     Byte(usize, u8),
@@ -39,7 +39,7 @@ enum Damage {
     Remove(usize, usize),
     Repeat(usize, usize),
     Token(usize, &'static str),
-    /// The number at or behind this place becomes this.
+    /// Replaces the number at or after this position.
     Number(usize, &'static str),
 }
 
@@ -56,14 +56,14 @@ fn damage() -> impl Strategy<Value = Damage> {
     ]
 }
 
-/// `sound` with up to four damages; now and then noise.
+/// Generates `sound` with up to four damages, and sometimes noise.
 pub fn mutated(sound: Vec<u8>) -> impl Strategy<Value = Vec<u8>> {
     let damaged = prop::collection::vec(damage(), 0..5)
         .prop_map(move |all| all.iter().fold(sound.clone(), |bytes, damage| damage.on(bytes)));
     prop_oneof![9 => damaged, 1 => prop::collection::vec(any::<u8>(), 0..200)]
 }
 
-/// The same as text.
+/// Like [`mutated`], as text.
 pub fn mutated_text(sound: &str) -> impl Strategy<Value = String> + use<> {
     mutated(sound.as_bytes().to_vec()).prop_map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
 }

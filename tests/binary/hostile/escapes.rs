@@ -1,4 +1,4 @@
-//! Control characters in whatever others can write: none reaches the terminal, on any output.
+//! Control characters in everything that others can write: none reaches the terminal, on any output.
 
 use std::{fs, path::Path};
 
@@ -6,15 +6,15 @@ use carom::printing::is_hidden;
 
 use crate::program::{carom, command, fed};
 
-/// Sets the title, colours text, turns it around, and begins another line.
+/// Sets the title, colours text, reverses its direction, and starts another line.
 const NAME: &str = "\u{1b}]0;pwn\u{7}\u{9b}31m\u{202e}\r\u{7f}";
 
-/// As a string of JSON and of TOML.
+/// The name as a string of JSON and of TOML.
 fn quoted() -> String {
     NAME.chars().flat_map(|character| format!("\\u{:04x}", character as u32).into_bytes()).map(char::from).collect()
 }
 
-/// Nothing that a terminal would obey is there, and the name is shown or escaped somewhere.
+/// Asserts that the text contains no control character, and that the name is shown or escaped somewhere.
 #[track_caller]
 fn assert_shown(what: &str, text: &str) {
     let hidden = |character: &char| is_hidden(*character) && !matches!(character, '\n' | '\t');
@@ -22,7 +22,7 @@ fn assert_shown(what: &str, text: &str) {
     assert!(["u{9b}", "u009b", "u009B"].iter().any(|shown| text.contains(shown)), "{what} says nothing of it: {text}");
 }
 
-/// Runs the program, whose words on both outputs must be clean.
+/// Runs the program and checks both outputs.
 #[track_caller]
 fn check(home: &Path, args: &[&str]) {
     let said = carom(home, args);

@@ -1,4 +1,4 @@
-//! Small faults that were found, each with what it did.
+//! Small bugs that were found, each with its effect.
 
 use std::{fs, os::unix::fs::PermissionsExt};
 
@@ -14,7 +14,7 @@ fn unknown_keys_of_a_batch_are_refused() {
     let said = fed(command(home.path(), &["recommend", "--budget-ms", "10", "--batch", "-"]), line);
     assert_eq!(said.code, Some(2));
     assert!(said.out.contains("rul") && said.out.contains("accepted are preset, layout, rule"), "{}", said.out);
-    // Files with answers may be asked again.
+    // Lines of files with answers are accepted as requests.
     let known = include_str!("../../data/shots.jsonl").lines().next().unwrap();
     assert_eq!(fed(command(home.path(), &["simulate", "--batch", "-"]), known).code, Some(0));
 }
@@ -89,7 +89,7 @@ fn a_folder_that_cannot_be_written_is_named_and_no_file_that_is_not_there() {
     fs::create_dir(&shut).unwrap();
     fs::set_permissions(&shut, fs::Permissions::from_mode(0o555)).unwrap();
     if fs::write(shut.join("probe"), "").is_ok() {
-        // Whoever may do everything is refused nothing.
+        // For a user with all permissions, such as root, nothing is refused.
         return;
     }
     let said = carom(home.path(), &["drill", "export", "shut/out.json"]);
@@ -100,7 +100,7 @@ fn a_folder_that_cannot_be_written_is_named_and_no_file_that_is_not_there() {
 #[test]
 fn numbers_that_are_not_finite_are_an_error() {
     let home = folder();
-    // Friction that has no unique forces, and came out as NaN once, is refused; the most that is accepted is computed.
+    // A friction coefficient without unique forces, which once gave NaN, is refused; the largest accepted one can be computed.
     fs::write(home.path().join("t.toml"), format!("{SLIPPERY}mu_b = 1000\n")).unwrap();
     let refused = carom(home.path(), &["simulate", "--table", "t.toml", "--shot", "0,0,0,0,2"]);
     assert!(refused.code == Some(2) && refused.err.contains("mu_b = 1000"), "{}", refused.err);

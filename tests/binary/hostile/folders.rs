@@ -1,4 +1,4 @@
-//! Folders and files that are not what a command takes them for.
+//! Folders and files that are not what a command expects.
 
 use std::{fs, os::unix::fs::symlink, path::Path, process::Command};
 
@@ -56,7 +56,7 @@ fn pipes_and_devices_are_refused_and_not_waited_for() {
             assert!(said.err.contains("regular file"), "{args:?}: {}", said.err);
         }
     }
-    // As the files of a run.
+    // The same in place of the files of a run.
     let run = home.path().join("runs/one");
     assert_eq!(train(home.path(), run.to_str().unwrap()).code, Some(0));
     for name in ["config.json", "state.json", "metrics.jsonl", "checkpoint.safetensors", "lock"] {
@@ -67,7 +67,7 @@ fn pipes_and_devices_are_refused_and_not_waited_for() {
         if name != "metrics.jsonl" {
             carom(home.path(), &["train", "--resume", "runs/one"]);
         }
-        // Whether the run can do without is another question: it does not hang.
+        // Whether the run can work without the file is another question: the program must not hang.
         fs::rename(&file, &pipe).unwrap();
     }
 }
@@ -80,11 +80,11 @@ fn an_export_goes_where_a_link_leads() {
     assert_eq!(carom(home.path(), &["drill", "export", "link.json"]).code, Some(0));
     assert!(home.path().join("link.json").is_symlink());
     assert!(fs::read_to_string(home.path().join("real.json")).unwrap().contains("carom"));
-    // Over another export, but over nothing else.
+    // Overwrites another export, but nothing else.
     assert_eq!(carom(home.path(), &["drill", "export", "real.json"]).code, Some(0));
     fs::write(home.path().join("notes.txt"), "mine").unwrap();
     let said = carom(home.path(), &["drill", "export", "notes.txt"]);
-    assert!(said.code == Some(1) && said.err.contains("is no export, so it stays as it is"), "{}", said.err);
+    assert!(said.code == Some(1) && said.err.contains("is not an export, so it stays as it is"), "{}", said.err);
     assert_eq!(fs::read_to_string(home.path().join("notes.txt")).unwrap(), "mine");
 }
 

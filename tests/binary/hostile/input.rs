@@ -1,10 +1,10 @@
-//! Sequences of a terminal that are cut, come late or in one read with something else: no key after them is lost.
+//! Terminal sequences that are cut, come late or arrive together with other input: no key after them is lost.
 
 use std::{thread, time::Duration};
 
 use crate::terminal::{OPENING, Session};
 
-/// What begins and never ends.
+/// Sequences that start and never end.
 const CUT: [&str; 27] = [
     "\x1b",
     "\x1b[",
@@ -35,7 +35,7 @@ const CUT: [&str; 27] = [
     "\x1b[200~a paste without an end",
 ];
 
-/// Programs that run at the same time.
+/// Number of programs that run at the same time.
 const AT_ONCE: usize = 4;
 
 #[test]
@@ -48,7 +48,7 @@ fn ctrl_c_is_heard_after_every_cut_sequence() {
         session.send("\x03");
         assert!(session.assert_left_without_trace().success(), "{sequence:?} {pause}");
     };
-    // Each of them waits most of the time: several at once.
+    // Each program mostly waits, so several run at once.
     thread::scope(|scope| {
         for sequences in CUT.chunks(CUT.len().div_ceil(AT_ONCE)) {
             scope.spawn(move || {
@@ -63,7 +63,7 @@ fn ctrl_c_is_heard_after_every_cut_sequence() {
 
 #[test]
 fn other_keys_are_heard_too() {
-    // How long each may stand still on its way: a tenth of a second, and a paste ten times as long.
+    // Maximum delay of each: a tenth of a second, and ten times that for a paste.
     let check = |sequence: &str, pause: u64| {
         let mut session = Session::start(80, 24);
         session.wait_for(OPENING);

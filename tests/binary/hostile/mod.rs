@@ -1,4 +1,4 @@
-//! What others wrote, typed or did, against the real program: nothing of it may reach the terminal raw, hang or lose anything.
+//! Hostile input of others against the real program: none may reach the terminal raw, block the program or lose data.
 
 mod escapes;
 mod faults;

@@ -1,4 +1,4 @@
-//! Every signal that can be caught gives the terminal back; a limit on files is told like a full disk.
+//! Every catchable signal restores the terminal; a file size limit is reported like a full disk.
 
 use crate::{
     program,

@@ -1,4 +1,4 @@
-//! A table is measured in the program: every stroke outlives whatever ends it, and the command goes on with it.
+//! A table is calibrated in the program: every stroke survives any end of the program, and the command line continues with it.
 
 use std::fs;
 
@@ -22,7 +22,7 @@ fn a_stroke_that_was_entered_is_there_after_the_program_was_killed() {
     first.send("\r9.6\r5.4\r725 mm\r\r");
     first.wait_for("1/2");
     first.wait_for("mu_r");
-    // Typed, and not kept yet.
+    // Typed, but not saved yet.
     first.send("\r8.8\r");
     first.wait_for("8.8");
     first.signal("KILL");
@@ -70,7 +70,7 @@ fn what_is_typed_in_part_is_there_at_the_next_start_whatever_ended_the_program()
         session.wait_for("Strokes of slow-roll");
     }
     session.wait_for("9.6123");
-    // What was emptied does not come back.
+    // A field that was emptied stays empty.
     session.send("\x15");
     session.settle(REST);
     session.send("\x1b");

@@ -1,4 +1,4 @@
-//! Looking on while another player plays: what is seen, when it ends, and what nobody sees.
+//! Spectators: what they see, when it ends, and what nobody sees.
 
 use std::{
     fs::{self, File},
@@ -16,14 +16,14 @@ use crate::{
     terminal::{OPENING, PATIENCE, REST, Session, guest},
 };
 
-/// A guest who asks for this behind `ssh`.
+/// Returns a guest session with this command after `ssh`.
 fn over_ssh(name: &str, words: &str) -> CommandBuilder {
     let mut command = guest(name);
     command.env("SSH_ORIGINAL_COMMAND", words);
     command
 }
 
-/// The program without a terminal, in the home of a session.
+/// Returns the program without a terminal, in the home folder of a session.
 fn lines(home: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(cargo_bin!("carom"));
     command
@@ -36,19 +36,19 @@ fn lines(home: &Path, args: &[&str]) -> Command {
     command
 }
 
-/// What such a program says, with its exit code.
+/// Returns the exit code and the outputs of such a program.
 fn said(command: &mut Command) -> (Option<i32>, String, String) {
     let output = command.output().unwrap();
     let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
     (output.status.code(), out, err)
 }
 
-/// The folder in which a player shows their table.
+/// Returns the folder in which a player shows their table.
 fn shown(home: &Path, name: &str) -> PathBuf {
     home.join("data/carom/players").join(name).join("shown")
 }
 
-/// A player who shows their table.
+/// Starts a player who shows their table.
 fn showing(home: &Path, name: &str) -> Session {
     let mut session = Session::start_at(home, guest(name), 80, 24);
     session.wait_for(OPENING);
@@ -71,7 +71,7 @@ fn a_table_is_followed_live_as_long_as_its_player_allows_it() {
     assert!(code == Some(1) && err.contains("anna shows no table now"), "{err}");
     anna.send("F");
     anna.wait_for("carom follow Anna shows this table");
-    // From then on the status line says so, whatever else it says.
+    // From then on the status line says so, in addition to its other text.
     anna.press("\x1b[C");
     anna.wait_for("shown to others: white at x -700.0 mm");
     let mut ben = Session::start_at(home, over_ssh("ben", "follow anna"), 80, 24);
@@ -93,7 +93,7 @@ fn a_table_is_followed_live_as_long_as_its_player_allows_it() {
         |screen: &vt100::Screen| ["Point", "No point", "point"].iter().any(|word| screen.contents().contains(word));
     anna.wait_until("the end", over);
     ben.wait_until("the end", over);
-    // Keys of the one who looks on change nothing.
+    // Keys of the spectator change nothing.
     ben.send("\x1b[C\x1b[Cro\rF");
     ben.settle(REST);
     assert!(ben.screen().contents().contains("following anna") && !shown(home, "ben").exists());
@@ -122,7 +122,7 @@ fn a_player_who_is_killed_is_seen_no_more_and_one_who_rests_writes_nothing() {
     let (before, written) = (changed(), anna.written());
     thread::sleep(Duration::from_secs(2));
     assert_eq!((changed(), anna.written()), (before, written));
-    // Another session of hers cannot show another table under her name.
+    // Another session of the same player cannot show a second table under her name.
     let mut second = Session::start_at(home, guest("anna"), 80, 24);
     second.wait_for(OPENING);
     second.send("F");
@@ -169,14 +169,14 @@ fn pipes_get_lines_and_programs_get_objects_until_the_player_leaves() {
     anna.wait_until("the advice", |_| text().contains("The coach recommends: "));
     anna.send(" ");
     anna.wait_until("the shot", |_| text().contains("anna plays the shot.") && objects().contains("\"playing\":true"));
-    // A hard shot takes half a minute; she watches the rest of it at four times its speed.
+    // A hard shot takes half a minute; the rest is watched at four times its speed.
     anna.send("++");
     anna.wait_until("the verdict", |_| text().contains("oint"));
     anna.send("q");
     let [plain, json] = [plain, json].map(|child| child.wait_with_output().unwrap());
     assert!(text().starts_with("anna plays straight"), "{}", text());
     assert!(
-        plain.status.success() && String::from_utf8(plain.stderr).unwrap().contains("anna shows the table no more")
+        plain.status.success() && String::from_utf8(plain.stderr).unwrap().contains("anna no longer shows the table")
     );
     assert!(json.status.success());
     let text = objects();
@@ -195,7 +195,7 @@ fn a_file_that_somebody_else_has_made_hurts_nobody() {
     let folder = shown(home, "mallory");
     fs::create_dir_all(&folder).unwrap();
     let put = |text: &str| {
-        // As a player's own program puts it: whole or not at all.
+        // Written atomically, as by a player's own program.
         fs::write(folder.join("new"), text).unwrap();
         fs::rename(folder.join("new"), folder.join("table.json")).unwrap();
     };
@@ -216,7 +216,7 @@ fn a_file_that_somebody_else_has_made_hurts_nobody() {
     ben.wait_for("cannot be read");
     put(&good);
     ben.wait_for("mallory places the balls");
-    // A link leads a guest nowhere else.
+    // A link does not lead a guest to other files.
     #[cfg(unix)]
     {
         fs::write(home.join("secret"), &good).unwrap();

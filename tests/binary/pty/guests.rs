@@ -1,4 +1,4 @@
-//! Guests of a machine that is not theirs: what they keep, what they may not, and two sessions of one of them.
+//! Guests on a shared machine: what is saved for them, what they must not do, and two sessions of one guest.
 
 use std::{
     fs,
@@ -12,12 +12,12 @@ use crate::{
     terminal::{OPENING, PATIENCE, REST, Session, guest},
 };
 
-/// The player's folder in a session's home.
+/// Returns the player's folder in a session's home folder.
 fn folder(home: &Path, name: &str) -> PathBuf {
     home.join("data/carom/players").join(name)
 }
 
-/// All files below `folder`.
+/// Returns all files below `folder`.
 fn files(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten().map(|entry| entry.unwrap().path());
     entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
@@ -36,7 +36,7 @@ fn a_guest_plays_and_leaves_files_in_the_players_folder_alone() {
     let left = files(home.path());
     assert!(left.iter().any(|file| file.ends_with("last.json")), "{left:?}");
     assert!(left.iter().all(|file| file.starts_with(&own)), "{left:?}");
-    // The next session goes on from there, and that of another player does not.
+    // The next session continues from there, and that of another player does not.
     let mut again = Session::start_at(home.path(), guest("anna"), 80, 24);
     again.wait_for("Coach Drills");
     again.settle(REST);
@@ -124,7 +124,7 @@ fn a_hostile_name_is_refused_before_anything_is_read_or_made() {
         assert!(said.err.contains("accepted are 1 to 32 letters") && !said.err.contains('\u{1b}'), "{}", said.err);
     }
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0);
-    // What commands do is no business of guests.
+    // Guests cannot run other commands.
     asked(&["--guest", "train"]).assert().code(2);
 }
 

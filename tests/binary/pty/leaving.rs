@@ -1,4 +1,4 @@
-//! Every way of leaving gives the terminal back and keeps what was done.
+//! Every way to leave the program restores the terminal and saves the work.
 
 use std::time::{Duration, Instant};
 
@@ -29,7 +29,7 @@ fn what_was_done_is_offered_again_after_any_end_and_trouble_is_written_down() {
     first.wait_for("there is no");
     first.signal("HUP");
     first.assert_left_without_trace();
-    // Looking in without doing anything changes nothing.
+    // A session without any action changes nothing.
     for _ in 0..2 {
         let mut second = start();
         second.wait_for("c goes on from where the last session ended");
@@ -139,7 +139,7 @@ fn a_shot_goes_on_from_where_it_was_stopped() {
     session.send("\x1a");
     session.wait_until("the shell's screen", |screen| !screen.alternate_screen());
     let (played, stopped) = (start.elapsed().as_secs_f64(), Instant::now());
-    // The time in which the shot would run on.
+    // The time in which the shot would continue.
     std::thread::sleep(Duration::from_secs(1));
     let stood = stopped.elapsed().as_secs_f64();
     session.come_back_to("Contacts");
@@ -149,7 +149,7 @@ fn a_shot_goes_on_from_where_it_was_stopped() {
     assert!(passed < running + 0.5 * stood, "the shot ran on: {passed} s in {running} s");
 }
 
-/// Seconds since the stroke, as the first row tells them: "1.25 / 6.50 s", or "1.25/6.50" where there is less room.
+/// Returns the seconds since the stroke from the first row: "1.25 / 6.50 s", or "1.25/6.50" if there is less room.
 fn clock(screen: &vt100::Screen) -> Option<f64> {
     let row = screen.rows(0, 80).next()?;
     row.split('/').next()?.split_whitespace().last()?.parse().ok()
@@ -159,7 +159,7 @@ fn clock(screen: &vt100::Screen) -> Option<f64> {
 fn whatever_kills_it_two_seconds_are_lost_at_most() {
     let mut session = Session::start(80, 24);
     session.wait_for(OPENING);
-    // The second move comes at once after the first one, and then nothing that could be a reason to write it down.
+    // The second move follows the first one at once, and nothing else happens that would trigger a save.
     session.send("\x1b[1;2B");
     session.wait_for("y 82.5 mm");
     session.send("\x1b[1;2C");
@@ -193,7 +193,7 @@ fn an_exam_that_was_interrupted_is_gone_on_with() {
     first.wait_for("exercise 2 of 20");
     first.signal("HUP");
     first.assert_left_without_trace();
-    // It waits, whatever is done meanwhile.
+    // The exam remains available, whatever is done meanwhile.
     let mut second = start();
     second.wait_for("c goes on with the exam");
     second.send("\x1b[1;2B");

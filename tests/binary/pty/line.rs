@@ -1,4 +1,4 @@
-//! Lines that are slow, stand still, or are cut.
+//! Connections that are slow, stalled, or cut.
 
 use std::{
     fs, thread,
@@ -10,11 +10,10 @@ use crate::{
     training::common::{SHORT, done, folder},
 };
 
-/// Time in which a program without a terminal has to be gone; a loaded machine may take long.
+/// Time in which a program without a terminal must end; a loaded machine may need long.
 const SOON: Duration = Duration::from_secs(5);
 
-/// The white ball is moved, so that there is something to keep, and these keys are typed, of which the space bar plays a
-/// shot that is there.
+/// Starts a session, moves the white ball so that there is something to save, and types these keys; the space bar plays the shot.
 fn begun(keys: &[&str]) -> Session {
     let mut session = Session::start(120, 40);
     session.wait_for(OPENING);
@@ -35,7 +34,7 @@ fn a_line_that_is_cut_ends_the_program_and_what_was_done_is_kept() {
         let mut session = begun(keys);
         session.cut();
         let status = session.ends_within(SOON);
-        // Either is right: whichever of the signal and the end of the input is noticed first.
+        // Either is right: the program may notice the signal or the end of the input first.
         assert!(!status.success(), "{keys:?}: {status:?}");
         assert!(session.last().contains(",0.0824"), "{keys:?}: {}", session.last());
     }
@@ -43,7 +42,7 @@ fn a_line_that_is_cut_ends_the_program_and_what_was_done_is_kept() {
 
 #[test]
 fn without_a_signal_too_the_end_of_the_line_is_the_end() {
-    // Nobody is told that a terminal is gone which controls nobody.
+    // The program does not control the terminal, so it gets no signal when the terminal is gone.
     let mut command = carom();
     command.set_controlling_tty(false);
     let mut session = Session::start_command(command, 80, 24);
@@ -52,12 +51,11 @@ fn without_a_signal_too_the_end_of_the_line_is_the_end() {
     session.ends_within(SOON);
 }
 
-/// Most bytes of a picture, and most that the screen may be late, s.
+/// Largest size of a picture in bytes, and largest delay of the screen, s.
 const PICTURE: u64 = 3_000;
 const LATE: f64 = 0.5;
 
-/// Takes nothing until the line is full, so that the program writes no more; gives the bytes that it has written so far, to
-/// whatever.
+/// Reads nothing until the connection is full and the program stops writing; returns the total number of bytes that it has written so far.
 fn fill(session: &Session) -> u64 {
     let (mut written, mut silent) = (session.written(), 0);
     let start = Instant::now();
@@ -71,7 +69,7 @@ fn fill(session: &Session) -> u64 {
     written.unwrap()
 }
 
-/// Takes what comes until the screen shows something; gives the bytes that came before.
+/// Reads output until the screen shows something; returns the number of bytes before that.
 fn taken_until(session: &mut Session, what: &str, is_shown: impl Fn(&Session) -> bool) -> u64 {
     let (start, before) = (Instant::now(), session.bytes);
     while !is_shown(session) {
@@ -81,7 +79,7 @@ fn taken_until(session: &mut Session, what: &str, is_shown: impl Fn(&Session) ->
     (session.bytes - before) as u64
 }
 
-/// The moment of the shot that the header shows, and the shot's length, s.
+/// Returns the time of the shot in the header, and the length of the shot, s.
 fn shown(session: &Session) -> Option<(f64, f64)> {
     let header = session.screen().rows(0, 120).next()?;
     let (before, behind) = header.split_once('/')?;
@@ -98,15 +96,15 @@ fn on_a_slow_line_pictures_are_left_out_and_a_key_is_answered_as_soon_as_the_lin
     session.send(" ");
     let start = Instant::now();
     let held = fill(&session) - before;
-    // A second more, in which thirty pictures would come.
+    // One more second, in which thirty pictures would be drawn.
     thread::sleep(Duration::from_secs(1));
-    // What the line holds shows the past; the picture that follows it shows the present.
+    // The buffered output shows the past; the picture after it shows the present.
     let is_late = |(moment, _): (f64, f64)| -> bool { start.elapsed().as_secs_f64() - moment > LATE };
     let bytes = taken_until(&mut session, "the present", |session| shown(session).is_some_and(|shown| !is_late(shown)));
     assert!(bytes < held + PICTURE, "{bytes} bytes came, of which the line held {held}");
     let (moment, length) = shown(&session).unwrap();
     assert!(moment < length, "the shot goes on: {moment} of {length} s");
-    // A key that is pressed while the line is full is answered by the first picture that it lets through.
+    // A key that is pressed while the connection is full is answered by the first picture after that.
     let before = session.written().unwrap();
     let held = fill(&session) - before;
     session.send(" ");
@@ -119,7 +117,7 @@ fn on_a_slow_line_pictures_are_left_out_and_a_key_is_answered_as_soon_as_the_lin
 #[test]
 fn on_a_line_that_stands_still_the_program_can_be_ended_and_gives_the_terminal_back() {
     let mut session = begun(&["\r", " "]);
-    // Nobody reads: the line is full when the program writes no more. Each view is a picture of its own.
+    // Nothing is read: the connection is full when the program stops writing. Each view is another picture.
     let (mut written, mut silent) = (session.written(), 0);
     for _ in 0..60 {
         session.send("v");
@@ -135,7 +133,7 @@ fn on_a_line_that_stands_still_the_program_can_be_ended_and_gives_the_terminal_b
     let status = session.ends_within(SOON);
     assert!(status.signal().is_some(), "{status:?}");
     assert!(session.last().contains(",0.0824"), "{}", session.last());
-    // What the line still holds ends with that.
+    // The output that is still buffered ends with the restored terminal.
     session.assert_left_without_trace();
 }
 

@@ -1,4 +1,4 @@
-//! Commands that answer in lines, at a terminal.
+//! Commands that print lines, at a terminal.
 
 use crate::terminal::{Session, carom};
 

@@ -1,4 +1,4 @@
-//! The real binary in a pseudo-terminal: a session from start to end, every way of leaving, and lines that are slow or cut.
+//! The real binary in a pseudo-terminal: a session from start to end, every way to leave, and slow or cut connections.
 
 mod calibration;
 mod follow;

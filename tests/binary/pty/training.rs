@@ -1,4 +1,4 @@
-//! Runs that train beside the program.
+//! Runs that train next to the program.
 
 use std::{
     thread,
@@ -25,7 +25,7 @@ fn a_run_that_was_started_in_the_program_goes_on_when_the_program_has_ended() {
     session.wait_for("Numbers");
     session.send("q");
     assert!(session.assert_left_without_trace().success());
-    // The pseudo-terminal goes with the session.
+    // The pseudo-terminal ends with the session.
     drop(session);
     let start = Instant::now();
     loop {
@@ -57,7 +57,7 @@ fn a_run_is_watched_from_two_terminals_as_it_trains_and_costs_nothing_when_it_ha
         watcher.wait_for("training");
         watcher.wait_for("Shot 1 of 8");
     }
-    // Where nobody looks on any more, the training goes on; whoever still does sees it end.
+    // Without the spectator that left, the training continues; the remaining one sees it end.
     let [left, mut stays] = watchers;
     drop(left);
     let watched = stays.count(Duration::from_secs(2));
@@ -66,7 +66,7 @@ fn a_run_is_watched_from_two_terminals_as_it_trains_and_costs_nothing_when_it_ha
     stays.send(".");
     stays.settle(REST);
     assert_eq!(stays.count(Duration::from_secs(2)), 0, "the run has ended, and no shot plays");
-    // Each second ten pictures of some hundreds of bytes at most; 2,300 bytes a second were measured.
+    // At most ten pictures of a few hundred bytes per second; 2,300 bytes per second were measured.
     assert!((100..40_000).contains(&watched), "{watched} bytes in two seconds");
     stays.send("q");
     assert!(stays.assert_left_without_trace().success());

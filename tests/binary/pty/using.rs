@@ -1,4 +1,4 @@
-//! A session from start to end, and what it writes meanwhile.
+//! A session from start to end, and the size of its output.
 
 use std::{
     process::Command,
@@ -11,7 +11,7 @@ use portable_pty::CommandBuilder;
 use crate::program::home;
 use crate::terminal::{OPENING, PATIENCE, REST, Session, carom};
 
-/// What every frame begins with.
+/// Start of every frame.
 const FRAME: &[u8] = b"\x1b[?2026h";
 
 #[test]
@@ -25,7 +25,7 @@ fn a_player_places_a_ball_gets_a_shot_watches_it_and_quits() {
     session.wait_for_advice();
     session.wait_for("‖");
     session.send(".");
-    // A stroke with the cue raised makes the ball jump at once: then the first meeting is the second of the contacts.
+    // A stroke with a raised cue makes the ball jump at once; then the first collision is the second contact.
     let is_first =
         |screen: &vt100::Screen| ["Contacts 1/", "Contacts 2/"].iter().any(|text| screen.contents().contains(text));
     session.wait_until("the first event", is_first);
@@ -34,7 +34,7 @@ fn a_player_places_a_ball_gets_a_shot_watches_it_and_quits() {
     session.wait_until("the next event", |screen| !is_first(screen));
     session.send(" ?");
     session.wait_for("Placing the balls");
-    // Escape and q at once would be Alt-q.
+    // Escape and q in one piece would be Alt-q.
     session.send("?q");
     assert!(session.assert_left_without_trace().success());
 }
@@ -53,15 +53,15 @@ fn playback_stays_small_enough_for_a_slow_link() {
     session.wait_for(OPENING);
     session.send("\r");
     session.wait_for_advice();
-    // What a picture costs depends on the shot, and which the coach finds depends on how busy the machine is: a stroke of one's own,
-    // full at the first ball, level and in the middle, brought down to 0.1 m/s and up to 4.1.
+    // The size of a picture depends on the shot, and the coach's shot depends on the load of the machine. So the test uses its own stroke:
+    // full at the first ball, level and central, reduced to 0.1 m/s and raised to 4.1 m/s.
     session.send("w\t0");
     session.send(&"-".repeat(80));
     session.send(&"\x1b[1;2B".repeat(12));
     session.send(&"\x1b[1;2A".repeat(8));
     session.settle(Duration::from_millis(1500));
     session.send(" ");
-    // The first three seconds: the balls are never faster, nor more of them under way.
+    // The first three seconds: later, the balls are not faster, and no more of them are moving.
     let (mut shot, mut frames) = (Vec::new(), 0);
     let start = Instant::now();
     while frames < 90 {
@@ -70,7 +70,7 @@ fn playback_stays_small_enough_for_a_slow_link() {
         frames = shot.windows(FRAME.len()).filter(|window| *window == FRAME).count();
     }
     let frame = shot.len() / frames;
-    // 179 were measured, 190 to 340 for shots that the coach finds; the same with crossterm's backend took over twice as many.
+    // Measured: 179, and 190 to 340 for shots that the coach finds; crossterm's backend needed more than twice as many.
     assert!((20..=300).contains(&frame), "{frame} bytes a frame");
 }
 
@@ -94,14 +94,14 @@ fn the_mouse_drags_a_ball_draws_no_more_than_keys_and_is_given_back() {
     assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::ButtonMotion, "not every motion");
     assert_eq!(screen.mouse_protocol_encoding(), vt100::MouseProtocolEncoding::Sgr);
     session.settle(REST);
-    // What comes at once is below the 1,024 bytes that the input library reads at a time.
+    // This input is below the 1,024 bytes that the input library reads at a time.
     let reports: Vec<_> = (0..70).map(|n| format!("\x1b[<32;{};{}M", 34 + n / 7, 13 + n % 2)).collect();
     let before = session.bytes;
     session.send(&format!("\x1b[<0;34;13M{}\x1b[<32;44;13M\x1b[<0;44;13m", reports.concat()));
     session.wait_for("white at x -447.0 mm, y 182.5 mm");
     session.settle(REST);
     let drag = session.bytes - before;
-    // A picture is about 300 bytes.
+    // A picture has about 300 bytes.
     assert!(drag < 5_000, "{drag} bytes");
     session.send("q");
     assert!(session.assert_left_without_trace().success());
@@ -127,7 +127,7 @@ fn a_setting_holds_at_once_and_a_toast_goes_by_itself() {
     session.wait_for(OPENING);
     session.send("\x1b[15~");
     session.wait_for("changes apply at once");
-    // Behind the mouse there are three units.
+    // Three unit settings follow the mouse setting.
     session.send("\x1b[F\x1b[A\x1b[A\x1b[A\x1b[C");
     session.wait_until("the mouse is left to the terminal", |screen| {
         screen.mouse_protocol_mode() == vt100::MouseProtocolMode::None
@@ -165,7 +165,7 @@ fn a_note_is_kept_that_was_made_just_before_the_end() {
     );
     let mut session = Session::start_at(home.path(), carom(), 80, 24);
     session.wait_for(OPENING);
-    // The library's last category holds the position, of which the coach begins to think when it is opened.
+    // The last category of the library contains the position; the coach starts to think about it when it is opened.
     session.send("d\x1b[D");
     session.wait_for("mine");
     session.send("\rmq");

@@ -1,4 +1,4 @@
-//! Runs as they should go, and input that is wrong.
+//! Normal training runs, and invalid input.
 
 use std::{fs, path::Path, process::Stdio};
 
@@ -33,7 +33,7 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
     let report: Value = serde_json::from_str(&measured.out).unwrap();
     assert_eq!(report["success"]["layouts"], 100);
 
-    // The run's folder is as good as the file in it; its checkpoint is another thing.
+    // The folder of a run can be used in place of its policy file; its checkpoint cannot.
     let of_folder: Value =
         serde_json::from_str(&done(here, "evaluate --policy one --policy-only --layouts 100 --json").out).unwrap();
     assert_eq!((&of_folder["success"], &of_folder["policy"]), (&report["success"], &"one".into()));
@@ -61,7 +61,7 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
     assert!(drawn["tenths"].as_array().is_some_and(|tenths| !tenths.is_empty()), "{drawn}");
     assert_ne!(drawn["claimed"], report["claimed"], "other tables, other strokes");
 
-    // Whole rounds are played: what was played is told, not what was asked for.
+    // Only whole rollouts are played; the report gives the number that was played, not the requested one.
     let rounds = done(here, "train --config small.toml --steps 1 --evaluation-layouts 5 --run rounds");
     assert!(rounds.out.contains("after 16 shots"), "{}", rounds.out);
     for file in ["result.json", "state.json"] {
@@ -69,7 +69,7 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
         assert_eq!(said["shots"], 16, "{file}");
     }
     let resumed = done(here, "train --resume rounds");
-    assert!(resumed.err.contains("it has played 16 shots (asked for: 1)"), "{}", resumed.err);
+    assert!(resumed.err.contains("it has played 16 shots (requested: 1)"), "{}", resumed.err);
 
     let again = carom(here, &format!("{SHORT} --run one"));
     assert_eq!(again.code, Some(1));
@@ -94,12 +94,12 @@ fn a_run_whose_result_nobody_reads_is_still_told_to_be_unfinished() {
 fn an_interrupted_run_is_listed_saves_and_goes_on_and_nobody_else_may_meanwhile() {
     let folder = folder();
     let here = folder.path();
-    // Among the user's own runs, where they are found by name.
+    // In the folder of the user's own runs, where they are found by name.
     let name = "mine";
     let run = here.join("carom/runs").join(name);
     let line = "train --config small.toml --steps 100000000 --evaluate-every 2000 --evaluation-layouts 20";
     let mut child = start(here, &format!("{line} --run {}", run.display()));
-    // The first lines of metrics show that the signal handlers stand and training is under way.
+    // The first lines of metrics show that the signal handlers are installed and training has started.
     wait_for(&run.join("metrics.jsonl"), &mut child);
     let listed = || -> Value { serde_json::from_str(&done(here, "train --list --json").out).unwrap() };
     assert_eq!((&listed()["name"], &listed()["state"]), (&name.into(), &"running".into()));
@@ -122,7 +122,8 @@ fn an_interrupted_run_is_listed_saves_and_goes_on_and_nobody_else_may_meanwhile(
 
 #[test]
 fn every_bundled_policy_alone_beats_a_search_of_a_hundred_random_shots() {
-    // What a search of 100 random shots finds is in the model card, with its interval; one shot of the networks does better everywhere.
+    // The model card contains the success rate of a search of 100 random shots, with its interval; a single shot of the networks is better
+    // everywhere.
     let card = include_str!("../../../models/README.md");
     for table in ["match", "thesis"] {
         for (rule, reward) in [("straight", "r3"), ("one-cushion", "one-cushion"), ("three-cushion", "three-cushion")] {
@@ -208,7 +209,7 @@ fn one_part_of_a_setting_is_set_alone_and_the_others_stay() {
         &format!("train --agent thesis-ddpg --reward r3 {short} --set noise.sigma=1 --set noise.dt=0.5 --run a"),
     );
     assert_eq!(settings("a")["noise"], serde_json::json!({"theta": 0.15, "sigma": 1.0, "dt": 0.5}));
-    // What the run that the weights come from has of the other parts stays as well.
+    // The other parts that the source run of the weights has set are kept, too.
     done(here, &format!("train --from a {short} --set noise.theta=0.3 --run b"));
     assert_eq!(settings("b")["noise"], serde_json::json!({"theta": 0.3, "sigma": 1.0, "dt": 0.5}));
     fs::write(here.join("parts.toml"), "[noise]\nsigma = 2.0\n").unwrap();

@@ -1,4 +1,4 @@
-//! What the tests of training share: small runs, and what two of them are compared by.
+//! Helpers of the training tests: small runs, and a comparison of two of them.
 
 use std::{
     fs,
@@ -11,14 +11,14 @@ use serde_json::Value;
 
 use crate::program::{self, Kept, Outcome, outcome};
 
-/// An agent that learns thousands of updates a second.
+/// An agent with thousands of updates per second.
 pub const SMALL: &str =
     "actor_layers = [16]\ncritic_layers = [16]\nbatch = 32\nactor_batch = 8\nshots_per_update = 16\nreplay = 5000\n";
 
 /// A run of 40 iterations with ten measurements.
 pub const SHORT: &str = "train --config small.toml --steps 640 --evaluate-every 64 --evaluation-layouts 20 --seed 3";
 
-/// A folder with the small agent's settings.
+/// Returns a folder with the settings of the small agent.
 pub fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("small.toml"), SMALL).unwrap();
@@ -33,14 +33,14 @@ pub fn carom(folder: &Path, line: &str) -> Outcome {
     outcome(command(folder, line).spawn().unwrap())
 }
 
-/// A carom that must succeed.
+/// Runs carom, which must succeed.
 pub fn done(folder: &Path, line: &str) -> Outcome {
     let outcome = carom(folder, line);
     assert_eq!(outcome.code, Some(0), "{line}: {}", outcome.err);
     outcome
 }
 
-/// A carom that must stop before its end, as one that can go on by the same command.
+/// Runs carom, which must stop before its end with the exit code for a resumable run.
 pub fn unfinished(folder: &Path, line: &str) -> Outcome {
     let outcome = carom(folder, line);
     assert_eq!(outcome.code, Some(75), "{line}: {}", outcome.err);
@@ -51,7 +51,7 @@ pub fn start(folder: &Path, line: &str) -> Kept {
     Kept(command(folder, line).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap())
 }
 
-/// Waits until there is such a file, while the program runs.
+/// Waits until the file exists, while the program runs.
 pub fn wait_for(file: &Path, child: &mut Child) {
     while !file.exists() {
         assert!(child.try_wait().unwrap().is_none(), "the run ended by itself");
@@ -59,8 +59,8 @@ pub fn wait_for(file: &Path, child: &mut Child) {
     }
 }
 
-/// Everything in a run's folder that must not depend on the clock, and the names of all files. The checkpoint before
-/// the last is left out: when it was written does depend on it.
+/// All content of a run's folder that must not depend on the clock, and the names of all files. The previous checkpoint is excluded,
+/// because the time at which it was written depends on the clock.
 #[derive(PartialEq)]
 pub struct Files {
     names: Vec<PathBuf>,
@@ -81,7 +81,7 @@ impl Files {
         Self { names, policy: read("policy.safetensors"), checkpoint: read("checkpoint.safetensors"), metrics, config }
     }
 
-    /// Where they differ, for people: bytes are of no use to them.
+    /// Asserts equality, and names the difference in a readable way instead of printing bytes.
     pub fn assert_same(&self, other: &Self, what: &str) {
         assert_eq!(self.names, other.names, "{what}");
         assert_eq!(self.config, other.config, "{what}");

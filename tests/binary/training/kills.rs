@@ -1,15 +1,15 @@
-//! Runs that are killed at any moment and go on as if they had not been.
+//! Runs that are killed at any time and resume without any difference.
 //!
-//! `CAROM_KILLS=500 cargo test --profile quick --test binary training::kills -- --nocapture` kills until 500 have hit.
+//! `CAROM_KILLS=500 cargo test --profile quick --test binary training::kills -- --nocapture` repeats until 500 kills have hit.
 
 use std::{env, time::Duration};
 
 use super::common::{Files, done, folder, start};
 
-/// A run with a checkpoint every twentieth.
+/// A run with twenty checkpoints.
 const LONG: &str = "train --config small.toml --steps 20000 --evaluate-every 1000 --evaluation-layouts 20";
 
-/// Kills that have to hit the program at work, and most that are tried on one run.
+/// Number of kills that must hit the working program, and the maximum number of attempts on one run.
 const KILLS: [u32; 2] = [8, 40];
 
 #[test]
@@ -25,14 +25,14 @@ fn a_run_that_is_killed_at_random_moments_ends_in_the_same_files() {
     }
 }
 
-/// Kills the run of this seed again and again, until `wanted` have hit or it has ended; gives how many have hit. What it ends
-/// in is what it ends in without.
+/// Kills the run of this seed repeatedly, until `wanted` kills have hit or the run has ended; returns the number of hits. The final files
+/// must equal those of an uninterrupted run.
 fn hits_on_one_run(seed: u32, wanted: u32) -> u32 {
     let folder = folder();
     let here = folder.path();
     let mut whole = start(here, &format!("{LONG} --seed {seed} --run whole"));
     let killed = here.join("killed");
-    // Delays that differ and are spread evenly (multiples of the golden ratio); the machine's own timing does the rest.
+    // Different delays that are spread evenly (multiples of the golden ratio), plus the variation of the machine's own timing.
     let delays = (1..=KILLS[1]).map(|kill| Duration::from_secs_f64(0.004 + 0.15 * (f64::from(kill) * 0.618).fract()));
     let mut hits = 0;
     for delay in delays {
@@ -40,7 +40,7 @@ fn hits_on_one_run(seed: u32, wanted: u32) -> u32 {
         std::thread::sleep(delay);
         child.kill().unwrap();
         if child.wait().unwrap().code().is_some() {
-            // It was faster.
+            // The run ended before the kill.
             break;
         }
         hits += 1;
@@ -54,7 +54,7 @@ fn hits_on_one_run(seed: u32, wanted: u32) -> u32 {
     hits
 }
 
-/// The same command starts a run and goes on with it. A run that is killed before its first checkpoint is none.
+/// The command that starts or resumes a run. A run that was killed before its first checkpoint does not count as one.
 fn start_or_continue(seed: u32) -> String {
     format!("{LONG} --seed {seed} --run killed --continue")
 }

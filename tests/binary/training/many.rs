@@ -1,4 +1,4 @@
-//! Several seeds, and runs that start from others.
+//! Several seeds, and runs that start from the weights of others.
 
 use std::fs;
 
@@ -29,7 +29,7 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
     assert_eq!(objective, rows[9][2]);
     fs::remove_dir_all(here.join("large")).unwrap();
 
-    // Stopped before the first seed is through, then again.
+    // Stopped before the first seed is complete, then resumed.
     let parts = unfinished(here, &format!("{SHORT} --run parts --seeds 3 --minutes 0.0001"));
     assert!(parts.err.contains("--resume"), "{}", parts.err);
     unfinished(here, "train --resume parts --minutes 0.0005");
@@ -42,12 +42,12 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
     assert!(states.iter().all(|run| run["state"] == "finished" && run["best_reward"].is_number()), "{listed}");
     assert!(listed.contains("whole/seed-5"), "{listed}");
 
-    // A seed that played all its shots and could not say so yet says so.
+    // A seed that has played all its shots but has not written its result yet writes it on resume.
     fs::remove_file(here.join("whole/seed-4/result.json")).unwrap();
     done(here, "train --resume whole");
     assert!(here.join("whole/seed-4/result.json").exists());
 
-    // Other settings are refused in words, the number of seeds too; with the same ones it is finished.
+    // Other settings are refused with an explanation, and so is another number of seeds; with the same settings the run is finished.
     let continued = |rest: &str| carom(here, &format!("{SHORT} --run whole --continue {rest}"));
     let [fewer, single] = ["--seeds 2", ""].map(continued);
     assert!(
@@ -72,7 +72,7 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
     let single = carom(here, &format!("{} --run four --continue --seeds 2", SHORT.replace("--seed 3", "--seed 4")));
     assert!(single.err.contains("was started as a single run, not with 2 seeds"), "{}", single.err);
     assert_eq!(continued("--seeds 3").code, Some(0));
-    // A single run would hide the seeds.
+    // A single run in this folder would hide the seeds.
     let single = carom(here, &format!("{SHORT} --run whole"));
     assert_eq!(single.code, Some(1));
     assert!(single.err.contains("--resume"), "{}", single.err);
@@ -103,7 +103,7 @@ fn what_went_wrong_with_a_seed_is_told_where_the_spread_cannot_be_written_either
     assert!(failed.code == Some(1) && words.iter().all(|words| failed.err.contains(words)), "{}", failed.err);
 }
 
-/// A scheduler asks with the same command again, days later: by then the run that the weights came from may be gone.
+/// A scheduler may repeat the same command days later; by then the run that the weights came from may be gone.
 #[test]
 fn a_run_goes_on_whatever_has_become_of_the_weights_that_it_started_from() {
     let folder = folder();
@@ -131,12 +131,12 @@ fn a_run_goes_on_whatever_has_become_of_the_weights_that_it_started_from() {
         done(here, &line("one"));
         fs::rename(here.join("away"), here.join("one")).unwrap();
     }
-    // Nobody needs them once every seed has begun.
+    // The weights are not needed once every seed has started.
     let (weights, away) = (here.join("group/from.safetensors"), here.join("away"));
     fs::rename(&weights, &away).unwrap();
     done(here, "train --resume group --objective");
     fs::rename(&away, &weights).unwrap();
-    // Killed after its first file was written.
+    // As if killed after the first file was written.
     fs::remove_file(here.join("group/seeds.json")).unwrap();
     fs::remove_file(here.join("group/seeds.csv")).unwrap();
     for seed in ["seed-1", "seed-2"] {
@@ -169,11 +169,11 @@ fn weights_are_found_by_the_names_that_policies_have() {
         assert!(config["from"]["path"].as_str().unwrap().ends_with(path), "{from}: {}", config["from"]);
         assert_eq!(config["reward"], reward, "{from}");
     }
-    // The last rounds of this file trained the critic alone.
+    // In the last rounds of this file, only the critic was trained.
     let line = format!("train --from match-three-cushion --reward three-cushion {short} --run e");
-    assert!(done(here, &line).err.contains("the actor stays as it is"));
+    assert!(done(here, &line).err.contains("the actor will not change"));
     let lively = done(here, &(line + " --set actor_learning_rate=0.0004").replace("run e", "run f"));
-    assert!(!lively.err.contains("stays as it is"), "{}", lively.err);
+    assert!(!lively.err.contains("will not change"), "{}", lively.err);
     let report: Value = serde_json::from_str(
         &done(here, "evaluate --policy match-one-cushion --policy-only --rule one-cushion --layouts 5 --json").out,
     )
@@ -216,8 +216,8 @@ fn a_run_can_start_from_anothers_weights_and_says_so() {
         assert_eq!((&origin["reward"], &config["reward"]), (&"r3".into(), &"r1".into()));
         assert_eq!((&config["table"]["name"], &config["settings"]["batch"]), (&"thesis".into(), &32.into()));
     }
-    // Its seed, table and settings are the same for all: so are the weights that they end with, but that a policy's have half the
-    // digits to begin with.
+    // Seed, table and settings are the same for all runs, and so are the final weights; only those from a policy file start with half of
+    // the digits.
     let policy = |run: &str| fs::read(here.join(run).join("policy.safetensors")).unwrap();
     assert!(policy("of-run") == policy("of-file") && policy("of-policy") == policy("of-policy-again"));
     assert!(policy("of-policy") != policy("of-run") && policy("of-policy").len() == policy("of-run").len());

@@ -1,4 +1,4 @@
-//! Damaged checkpoints and a disk that takes no more.
+//! Damaged checkpoints, and a full disk.
 
 use std::fs;
 
@@ -13,7 +13,7 @@ fn a_damaged_checkpoint_is_reported_and_the_one_before_used() {
     let files = Files::of(&run);
     let (current, previous) = (run.join("checkpoint.safetensors"), run.join("checkpoint-previous.safetensors"));
     let whole = fs::read(&current).unwrap();
-    // The length of the header, the header, its end, the arrays' begin and end.
+    // The length of the header, the header, its end, and the start and end of the arrays.
     for index in [0, 7, 9, 60, whole.len() / 2, whole.len() - 1] {
         let mut damaged = whole.clone();
         damaged[index] ^= 1;
@@ -28,7 +28,7 @@ fn a_damaged_checkpoint_is_reported_and_the_one_before_used() {
         Files::of(&run).assert_same(&files, "after the damage");
     }
     fs::write(&current, &whole[..whole.len() / 2]).unwrap();
-    // Whoever starts from it is told as well.
+    // A run that starts from the damaged one reports it as well.
     let copied = done(here, "train --from run --steps 64 --evaluation-layouts 5 --run copy");
     assert!(copied.err.contains("after 576 shots"), "{}", copied.err);
     fs::write(&previous, b"").unwrap();
@@ -70,7 +70,7 @@ fn lines_of_metrics_that_are_cut_off_or_missing_are_told_once_and_spoil_nothing(
     assert!(fs::read(run.join("checkpoint.safetensors")).unwrap() == checkpoint);
 }
 
-/// A limit on the size of files stands for a full disk: no mount is needed.
+/// A limit on the size of files acts like a full disk, without a mount.
 #[cfg(unix)]
 #[test]
 fn a_full_disk_is_reported_leaves_the_last_checkpoint_and_spoils_nothing() {
@@ -85,7 +85,7 @@ fn a_full_disk_is_reported_leaves_the_last_checkpoint_and_spoils_nothing() {
     let checkpoints =
         || ["checkpoint.safetensors", "checkpoint-previous.safetensors"].map(|name| fs::read(run.join(name)).unwrap());
     let before = checkpoints();
-    // Remembered shots make checkpoints grow: the next ones exceed this, in blocks of 512 bytes; policies do not.
+    // The replay buffer makes checkpoints grow: the next ones exceed this limit, in blocks of 512 bytes; policies do not.
     let blocks = before[0].len() / 512 + 2;
     let resume = command(here, "train --resume run");
     let mut limited = program(here, "sh".as_ref());

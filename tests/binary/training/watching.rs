@@ -1,4 +1,4 @@
-//! Other processes look at a run: while it trains, after its end, and when something befalls it or its files.
+//! Other processes watch a run: while it trains, after its end, and when it or its files are damaged.
 
 use std::{
     fs,
@@ -14,10 +14,10 @@ use serde_json::Value;
 use super::common::{SHORT, carom, command, done, folder, start, unfinished, wait_for};
 use crate::program::outcome;
 
-/// A run of some seconds with many lines.
+/// A run of a few seconds with many lines of metrics.
 const LONG: &str = "train --config small.toml --steps 40000 --evaluate-every 8000 --evaluation-layouts 20 --seed 3";
 
-/// A process that looks on, its output kept.
+/// Starts a process that watches, with captured output.
 fn watch(here: &Path, line: &str) -> Child {
     command(here, line).spawn().unwrap()
 }
@@ -26,7 +26,7 @@ fn lines(text: &str) -> Vec<Value> {
     text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
 }
 
-/// Waits for something that happens while `child` runs.
+/// Waits for a condition while `child` runs.
 fn wait_until(child: &mut Child, what: &str, condition: impl Fn() -> bool) {
     let start = Instant::now();
     while !condition() {
@@ -58,7 +58,7 @@ fn two_processes_see_every_line_of_a_run_while_it_trains_and_end_with_it() {
     assert_eq!((plain.code, plain.out.lines().count()), (Some(0), 5), "{}{}", plain.out, plain.err);
     assert!(plain.out.lines().all(|line| line.contains("held-out reward")), "{}", plain.out);
     assert!(plain.err.contains("the run is training") && plain.err.contains("the run is finished"), "{}", plain.err);
-    // Whoever comes late sees the same.
+    // A late watcher sees the same.
     assert_eq!(done(here, "watch run --json").out, json.out);
 }
 
@@ -77,7 +77,7 @@ fn a_run_that_is_killed_is_said_to_have_died_and_a_broken_connection_kills_none(
     let mut watcher = watch(here, "watch run");
     let mut said = BufReader::new(watcher.stderr.take().unwrap());
     let mut told = String::new();
-    // Its first sentence is that it looks on.
+    // Its first sentence says that it watches the run.
     said.read_line(&mut told).unwrap();
     training.kill().unwrap();
     training.wait().unwrap();
@@ -121,7 +121,7 @@ fn a_run_can_be_stopped_and_given_up_from_elsewhere() {
         assert_eq!(run.join("policy.safetensors").exists(), is_kept);
         assert_eq!(run.exists(), is_kept, "{word}");
     }
-    // What the run says of itself is told, not its last line of metrics, which may be older.
+    // The report uses the run's own status, not its last line of metrics, which may be older.
     let stopped = done(here, "watch stop");
     let standing: Value = serde_json::from_slice(&fs::read(here.join("stop/state.json")).unwrap()).unwrap();
     assert!(standing["warning"].as_str().unwrap().contains("\"puase\" is not understood"), "{standing}");
@@ -169,7 +169,7 @@ fn odd_files_give_a_sentence_each_and_no_crash() {
     let unknown = newer.replacen("\"reward\": \"r3\"", "\"reward\": \"r9\"", 1);
     let half = lines.lines().take(20).map(|line| line.to_owned() + "\n").collect::<String>();
     let unread = lines.replacen("time/fps", "time/other", 2);
-    // Which file of the run is what, what is said of it, and how many lines are shown where that matters.
+    // For each case: the file of the run, its content, the expected sentence, and the number of displayed lines if it matters.
     let cases: [(&str, &str, &str, Option<usize>); 9] = [
         ("metrics.jsonl", &lines[..lines.len() - 20], "the last line of metrics.jsonl is cut off", Some(9)),
         ("metrics.jsonl", &unread, "2 lines of metrics.jsonl cannot be read", None),
@@ -195,7 +195,7 @@ fn odd_files_give_a_sentence_each_and_no_crash() {
         assert!(seen.err.contains(what), "{what}: {}", seen.err);
         assert!(count.is_none_or(|count| seen.out.lines().count() == count), "{what}: {}", seen.out);
     };
-    // Whoever looks on waits a second for what may still come: all at once.
+    // A watcher waits a second for late output, so all cases run at the same time.
     thread::scope(|scope| {
         for (n, (file, text, what, count)) in cases.into_iter().enumerate() {
             let name = format!("case-{n}");
@@ -212,7 +212,7 @@ fn odd_files_give_a_sentence_each_and_no_crash() {
     let list = done(here, "train --list .");
     assert!(list.err.contains("case-5: config.json is of carom 90"), "{}", list.err);
     assert!(!list.out.lines().any(|line| line.contains("case-5") && line.contains("ddpg")), "{}", list.out);
-    // Numbers that are none have names, and nobody stumbles over them.
+    // Numbers that are not finite are written by name, and all readers accept them.
     let odd = lines.replacen("\"train/critic_loss\":0", "\"train/critic_loss\":\"NaN\",\"was\":0", 1);
     fs::write(here.join("run/metrics.jsonl"), odd).unwrap();
     let json = carom(here, "watch run --json");

@@ -1,21 +1,21 @@
-//! Circles of imports between the children of a folder.
+//! Cycles of imports between the children of a folder.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::imports::Module;
 
-/// Children of one folder that import each other all around.
+/// Children of one folder that import each other in a cycle.
 #[derive(Debug)]
 pub struct Circle {
     /// The folder and the children.
     pub name: String,
-    /// The imports that it is made of.
+    /// The imports that form the cycle.
     pub imports: Vec<String>,
 }
 
 type Import = (Module, Module);
 
-/// All circles that hold a folder, of which a file alone is none.
+/// Returns all cycles that contain a folder; cycles of files alone do not count.
 pub fn circles(imports: &BTreeSet<Import>) -> Vec<Circle> {
     let all = imports.iter().flat_map(|(from, to)| [from, to]);
     let folders: BTreeSet<&[String]> =
@@ -38,7 +38,7 @@ pub fn circles(imports: &BTreeSet<Import>) -> Vec<Circle> {
     found
 }
 
-/// What each child of a folder imports from which other.
+/// Returns which child of a folder imports which other child.
 fn between<'a>(
     folder: &[String],
     imports: &'a BTreeSet<Import>,
@@ -55,7 +55,7 @@ fn between<'a>(
     found
 }
 
-/// Whom a child imports, directly or through others.
+/// Returns all modules that a child imports, directly or indirectly.
 fn reached<'a>(child: &'a str, between: &BTreeMap<&'a str, BTreeMap<&'a str, Vec<&Import>>>) -> BTreeSet<&'a str> {
     let (mut found, mut open) = (BTreeSet::new(), vec![child]);
     while let Some(child) = open.pop() {

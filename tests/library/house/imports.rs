@@ -1,11 +1,11 @@
-//! What each module imports, read from the text of its file.
+//! The imports of each module, read from the text of its file.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A module by the names that lead to it from the crate.
+/// A module, as its path from the crate root.
 pub type Module = Vec<String>;
 
-/// Who imports whom, without what tests import. What a module passes on counts as that which it comes from.
+/// Returns which module imports which, without imports of tests. A re-export counts as an import of the original module.
 pub fn imports(sources: &BTreeMap<Module, String>) -> BTreeSet<(Module, Module)> {
     let codes: BTreeMap<&Module, String> = sources
         .iter()
@@ -28,13 +28,13 @@ pub fn imports(sources: &BTreeMap<Module, String>) -> BTreeSet<(Module, Module)>
     found
 }
 
-/// The text without comments and without the tests at its end.
+/// Returns the text without comments and without the tests at its end.
 fn code(text: &str) -> String {
     let lines = text.lines().map(|line| line.split("//").next().unwrap_or_default());
     lines.take_while(|line| !line.ends_with("mod tests {")).collect::<Vec<_>>().join("\n")
 }
 
-/// The names that a module makes public as its own, and what they are.
+/// Returns the re-exported names of a module, with their origins.
 fn passed_on(module: &Module, code: &str) -> Vec<(Module, Module)> {
     let mut found = Vec::new();
     for (start, _) in code.match_indices("use ") {
@@ -47,7 +47,7 @@ fn passed_on(module: &Module, code: &str) -> Vec<(Module, Module)> {
     found.into_iter().map(|path| (name(&path), absolute(module, &path))).collect()
 }
 
-/// Everything that is named from the crate, from the module or from one above it: in imports, and in the midst of the code.
+/// Returns all paths that start with the crate, the module or a parent module: in imports and inside the code.
 fn paths(code: &str) -> Vec<Vec<&str>> {
     let mut found = Vec::new();
     for start in ["crate::", "super::", "self::"] {
@@ -60,8 +60,8 @@ fn paths(code: &str) -> Vec<Vec<&str>> {
     found
 }
 
-/// Takes the paths of a tree such as `a::{b, c::{self, d}}` from the beginning of a text, each behind `start`, and gives
-/// what follows.
+/// Parses the paths of a tree such as `a::{b, c::{self, d}}` from the start of a text, each prefixed with `start`, and returns the rest of
+/// the text.
 fn tree<'a>(text: &'a str, start: &[&'a str], found: &mut Vec<Vec<&'a str>>) -> &'a str {
     let text = text.trim_start();
     if let Some(mut rest) = text.strip_prefix('{') {
@@ -78,7 +78,7 @@ fn tree<'a>(text: &'a str, start: &[&'a str], found: &mut Vec<Vec<&'a str>>) -> 
     if let Some(rest) = rest.strip_prefix("::") {
         return tree(rest, &path, found);
     }
-    // After the last comma stands nothing.
+    // Nothing follows the last comma.
     if !name.is_empty() || !rest.starts_with('}') {
         found.push(path);
     }
@@ -89,14 +89,14 @@ fn is_of_a_name(character: char) -> bool {
     character.is_alphanumeric() || character == '_'
 }
 
-/// A path in `module` as one from the crate.
+/// Converts a path in `module` to one from the crate root.
 fn absolute(module: &Module, path: &[&str]) -> Module {
     let mut base = module.clone();
     for name in path {
         match *name {
             "crate" => base.clear(),
             "super" => drop(base.pop()),
-            // Nothing stands for a star.
+            // A star stands for no name.
             "self" | "" => {}
             name => base.push(name.to_owned()),
         }

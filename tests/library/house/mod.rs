@@ -1,4 +1,5 @@
-//! The house in order: who may import whom under `src`, what the engine may compute with, and how long a file may be.
+//! Rules of the source tree: which module may import which under `src`, which functions the engine may use, and the maximum length of a
+//! file.
 
 mod circles;
 mod imports;
@@ -8,7 +9,7 @@ use std::{collections::BTreeMap, fs, path::Path};
 use circles::circles;
 use imports::{Module, imports};
 
-/// The top-level modules from the ground up: each may use those before it, and none behind it.
+/// The top-level modules, from the lowest layer up: each may use those before it, and none after it.
 const ORDER: [&str; 16] = [
     "platform",
     "printing",
@@ -28,17 +29,16 @@ const ORDER: [&str; 16] = [
     "commands",
 ];
 
-/// Circles that there are still: a folder, and those of its children that import each other. One that is mended is taken out,
-/// and nothing is ever added.
+/// Known cycles: a folder, and those of its children that import each other. A cycle that is removed is deleted here; none is ever added.
 const KNOWN: &[&str] = &[];
 
-/// Most lines of a file.
+/// Maximum number of lines of a file.
 const LINES: usize = 500;
 
-/// Modules whose results are the same bits on every machine.
+/// Modules whose results must be bit-for-bit equal on every machine.
 const SAME_EVERYWHERE: [&str; 3] = ["table", "physics", "simulation"];
 
-/// What each system computes to other last bits. `libm` has all of it.
+/// Functions whose last bits depend on the system. `libm` has replacements for all of them.
 const OF_THE_SYSTEM: [&str; 16] = [
     ".sin()",
     ".cos()",
@@ -58,7 +58,7 @@ const OF_THE_SYSTEM: [&str; 16] = [
     "from_angle(",
 ];
 
-/// The text of every file under `src`, by the name of its module.
+/// Returns the text of every file under `src`, by the name of its module.
 fn sources() -> BTreeMap<Module, String> {
     let mut sources = BTreeMap::new();
     let mut folders = vec![(Module::new(), Path::new(env!("CARGO_MANIFEST_DIR")).join("src"))];

@@ -1,4 +1,4 @@
-//! How the coach is asked and what of its advice is seen: better shots while it thinks, chances, margins, maps and the plan.
+//! Requests to the coach and the display of its advice: better shots while it thinks, chances, margins, maps and the plan.
 
 use std::sync::atomic::Ordering;
 
@@ -38,7 +38,7 @@ fn escape_takes_the_best_shot_so_far_and_a_late_answer_changes_nothing() {
     let player = player.better(SHOT, 940).answer();
     assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
     assert_eq!(player.app.frame_interval(), None);
-    // The errors that it was chosen by flatter it: no interval is told.
+    // The estimate is biased by the errors used to choose the shot, so no interval is displayed.
     let text = player.press("v").text(120, 40);
     assert!(text.contains("expert so far 89 %") && !text.contains("89 % ("), "{text}");
 }
@@ -57,7 +57,7 @@ fn an_answer_is_that_for_the_player_who_was_asked_for_whoever_is_chosen_meanwhil
     let player = player.tell(job.id, CoachNews::Advice(advice(&job)));
     assert!(player.study.is_none() && player.app.coach.shot().is_none());
     player.says("this answer is for expert; Enter asks for");
-    // It is kept for the player whose shot it is.
+    // The shot is kept for the player for whom it was found.
     let mut player = player.press("S");
     for _ in 1..Skill::NAMED.len() {
         if player.study.is_none() {
@@ -138,7 +138,7 @@ fn the_shots_that_are_listed_are_stepped_through_each_with_its_own_paths_and_its
     assert!(first.cancel.load(Ordering::Relaxed));
     let second = player.study.clone().unwrap();
     assert_eq!(second.shot, Some(CueInputs::parse(OTHERS[0]).unwrap()));
-    // What comes late about the first shot is not taken for the second.
+    // A late answer about the first shot is not used for the second one.
     let mut player = player;
     player.study = Some(first);
     let mut late = player.studied().press("v");
@@ -146,7 +146,7 @@ fn the_shots_that_are_listed_are_stepped_through_each_with_its_own_paths_and_its
     late.study = Some(second);
     let player = late.studied();
     assert!(!player.text(80, 24).contains("being worked out"));
-    // Back at it, it is known already.
+    // Back at the first shot, the analysis is already available.
     let player = player.press("[ [");
     assert_eq!(
         player.app.coach.shot().unwrap().cue,
@@ -172,7 +172,7 @@ fn margins_and_maps() {
             && large.contains("tightest: errors leave it first"),
         "{large}"
     );
-    // Which way each may be off is told at both sizes.
+    // The direction of each margin is displayed at both sizes.
     for (size, ways) in [
         ((120, 40), ["right", "left", "lower", "higher", "softer", "harder"]),
         ((80, 24), ["side", "hght", "cue", "aim", "spd", "R"]),
@@ -182,7 +182,7 @@ fn margins_and_maps() {
     }
     let picture = player.picture(120, 40);
     let (point, tip) = (Color::Rgb(0x5c, 0xbd, 0x72), Color::Rgb(0x1f, 0x63, 0xc8));
-    // The map of direction and speed from column 45 to 70: the stroke in its middle, and a point all around it.
+    // The map of direction and speed is in columns 45 to 70: the stroke in its middle, surrounded by points made.
     for middle in [(57, 33), (58, 33)] {
         assert!([picture[middle].fg, picture[middle].bg].contains(&tip), "{middle:?} {:?}", picture[middle]);
     }
@@ -216,7 +216,7 @@ fn the_plan_and_where_it_goes_on() {
     let large = player.text(200, 60);
     assert!(large.contains("Plan · next point on average 97 %") && large.contains("next 100 % very hard"), "{large}");
     assert_eq!(player.app.coach.info, InfoPanel::Plan);
-    // Ends of the balls are drawn around the places where they are meant to stop.
+    // The end positions of the balls are drawn around their intended places.
     let yellow = Color::Rgb(0xf6, 0xc3, 0x24);
     let count = |picture: &Buffer| picture.content().iter().filter(|cell| cell.fg == yellow).count();
     assert!(count(&player.picture(120, 40)) > count(&before) + 5);
@@ -266,7 +266,7 @@ fn the_real_coach_tells_better_shots_then_its_advice_and_then_what_comes_next() 
     assert!(player.text(120, 40).contains("Why: shot 2 ("), "{}", player.text(120, 40));
     let player = player.press("n");
     assert!(player.app.coach.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
-    // Nobody waits any more: nothing but the end is told, at once.
+    // The coach was cancelled: it reports only the end, at once.
     let mut told = Vec::new();
     job.cancel.store(true, Ordering::Relaxed);
     worker.answer(&job, |answer| told.push(answer));

@@ -1,4 +1,4 @@
-//! The calibration's page through the real app: strokes are entered, kept, edited and judged, and the table is played on.
+//! The calibration page through the real app: strokes are entered, saved, edited and judged, and the table is played on.
 
 use std::fs;
 
@@ -10,7 +10,7 @@ use carom::{
 use super::keys::key;
 use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_at};
 
-/// The marks of a slow roll and of a lag as `match` plays, in the order of their forms.
+/// The marks of a slow roll and of a lag on `match`, in the order of their forms.
 const ROLL: [&str; 4] = ["9.6", "5.4", "725 mm", ""];
 const LAG: [&str; 4] = ["4.4", "8", "3.5", ""];
 
@@ -18,18 +18,18 @@ fn new() -> Player {
     Player::with(TRUE_COLOUR).press("F7")
 }
 
-/// Types marks into the form of the marked test, field by field.
+/// Types marks into the form of the selected test, field by field.
 fn enter(player: Player, marks: &[&str]) -> Player {
     let player = player.press("Enter");
     marks.iter().fold(player, |player, mark| player.type_in(mark).press("Enter"))
 }
 
-/// What the file of entries holds.
+/// Returns the content of the file of entries.
 fn kept(player: &Player) -> Entries {
     Entries::parse(&fs::read_to_string(player.path("calibration.toml")).unwrap_or_default()).unwrap()
 }
 
-/// With a slow roll and a lag entered.
+/// Returns a player with a slow roll and a lag entered.
 fn measured() -> Player {
     let player = enter(new(), &ROLL).press("Down Down");
     enter(player, &LAG)
@@ -134,7 +134,7 @@ fn a_stroke_is_kept_at_once_and_its_values_are_shown_with_how_sure_they_are() {
     values.shows(&["mu_r", "well", "no better", "all marks agree with each other", "helps most"]);
     let again = enter(values, &["9.3", "5.1 ~ 0.2", "2", ""]);
     assert_eq!(kept(&again).trials[1].typed("stop"), "5.1 ~ 0.2");
-    // Both strokes are there: the next test is marked.
+    // Both strokes are entered: the next test is selected.
     again.shows(&["2/2", "Strokes of slow-back"]);
     let rolled = again.press("Home");
     check_at(&[(80, 24)], "entered", &rolled);
@@ -262,12 +262,12 @@ fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
     let player = player.press("F7");
     assert!(player.app.coach.table().doubt.is_some());
     assert!(player.settings_text().contains("our club 2.toml"), "{}", player.settings_text());
-    // Another one of the same name only where that is wanted.
+    // Another table of the same name is saved only after confirmation.
     let player = player.press("s C-u").type_in("our club 2").press("Enter");
     player.says("there is a table called our club 2 already; replace it?");
     let player = player.press("y");
     player.says("saved as");
-    // It is another table although no setting changes.
+    // It is another table even though no setting changes.
     let played = player.app.coach.table().clone();
     let other = fs::read_to_string(&file).unwrap().replace("mu_r =", "# another hand's\nmu_r =");
     assert!(other.contains("another hand's"), "{other}");
@@ -277,7 +277,7 @@ fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
     assert_eq!(player.app.coach.table().rolling_friction, 0.0123, "{}", fs::read_to_string(&file).unwrap());
     let player = player.press("d");
     player.shows(&["lag", "corner-five", "0/1"]).is_silent_on("slow-roll");
-    // A table without a doubt has no such check: what is typed of it waits, and nothing of it is taken for another test's.
+    // A table without doubts has no daily check: typed marks of it wait, and are not used for another test.
     let player = player.press("Enter").type_in("4.6").press("F2");
     let mut elsewhere = Player::new();
     elsewhere.app = elsewhere.app.with_draft(player.app.calibration.draft());
@@ -301,7 +301,7 @@ fn a_table_that_cannot_be_played_on_is_not_said_to_be() {
     player.warns("gone.toml");
     player.is_silent_on("you now play on");
     assert_ne!(player.app.coach.table().name, "gone");
-    // Where the settings cannot be changed it is another one at the next start.
+    // If the settings cannot be changed, another table is used at the next start.
     let player = measured().press("s C-u").type_in("short").press("Enter");
     fs::write(player.path("config.toml"), "speed = = 2\n").unwrap();
     let player = player.press("p");
@@ -320,7 +320,7 @@ fn strokes_that_contradict_each_other_are_named_and_make_no_table() {
 #[test]
 fn a_stroke_can_be_entered_before_the_file_was_read() {
     let mut player = Player::with(TRUE_COLOUR);
-    // What the key asks for is not done yet.
+    // The task requested by the key is not done yet.
     player.app.handle(&key("F7"));
     player.app.handle(&key("Enter"));
     player.warns_nothing();
@@ -351,7 +351,7 @@ fn what_is_typed_in_part_is_there_at_the_next_start() {
     let mut next = new();
     next.app = next.app.with_draft(draft.clone());
     next.warns("a stroke of slow-roll that was typed in part is kept: F7 goes on with it");
-    // At the start after that, where nothing was typed meanwhile, it is told no more.
+    // At the start after that, if nothing was typed meanwhile, the notice is not repeated.
     let mut later = new();
     later.app = later.app.with_draft(next.app.draft());
     later.warns_nothing();
@@ -362,20 +362,20 @@ fn what_is_typed_in_part_is_there_at_the_next_start() {
     let next = next.type_in(".4").press("Enter").type_in("725 mm").press("Enter Enter");
     assert_eq!(kept(&next), kept(&enter(new(), &ROLL)), "as if it had been typed at once");
     assert_eq!(next.app.calibration.draft(), None);
-    // A change of a stroke is a change still.
+    // A change of a stroke is restored as a change.
     let changed = enter(new(), &ROLL).press("Up e 9");
     let draft = changed.app.calibration.draft().unwrap();
     assert!(draft.amends.is_some() && draft.typed[0].ends_with('9'), "{draft:?}");
-    // What is kept or was not typed is not typed in part.
+    // A saved or empty form does not count as partly typed.
     assert_eq!(new().press("Enter").app.calibration.draft(), None);
-    // A form that is left is there again for the same stroke, at the next start too, and for no other.
+    // A form that was left is restored for the same stroke, also at the next start, and for no other stroke.
     let left = new().press("Enter 9 Esc");
     let draft = left.app.calibration.draft();
     assert_eq!(draft.as_ref().map(|draft| &draft.typed[0][..]), Some("9"));
     assert_eq!(left.press("Down Enter").app.calibration.draft(), draft);
     let again = new().press("Enter 9 Esc Enter");
     assert_eq!(again.press(". 6 Esc").app.calibration.draft().unwrap().typed[0], "9.6");
-    // Each stroke's, though another was typed in part meanwhile.
+    // This holds for each stroke, even if another one was typed in part meanwhile.
     let other = new().press("Enter 9 Esc Down Enter 7 Esc Up Enter . 6 Esc");
     assert_eq!(other.app.calibration.draft().unwrap().typed[0], "9.6");
     let emptied = new().press("Enter 9 Esc Enter Backspace Esc");

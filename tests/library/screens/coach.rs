@@ -1,4 +1,4 @@
-//! What the player sees: keys go through the real app, and its pictures are compared at both sizes.
+//! The player's view: keys go through the real app, and its pictures are compared at both sizes.
 
 use std::{
     sync::{Arc, atomic::Ordering},
@@ -102,7 +102,7 @@ fn a_shot_is_recommended() {
     for part in ["expert makes it 94 % (92-95)", "Yellow, an eighth full on the left; two tips of", "noses top 1.52 "] {
         assert!(text.contains(part), "{part}\n{text}");
     }
-    // At the smaller size the sentence, the card beside the table, and the line of aim in the title or in a row.
+    // At the smaller size: the sentence, the card next to the table, and the aim in the title or in a row.
     let text = player.text(80, 24);
     for part in
         ["Yellow, an eighth full on the left; two tips of", "yellow 1/8", "on the left", "2 tips left", "3 tips above"]
@@ -159,10 +159,10 @@ fn why_a_shot_leads_is_told_to_its_end_and_the_kiss_is_marked_on_the_table_befor
         let job = player.study.take().unwrap();
         let player = player.tell(job.id, CoachNews::Why(Box::new(why.clone())));
         let text = player.text(120, 40);
-        // Its lines may break anywhere; the last words are there.
+        // Its lines may break anywhere; the last words are present.
         assert!(text.contains("Why: shot 2 (") && text.contains("80 %."), "{text}");
         player.shows(&["kiss with red 7 %"]);
-        // Where no panel has room for it the status line tells what fits, in place of the chance that stands above.
+        // If no panel has room for it, the status line displays what fits, instead of the chance that is displayed above.
         let text = player.text(80, 24);
         assert!(text.contains("Why: shot 2 (") && !text.contains("makes it"), "{text}");
         let mut player = player;
@@ -193,7 +193,7 @@ fn the_corners_say_from_where_diamonds_are_counted() {
         let text = player.text(80, 24);
         let row = |number: usize| text.lines().nth(number).unwrap().chars().take(67).collect::<String>();
         assert!(row(1).contains('4') && row(17).contains('0') && row(17).contains('8'), "{text}");
-        // A system has numbers of its own there.
+        // A system displays its own numbers there.
         let text = player.press("y").text(80, 24);
         assert!(!text.lines().nth(1).unwrap().starts_with("\"4"), "{text}");
     }
@@ -287,7 +287,7 @@ fn a_key_that_does_nothing_now_says_why() {
     }
     let watching = Player::new().press("Enter").answer().press("h");
     watching.warns("a shot is being watched; Esc goes back to the balls");
-    // Whoever wants to get out of something and is out is not told so.
+    // Esc gives no warning if there is nothing to leave.
     Player::new().press("Esc").warns_nothing();
 }
 
@@ -326,14 +326,14 @@ fn without_colours_letters_tell_everything() {
         player.is_silent_on("too few");
         let plan = player.press("v");
         plan.is_plain().shows(&["now  94 % yellow, ", "next 100 % very hard"]);
-        // What the distances are has no room below them at 80 columns.
+        // At 80 columns there is no room to explain the distances below them.
         let stops =
             [(80, 24, "stop half within W 75, Y 45, R 95 cm"), (120, 40, "stop white 75, yellow 45, red 95 cm")];
         assert!(stops.iter().all(|&(width, height, words)| plan.text(width, height).contains(words)));
         if caps == ASCII {
             check_at(&[(120, 40)], "ascii_plan", &plan);
         }
-        // The ends of the balls are small letters among the paths.
+        // The end positions of the balls are small letters among the paths.
         let text = plan.text(120, 40);
         let ends = |letter: char| text.lines().take(30).any(|row| row.contains(letter));
         assert!(['w', 'r'].into_iter().all(ends), "{text}");
@@ -409,7 +409,7 @@ proptest! {
     }
 }
 
-/// What a player may press at any time, but for leaving.
+/// Keys that a player may press at any time, except those that leave.
 const KEYS: &[&str] = &[
     "Left", "S-Left", "C-Left", "Up", "S-Up", "Right", "S-Right", "Down", "S-Down", "h", "J", "+", "-", "Tab", "1",
     "2", "3", "Enter", "Enter", "Enter", "Esc", "Space", ",", ".", "0", "End", "n", "u", "U", "o", "r", "g", "?", "x",
@@ -428,7 +428,7 @@ fn the_balls_have_their_colours_where_they_lie() {
 
 #[test]
 fn the_tip_is_drawn_on_the_side_that_the_shooter_sees() {
-    // Positive a is left of the centre, as that of the recommended shot is.
+    // Positive a is left of the centre, as in the recommended shot.
     let picture = Player::new().press("Enter").answer().picture(120, 40);
     let blue = Color::Rgb(0x1f, 0x63, 0xc8);
     let columns: Vec<u16> =
@@ -465,7 +465,7 @@ fn a_shot_that_is_asked_for_again_elsewhere_is_looked_at_when_one_comes_back() {
     let mut player = Player::new().press("Enter").answer();
     let skill = player.app.coach.query.skill;
     player.app.coach.take_skill(Skill::CLUB);
-    // The coach's news come meanwhile, and end the closer look at a shot that is not shown.
+    // Meanwhile, news from the coach arrives and ends the analysis of a shot that is not shown.
     let mut player = player.tell(0, CoachNews::Refused(String::new()));
     player.app.coach.take_skill(skill);
     player.study = None;

@@ -1,4 +1,4 @@
-//! The command palette through the real app: what it lists, how it is narrowed, and what it does.
+//! The command palette through the real app: its list, its filter, and its actions.
 
 use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_at};
 use carom::terminal::Capabilities;

@@ -1,4 +1,4 @@
-//! The drill screens as one sees them: keys go through the real app, files into a folder, and the pictures are compared.
+//! The drill screens: keys go through the real app, files into a folder, and the pictures are compared.
 
 use super::{
     keys::key,
@@ -15,13 +15,13 @@ use carom::{
 use crossterm::event::{KeyCode, KeyEvent};
 use proptest::prelude::*;
 
-/// Compares the pictures of what rests.
+/// Compares the pictures of a static screen.
 pub fn check(name: &str, player: &Player) {
     assert_eq!(player.app.frame_interval(), None, "nothing moves by itself");
     super::player::check(name, player);
 }
 
-/// At the library of one who has played 37 attempts at the opening.
+/// Returns a player at the library who has 37 attempts at the opening.
 pub fn played() -> Player {
     Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &history())
 }
@@ -56,7 +56,7 @@ fn every_bundled_exercise_is_listed_and_can_be_opened() {
     let mut player = player;
     for exercise in library.exercises() {
         player.says(&exercise.title.chars().take(20).collect::<String>());
-        // Beside the list stands all of it, on the smallest screen too.
+        // The whole text is next to the list, also on the smallest screen.
         let beside: Vec<String> =
             player.text(80, 24).lines().skip(2).map(|row| row.chars().skip(47).collect()).collect();
         let beside = beside.join(" ").replace('"', " ").split_whitespace().collect::<Vec<_>>().join(" ");
@@ -119,7 +119,7 @@ fn a_text_that_has_no_room_is_read_page_by_page() {
         assert!(text.contains(title) && text.contains("cue at least") == end, "{text}");
     };
     let player = Player::practising(TRUE_COLOUR);
-    // The words run under the score while there is none; where the balls lie comes last.
+    // The text fills the space under the score while there is no score; the positions of the balls come last.
     let (task, large) = (player.text(80, 24), player.text(120, 40));
     assert!(task.contains("cushions do the rest.") && task.contains("PgDn 1/2") && task.contains('…'), "{task}");
     assert!(large.contains("balls: white ") && !large.contains("PgDn"), "{large}");
@@ -145,7 +145,7 @@ fn the_hint_shows_the_shot_and_the_attempt_is_counted_as_helped() {
     assert_eq!((attempts.len(), attempts[1].helped), (2, false));
 }
 
-/// The player aims as in the model shot.
+/// Aims as in the model shot.
 fn aimed_as_the_model_shot(player: Player) -> Player {
     let turn = player.app.drills.turn.as_ref().unwrap();
     let degrees = turn.stroke().phi.to_degrees();
@@ -211,7 +211,7 @@ fn makes_and_misses_at_a_real_table_are_noted_and_taken_back() {
     assert_eq!(back.store().sessions().items[0].attempts.len(), 2);
     let none = back.press("u u u");
     none.says("no attempt yet").says("no note from a real table can be taken back");
-    // A stroke that is played here counts apart.
+    // A stroke that is played in the simulator counts separately.
     let played = none.press("m Space Space").wait(60.0);
     assert_eq!(played.store().sessions().items.len(), 2);
 }
@@ -243,7 +243,7 @@ fn a_game_plays_on_from_where_the_balls_stop_and_shifted_balls_lie_elsewhere() {
         assert!((from.distance(to) - 0.03075).abs() < 1e-9, "{from} {to}");
     }
     shifted.says("shifted");
-    // What is noted at a table in a shifted layout moves the balls on as well.
+    // A result that is logged in a shifted layout shifts the balls, too.
     let noted = shifted.press("m m");
     assert_ne!(at(&noted), moved);
     assert_ne!(at(&noted), opening);
@@ -319,7 +319,7 @@ fn a_position_of_the_coachs_table_is_saved_shared_added_and_removed() {
     let added = adding.press("Enter");
     added.says("saved as my-corner");
     assert_eq!(added.store().positions().items[0].layout, kept.layout);
-    // Once more: there is one of that name.
+    // Once more: a position of that name already exists.
     let mut again = added.press("a");
     again.app.paste(&code);
     let again = again.press("Enter");
@@ -348,7 +348,7 @@ fn what_the_disk_refuses_is_said_and_nothing_is_lost() {
     let refused = player.press("m");
     check_unsaved(&refused, "the note counts here, but it is not saved");
     refused.says("2 of 2 made");
-    // As soon as it can be written, all of it is.
+    // Once the folder is writable, everything is written.
     std::fs::remove_file(refused.path("sessions")).unwrap();
     let saved = refused.press("n");
     assert_eq!(saved.store().sessions().items[0].attempts.len(), 3);
@@ -388,7 +388,7 @@ fn an_exercise_goes_to_the_coachs_table() {
     let layout = player.app.drills.turn.as_ref().unwrap().layout;
     let coach = player.press("c");
     assert_eq!((coach.app.place(), *coach.app.coach.layout()), (KeyContext::Coach, layout));
-    // The exercise is still there.
+    // The exercise is still open.
     assert_eq!(coach.press("d").app.place(), KeyContext::Drill(DrillContext::Exercise));
     let from_list = Player::at_library(TRUE_COLOUR, &[exercise("opening", "x")], &[]).press("Left c");
     assert_eq!(*from_list.app.coach.layout(), exercise("opening", "x").layout);
@@ -423,7 +423,7 @@ proptest! {
                 34..=38 => KeyCode::Char(' '),
                 _ => KeyCode::Char("<>,.+-/0123vmnux"[key - 34..].chars().next().unwrap()),
             };
-            // What ends the program or leaves for training is another matter.
+            // Keys that end the program or leave for training are excluded.
             if !matches!(code, KeyCode::Char('q' | 't')) {
                 player.event(&KeyEvent::from(code));
                 player = player.wait(0.7);
@@ -435,7 +435,7 @@ proptest! {
     }
 }
 
-/// What a key asks for outside, as long as nobody has done it.
+/// Returns the tasks that a key requests, without running them.
 fn asked(player: &mut Player, name: &str) -> Vec<DrillTask> {
     match player.app.handle(&key(name)) {
         Some(Effect::Drill(tasks)) => tasks,

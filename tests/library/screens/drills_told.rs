@@ -1,4 +1,4 @@
-//! What a drill tells and asks: what no press by mistake may note, where results come from, and what is gone on with later.
+//! Messages and questions of the drills: protection against mistaken keys, sources of results, and sessions to resume later.
 
 use super::{
     player::{Player, TRUE_COLOUR},
@@ -42,7 +42,7 @@ fn a_match_that_was_left_is_there_at_the_next_start_too() {
     let on = next.press("c");
     assert_eq!(on.app.place(), KeyContext::Drill(DrillContext::Exercise));
     assert_eq!(on.app.drills.turn.as_ref().unwrap().session.attempts.len(), 1);
-    // An exercise that is open meanwhile does not take its place.
+    // An exercise that is open meanwhile does not replace it.
     let other = Player::practising(TRUE_COLOUR).press("o o o Left Enter Enter Esc 0 Home Enter F2");
     let kept = other.app.saved_session().unwrap();
     assert!(kept.practice.is_some_and(|practice| practice.is_match()));
@@ -103,6 +103,6 @@ fn the_wheel_scrolls_the_record() {
     let kind = MouseEventKind::ScrollDown;
     player.app.mouse(MouseEvent { kind, column: 20, row: 30, modifiers: KeyModifiers::NONE });
     let after = player.text(120, 40);
-    // The latest session, of the day after the 30th of November, stands first.
+    // The latest session, of the day after the 30th of November, is listed first.
     assert!(before.contains("2026-12-01") && !after.contains("2026-12-01"), "{before}\n{after}");
 }

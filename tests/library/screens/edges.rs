@@ -1,4 +1,4 @@
-//! What all screens keep to: room at the right edge, nothing left of what lies below, signs that are seen in every theme.
+//! Common rules of all screens: space at the right edge, no remains of lower layers, symbols that are visible in every theme.
 
 use carom::{
     table::Table,
@@ -17,7 +17,7 @@ fn picture(app: &App, (width, height): (u16, u16)) -> Buffer {
     terminal.backend().buffer().clone()
 }
 
-/// Every page, with whatever fills it.
+/// Returns every page, filled with content.
 fn apps(caps: Capabilities) -> Vec<(&'static str, App)> {
     let coach = || Player::with(caps).press("Enter").answer();
     let drills = || Player::at_library(caps, &[], &[]);
@@ -56,7 +56,7 @@ fn no_word_touches_the_right_edge() {
                 for y in 0..size.1 {
                     let end: String = (size.0 - 8..size.0).map(|x| picture[(x, y)].symbol()).collect();
                     let last = end.chars().last().unwrap();
-                    // An axis ends where its chart does, with a number.
+                    // An axis may end at the edge of its chart, with a number.
                     let is_axis = end.chars().all(|letter| letter.is_ascii_digit() || " .kM".contains(letter));
                     if last.is_alphanumeric() && !is_axis {
                         found.push(format!("{page} {size:?}, row {y}: {end}"));

@@ -1,4 +1,4 @@
-//! Filmed shots as one sees them: keys go through the real app, strokes are fitted, and the pictures are compared.
+//! Filmed shots: keys go through the real app, strokes are fitted, and the pictures are compared.
 
 use super::{
     keys::key,
@@ -12,19 +12,19 @@ fn list(caps: Capabilities) -> Player {
     Player::at_library(caps, &[], &[]).press("f")
 }
 
-/// The second shot of the film, a point.
+/// Returns a player who watches the second shot of the film, which makes the point.
 fn watching(caps: Capabilities) -> Player {
     list(caps).press("Down Enter")
 }
 
-/// What the status line says, from that word on.
+/// Returns the status line from that word on.
 fn status(player: &Player, word: &str) -> String {
     let text = player.text(120, 40);
     let line = text.lines().rev().find(|line| line.contains(word)).unwrap_or_else(|| panic!("{word}: {text}"));
     line[line.find(word).unwrap()..].to_owned()
 }
 
-/// How far white is from the film, cm.
+/// Returns the distance of white from the film, cm.
 fn white(player: &Player) -> f64 {
     let line = status(player, "white ");
     line.split_whitespace().find_map(|word| word.parse().ok()).unwrap_or_else(|| panic!("{line}"))
@@ -69,7 +69,7 @@ fn the_film_shows_in_letters_and_in_half_blocks_too() {
             _ => drop(player.is_plain()),
         }
     }
-    // The other player's ball, where nothing has met it yet, hides its outline.
+    // The other player's ball hides its outline until something has met it.
     let picture = watching(NO_COLOUR).wait(5.5).text(80, 24);
     assert!(picture.contains("letters the film's"), "{picture}");
 }
@@ -83,7 +83,7 @@ fn shots_are_stepped_through_and_a_late_fit_is_dropped() {
     list(TRUE_COLOUR).press("End Enter ]").says("filmed shot 180").says("this is the last filmed shot");
     let mut player = player.press("Esc");
     assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films));
-    // Two are asked for before the first is there.
+    // Two requests are made before the first one is answered.
     let ask = |player: &mut Player, word: &str| match player.app.handle(&key(word)) {
         Some(Effect::Drill(tasks)) => tasks,
         other => panic!("{other:?}"),

@@ -1,4 +1,4 @@
-//! Looking on: what a player shows, and the same table on the screen of somebody else.
+//! Spectators: the shown table, and the same table on the screen of another player.
 
 use carom::{
     storage::{Lock, Player as Name},
@@ -12,7 +12,7 @@ use super::{
     player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, places},
 };
 
-/// A player with a name.
+/// Returns a player with a name.
 fn anna() -> Player {
     let mut player = Player::new();
     let app = App::new(Table::default(), Layout::opening(&Table::default()), TRUE_COLOUR, 7).unwrap();
@@ -21,7 +21,7 @@ fn anna() -> Player {
     player
 }
 
-/// What somebody sees who looks on.
+/// Returns what a spectator sees.
 fn seen(shown: &ShownTable) -> Seen {
     let folder = tempfile::tempdir().unwrap();
     let _lock = Lock::take(folder.path()).unwrap();

@@ -1,4 +1,4 @@
-//! Balls in the air: the side view of a jump, what is said where nothing jumps, and balls off the table.
+//! Balls in the air: the side view of a jump, the text if nothing jumps, and balls off the table.
 
 use super::{
     player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR},
@@ -11,7 +11,7 @@ use carom::{
     terminal::{Capabilities, Depth},
 };
 
-/// With the coach's shot taken over, on a table whose balls leave the cloth, or on one that keeps them.
+/// Returns a player who has taken over the coach's shot, on a table whose balls can leave the cloth or on one that keeps them.
 fn taken_over(caps: Capabilities, flight: Option<Flight>) -> Player {
     let table = Table { flight, ..Table::default() };
     Player::at_table(caps, &table, tempfile::tempdir().unwrap()).press("Enter").answer().press("w")
@@ -54,7 +54,7 @@ fn a_jump_is_among_the_contacts_and_a_hop_with_all_events_alone() {
 #[test]
 fn the_balls_that_a_player_goes_on_with_lie_on_the_table_whatever_left_it() {
     let player = taken_over(TRUE_COLOUR, Some(Flight::default()));
-    // From the near spot at the cushion behind it, as hard as one likes.
+    // From the near spot at the cushion behind it, at full speed.
     let hard = player.press(&"+ ".repeat(25)).press(&"S-Up ".repeat(14)).press(&"S-Left ".repeat(10));
     let shot = hard.app.coach.shot().unwrap();
     let end: Layout = shot.recording.final_layout();
@@ -63,7 +63,7 @@ fn the_balls_that_a_player_goes_on_with_lie_on_the_table_whatever_left_it() {
     hard.press("End").shows(&["Foul, if played exactly: white"]);
 }
 
-/// At an exercise whose shot jumps over red, with that shot taken over, and as it was played.
+/// Returns a player at an exercise whose shot jumps over red, with that shot taken over, and after it was played.
 fn practised_jump(caps: Capabilities) -> Player {
     let jump = Exercise {
         layout: Layout::parse("-0.5,0 0.5,0.02 -0.2,0", &Table::default()).unwrap(),
@@ -95,7 +95,7 @@ fn an_exercise_shows_its_jump_from_the_side_before_and_while_it_plays_at_every_s
 #[test]
 fn an_exercise_without_a_jump_says_so_and_a_ball_off_the_table_is_told() {
     Player::practising(TRUE_COLOUR).press("v i").shows(&["no ball jumps in this shot"]).is_silent_on("Side view");
-    // Over the rail, from near it and as hard as one likes.
+    // Over the rail, from near it and at full speed.
     let off = Exercise {
         layout: Layout::parse("1.1,0 -0.5,0.02 -0.2,0", &Table::default()).unwrap(),
         shot: Some(CueInputs::parse("0,0.5,45,0,7").unwrap()),

@@ -1,8 +1,8 @@
-//! Keys by the names that tests call them.
+//! Keys by the names used in tests.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-/// The key called `word`: a letter as it is, a name like `Left` or `Enter`, and `S-` or `C-` before it for Shift or Ctrl.
+/// Returns the key called `word`: a letter, or a name like `Left` or `Enter`; `S-` and `C-` before it mean Shift and Ctrl.
 pub fn key(word: &str) -> KeyEvent {
     let (modifiers, name) = match word.split_once('-') {
         Some(("S", name)) => (KeyModifiers::SHIFT, name),

@@ -1,4 +1,4 @@
-//! What is seen: keys, the mouse and news go through the real app, and what it shows is looked at.
+//! Tests of the display: keys, the mouse and news go through the real app, and its screens are examined.
 
 mod advice;
 mod calibration;

@@ -1,4 +1,4 @@
-//! The mouse through the real app: reports go in, balls, shots and lists follow.
+//! The mouse through the real app: mouse reports move balls, shots and lists.
 
 use super::{
     player::{NO_COLOUR, Player, TRUE_COLOUR},
@@ -18,7 +18,7 @@ const DRAG: MouseEventKind = MouseEventKind::Drag(MouseButton::Left);
 const SIZE: Size = Size::new(120, 40);
 const RELEASE: MouseEventKind = MouseEventKind::Up(MouseButton::Left);
 
-/// The table of the coach's screen at 120×40.
+/// Returns the mapping of the table on the coach's screen at 120×40.
 fn mapping() -> Mapping {
     Mapping::fit(&Table::default(), Rect::new(4, 1, 112, 29))
 }
@@ -34,7 +34,7 @@ impl Player {
     }
 }
 
-/// At 120×40, with what the program asks for taken.
+/// Resizes to 120×40 and runs the requested tasks.
 fn at_the_table(mut player: Player) -> Player {
     player.app.resize(SIZE);
     player
@@ -155,7 +155,7 @@ fn a_click_on_a_tab_opens_its_screen_and_one_beside_it_nothing() {
         for screen in [PageId::Settings, PageId::Drills, PageId::Training, PageId::Coach] {
             player.app.resize(Size::new(width, 40));
             let row = player.text(width, 40).lines().next().unwrap().to_owned();
-            // The text has quotes around its lines.
+            // The lines of the text are quoted.
             let column = row.find(screen.title()).unwrap() as u16 - 1;
             player = player.point(PRESS, (column, 0));
             assert_eq!(player.app.screen, screen, "{width}");
@@ -175,7 +175,7 @@ fn the_mark_of_the_library_follows_wheel_and_click() {
     player.app.mouse(event(MouseEventKind::ScrollDown, (5, 10)));
     player.app.mouse(event(MouseEventKind::ScrollDown, (100, 10)));
     assert_eq!(marked(&player.app), 1, "only over the list");
-    // The first category's heading is the second row of the page's part, and its exercises follow.
+    // The heading of the first category is in the second row of the page's area, and its exercises follow.
     player.app.mouse(event(PRESS, (5, 7)));
     let title = player.app.drills.catalogue.marked().unwrap().title.clone();
     let row = text.lines().nth(7).unwrap();

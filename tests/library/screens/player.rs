@@ -1,4 +1,4 @@
-//! Somebody at the program: presses keys, does what the program asks for, and looks at what it shows.
+//! A simulated user: presses keys, runs the tasks that the program requests, and examines the screens.
 
 use std::{
     fs,
@@ -35,38 +35,38 @@ pub const TRUE_COLOUR: Capabilities = Capabilities::TRUE_COLOUR;
 pub const NO_COLOUR: Capabilities = Capabilities::NO_COLOUR;
 pub const ASCII: Capabilities = Capabilities::ASCII;
 
-/// The sizes of terminals at which most is looked at.
+/// The terminal sizes of most tests.
 pub const SIZES: [(u16, u16); 2] = [(80, 24), (120, 40)];
 
-/// A shot that makes the point from the opening position, so that the pictures do not change with the coach, two others,
-/// and one that makes the point from where the first leaves the balls.
+/// A shot that makes the point from the opening position, so that the pictures do not depend on the coach; two others; and one that makes
+/// the point from the end positions of the first.
 pub const SHOT: &str = "0.2,0.3,6,-72,2.5";
 pub const OTHERS: [&str; 2] = ["0.4,-0.22,2.37,-104.8,4.84", "0.09,0.35,2,-73.3,2.58"];
 pub const NEXT: &str = "-0.353,0.054,3.2,87.8,5.07";
 
 pub struct Player {
     pub app: App,
-    /// The question to the coach, which a test answers when it likes.
+    /// The request to the coach, which a test answers at any time.
     pub asked: Option<Box<CoachJob>>,
     pub study: Option<Box<CoachJob>>,
-    /// The question how often a stroke of the player's own is made.
+    /// The request to estimate how often the player's own stroke succeeds.
     pub judged: Option<Box<CoachJob>>,
-    /// The model shot that the coach finds in the drills; none by itself, since what it finds depends on how fast the machine is.
+    /// The coach's model shot in the drills; `None` by default, because the coach's result depends on the speed of the machine.
     pub model_shot: Option<&'static str>,
     pub copied: Vec<String>,
-    /// What is asked of processes and of the terminal.
+    /// Requests to processes and to the terminal.
     pub effects: Vec<Effect>,
     practice: PracticeWorker,
     settings: SettingsFile,
     folder: TempDir,
 }
 
-/// Where a player has what, of whose runs tests tell by themselves.
+/// Returns the player's folders; tests report the runs themselves.
 pub fn places(folder: &Path) -> Places {
     Places { runs: RUNS.into(), policies: "/policies".into(), ..Places::under(folder) }
 }
 
-/// A shot with `made` of 1000 attempts.
+/// Returns a proposal whose shot succeeds in `made` of 1000 attempts.
 pub fn proposal(table: &Table, layout: &Layout, cue: &str, made: usize) -> Proposal {
     let shot = Shot::new(table, layout, CueInputs::parse(cue).unwrap(), true, "policy").unwrap();
     Proposal {
@@ -78,7 +78,7 @@ pub fn proposal(table: &Table, layout: &Layout, cue: &str, made: usize) -> Propo
     }
 }
 
-/// The coach's advice on the opening position.
+/// Returns the coach's advice on the opening position.
 pub fn advice(job: &CoachJob) -> Advice {
     let proposal = |cue, made| proposal(&job.table, &job.layout, cue, made);
     let best = proposal(SHOT, 940);
@@ -86,21 +86,21 @@ pub fn advice(job: &CoachJob) -> Advice {
     Advice { proposals: std::iter::once(best).chain(others).collect(), seed: 1, effort: None, found: None }
 }
 
-/// A model shot of the coach's.
+/// Returns a model shot of the coach.
 fn model_shot(task: &AdviceTask, cue: &str) -> ModelShot {
     let Proposal { shot, made, .. } = proposal(&task.table, &task.layout, cue, 400);
     let advice = carom::drills::Advice { cue: shot.cue, solved: true, chance: made.expect("it was judged") };
     ModelShot { advice, is_own: false, shot }
 }
 
-/// Where one begins.
+/// Starting points.
 impl Player {
-    /// At the coach, with what is in `folder` on the disk; the settings' file shows no path of this machine.
+    /// At the coach, with the files in `folder`; the settings file contains no path of this machine.
     pub fn in_folder(caps: Capabilities, folder: TempDir) -> Self {
         Self::at_table(caps, &Table::default(), folder)
     }
 
-    /// The same at this table.
+    /// At the coach, on this table.
     pub fn at_table(caps: Capabilities, table: &Table, folder: TempDir) -> Self {
         let file = folder.path().join("config.toml");
         let (settings, complaints) = Settings::load(&file);
@@ -129,7 +129,7 @@ impl Player {
         Self::with(TRUE_COLOUR)
     }
 
-    /// With this text in the settings' file.
+    /// With this text in the settings file.
     pub fn with_settings(caps: Capabilities, text: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("config.toml"), text).unwrap();
@@ -154,7 +154,7 @@ impl Player {
         Self::at_library(caps, &[exercise("opening", "From the opening")], &[]).press("Left Enter")
     }
 
-    /// At the list of runs, of which nothing is known yet.
+    /// At the list of runs, before it is loaded.
     pub fn at_runs(caps: Capabilities) -> Self {
         Self::with(caps).press("t")
     }
@@ -170,9 +170,9 @@ impl Player {
     }
 }
 
-/// What one does.
+/// Actions.
 impl Player {
-    /// Presses keys, see [`key`], between blanks; none of them may end the program.
+    /// Presses keys, separated by spaces (see [`key`]); none of them may end the program.
     pub fn press(mut self, keys: &str) -> Self {
         for word in keys.split_whitespace() {
             self.event(&key(word));
@@ -182,14 +182,14 @@ impl Player {
         self
     }
 
-    /// One key, whatever comes of it.
+    /// Presses one key and runs the requested task.
     pub fn event(&mut self, event: &KeyEvent) {
         if let Some(effect) = self.app.handle(event) {
             self.take(effect);
         }
     }
 
-    /// Types words, blanks included.
+    /// Types words, including spaces.
     pub fn type_in(self, text: &str) -> Self {
         text.chars().fold(self, |player, letter| match letter {
             ' ' => player.press("Space"),
@@ -202,7 +202,7 @@ impl Player {
         self
     }
 
-    /// The replay has come to its end.
+    /// Waits for the end of the replay.
     pub fn quiet(mut self) -> Self {
         for _ in 0..2000 {
             if self.app.frame_interval().is_none() {
@@ -215,7 +215,7 @@ impl Player {
     }
 }
 
-/// What becomes of it.
+/// Effects.
 impl Player {
     fn take(&mut self, effect: Effect) {
         match effect {
@@ -242,7 +242,7 @@ impl Player {
         }
     }
 
-    /// Does tasks, and what comes of them.
+    /// Runs tasks and the tasks that follow from them.
     pub fn run(&mut self, tasks: Vec<DrillTask>) {
         for task in tasks {
             let mut reports = Vec::new();
@@ -267,23 +267,23 @@ impl Player {
         self
     }
 
-    /// The coach answers with [`SHOT`] and [`OTHERS`].
+    /// Lets the coach answer with [`SHOT`] and [`OTHERS`].
     pub fn answer(mut self) -> Self {
         let job = self.asked.take().expect("the coach was asked");
         let advice = advice(&job);
         self.tell(job.id, CoachNews::Advice(advice))
     }
 
-    /// The coach says that the shot with this cue is the best so far, with `made` of 1000 attempts.
+    /// Lets the coach report this shot as the best so far, with `made` of 1000 attempts.
     pub fn better(self, cue: &str, made: usize) -> Self {
         let job = self.asked.clone().expect("the coach was asked");
         let so_far = proposal(&job.table, &job.layout, cue, made);
         self.tell(job.id, CoachNews::Better(Proposal { is_early: true, ..so_far }))
     }
 
-    /// The closer look at the shot that is shown, by the real coach, but for the next shot, which is [`NEXT`].
+    /// Runs the analysis of the displayed shot with the real coach, except for the next shot, which is [`NEXT`].
     pub fn studied(mut self) -> Self {
-        // Even if nobody waits for it any more.
+        // Even if the result is no longer awaited.
         let job = CoachJob { cancel: Arc::default(), ..*self.study.take().expect("a closer look is wanted") };
         let mut study = None;
         CoachWorker::unhurried(1).answer(&job, |answer| {
@@ -302,7 +302,7 @@ impl Player {
         self
     }
 
-    /// News of a run, its shots recorded as the program does it.
+    /// Reports news of a run, with its shots recorded as in the program.
     pub fn update(self, slot: FollowSlot, name: &str, mut update: Update) -> Self {
         let folder = Path::new(RUNS).join(name);
         let reel = update.examples.take().map(|examples| Reel::record(&examples, &Table::default()));
@@ -325,7 +325,7 @@ impl Player {
     }
 }
 
-/// What there is to see.
+/// Display.
 impl Player {
     pub fn picture(&self, width: u16, height: u16) -> Buffer {
         self.draw(width, height).backend().buffer().clone()
@@ -341,23 +341,23 @@ impl Player {
         terminal
     }
 
-    /// Whether a toast says `part`.
+    /// Whether a toast contains `part`.
     pub fn is_toast(&self, part: &str) -> bool {
         self.app.toasts.shown.iter().any(|toast| toast.text.contains(part))
     }
 
-    /// In a toast.
+    /// Asserts that a toast contains `part`.
     #[track_caller]
     pub fn warns(&self, part: &str) {
         assert!(self.is_toast(part), "{part}\n{}", self.text(120, 40));
     }
 
-    /// No toast is shown: nothing was refused.
+    /// Asserts that no toast is shown: nothing was refused.
     pub fn warns_nothing(&self) {
         assert!(self.app.toasts.shown.is_empty(), "{}", self.text(120, 40));
     }
 
-    /// On the screen, or in a toast, which breaks its lines as it needs.
+    /// Asserts that the text is on the screen or in a toast, which may break its lines.
     #[track_caller]
     pub fn says(&self, part: &str) -> &Self {
         let text = self.text(120, 40);
@@ -365,7 +365,7 @@ impl Player {
         self
     }
 
-    /// On the screen, at both sizes.
+    /// Asserts that the texts are on the screen at both sizes.
     #[track_caller]
     pub fn shows(&self, parts: &[&str]) -> &Self {
         for (width, height) in SIZES {
@@ -377,7 +377,7 @@ impl Player {
         self
     }
 
-    /// With nothing but ASCII, and no colour at all, at both sizes and a large one.
+    /// Asserts that the screen has only ASCII and no colour, at both sizes and a large one.
     #[track_caller]
     pub fn is_plain(&self) -> &Self {
         for (width, height) in SIZES.into_iter().chain([(200, 60)]) {
@@ -405,18 +405,18 @@ impl Player {
         self.folder.path().join(name)
     }
 
-    /// Attempts on the disk.
+    /// Returns the number of attempts on the disk.
     pub fn kept(&self) -> usize {
         self.store().sessions().items.iter().map(|session| session.attempts.len()).sum()
     }
 
-    /// The text of the settings' file.
+    /// Returns the text of the settings file.
     pub fn settings_text(&self) -> String {
         fs::read_to_string(self.path("config.toml")).unwrap_or_default()
     }
 }
 
-/// Compares what is seen at both sizes with the pictures on file.
+/// Compares the screen at both sizes with the snapshots.
 pub fn check(name: &str, player: &Player) {
     check_at(&SIZES, name, player);
 }
@@ -434,7 +434,7 @@ pub fn check_text(name: &str, text: &str) {
     });
 }
 
-/// The text with every moment of the form 20261120-143005 that is now replaced.
+/// Returns the text with recent timestamps of the form 20261120-143005 replaced.
 fn without_moments(text: &str) -> String {
     let mut text = text.to_owned();
     let is_moment = |part: &[u8]| {

@@ -18,7 +18,7 @@ fn all_balls_are_typed_in_diamonds_and_taken_back_as_one_step() {
     assert_eq!(*player.app.coach.layout(), Layout::opening(&Table::default()), "nothing moves before Enter");
     let player = player.press("Enter");
     assert_eq!(*player.app.coach.layout(), layout("2d,0.5d 6d,2d 4d,3.5d"));
-    // Both units are read off the panel.
+    // The panel displays both units.
     player.shows(&["white   -710.0 -532.5", "2.00", "0.50", "3.50"]);
     assert_eq!(*player.press("u").app.coach.layout(), Layout::opening(&Table::default()));
 }
@@ -65,11 +65,11 @@ fn a_layout_and_a_share_code_are_pasted_over_the_table() {
     player.app.paste("a letter to a friend, by accident");
     player.warns("pasted text not used");
     assert_eq!(*player.app.coach.layout(), exercise.layout);
-    // What is too long is cut where a letter ends.
+    // A text that is too long is cut at a character boundary.
     player.app.paste(&format!("x{}", "\u{e9}".repeat(2000)));
     let toast = player.app.toasts.shown.last().expect("it is refused");
     assert!(toast.text.len() < 1000, "{}", toast.text.len());
-    // A code is taken where positions are typed, too.
+    // A share code is also accepted where positions are typed.
     let mut player = Player::new().press("p");
     player.app.paste(&encode(exercise).unwrap());
     assert_eq!(*player.press("Enter").app.coach.layout(), exercise.layout);

@@ -1,4 +1,4 @@
-//! Exercises to practise, and sessions that somebody has played.
+//! Exercises to practise, and sessions that were played.
 
 use carom::{
     coach::Skill,
@@ -10,7 +10,7 @@ use carom::{
 
 use super::player::SHOT;
 
-/// A position from the opening, with the shot that makes the point.
+/// Returns an exercise at the opening position, with the shot that makes the point.
 pub fn exercise(name: &str, title: &str) -> Exercise {
     Exercise {
         name: name.to_owned(),
@@ -28,7 +28,7 @@ pub fn exercise(name: &str, title: &str) -> Exercise {
     }
 }
 
-/// A session at a real table on a day of November 2026, an attempt a letter: `x` made, any other missed.
+/// Returns a session at a real table on a day of November 2026, one attempt per letter: `x` is made, any other missed.
 pub fn session(number: u64, name: &str, goal: Goal, results: &str) -> Session {
     let mut session = Session::new(goal, Venue::Table, vec![exercise(name, "From the opening")], Skill::CLUB, 1);
     session.id = format!("202611{number:02}-120000-0000000{number}");
@@ -38,12 +38,12 @@ pub fn session(number: u64, name: &str, goal: Goal, results: &str) -> Session {
     session
 }
 
-/// More positions than fit on a screen.
+/// Returns more positions than fit on a screen.
 pub fn many() -> Vec<Exercise> {
     (1..=60).map(|n| exercise(&format!("position-{n:02}"), &format!("Position number {n} of a long list"))).collect()
 }
 
-/// Three sessions at one position.
+/// Returns three sessions at one position.
 pub fn history() -> Vec<Session> {
     vec![
         session(1, "opening", Goal::Free, "x-x--x-x--"),

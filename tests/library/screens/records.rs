@@ -1,4 +1,4 @@
-//! The record of a player: what the results say of the hand, and what of it is shown.
+//! The record of a player: the estimate of the skill, and how it is displayed.
 
 use super::{
     drills::{check, played},
@@ -10,11 +10,11 @@ use carom::{drills::Goal, physics::CueInputs};
 #[test]
 fn the_records() {
     let none = Player::at_library(TRUE_COLOUR, &[], &[]).press("r");
-    // Why there is no estimate yet is told to its end.
+    // The reason why there is no estimate yet is displayed completely.
     let told = played().press("r").text(80, 24);
     assert!(told.contains("no games"), "{told}");
     none.shows(&["all exercises", "attempts  0", "0 of 20", "nothing is played yet"]);
-    // 37 attempts at one shot tell how that shot is made, and too little of the player.
+    // 37 attempts at one shot are enough for the rate of this shot, and too few for the skill of the player.
     let few = played().press("r");
     few.shows(&["enough, but at 1 of 3"]);
     few.press("w").says("no estimate of your skill yet");

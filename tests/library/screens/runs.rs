@@ -1,4 +1,4 @@
-//! Runs to watch, and what is told of them.
+//! Runs to watch, and reports about them.
 
 use std::path::Path;
 
@@ -103,7 +103,7 @@ pub fn examples(after: u64) -> Examples {
     Examples { after, shots: vec![shot(0.0), shot(1.0), shot(1.0)] }
 }
 
-/// All that there is to know of a run at work.
+/// Returns a full update of a run in progress.
 pub fn known() -> Update {
     Update {
         config: Some(Box::new(config("r3"))),

@@ -1,4 +1,4 @@
-//! The settings' screen through the real app: keys change values and keys, which hold at once and stand in the file.
+//! The settings screen through the real app: keys change values and key bindings, which take effect immediately and are saved.
 
 use std::fs;
 
@@ -14,7 +14,7 @@ use carom::{
 use proptest::prelude::*;
 use ratatui::style::Color;
 
-/// At the settings, whose file has this text.
+/// Returns a player at the settings, with this text in the file.
 fn with(caps: Capabilities, text: &str) -> Player {
     Player::with_settings(caps, text).press("F5")
 }
@@ -108,14 +108,14 @@ fn a_value_is_typed_and_what_is_refused_is_named_and_can_be_mended() {
     let player = player.press("Enter");
     player.says("think_ms = 5; accepted is 10 to 60000");
     check("refused", &player);
-    // Half of the world writes commas.
+    // Decimal commas are accepted.
     for (downs, typed, line) in [(5, "0,6", "skill = \"average=0.6\"\n"), (11, "0,5", "speed = 0.5\n")] {
         let written = new().press(&"Down ".repeat(downs)).press("Enter").type_in(typed).press("Enter").settings_text();
         assert!(written.contains(line), "{written}");
     }
     let player = player.type_in("50").press("Enter");
     assert!(player.settings_text().contains("think_ms = 550\n"));
-    // From a number that was typed on, the next larger and smaller of the usual ones.
+    // From a typed number, the keys lead to the next larger and smaller usual values.
     assert_eq!(Settings::load(&player.press("Right").path("config.toml")).0.think_ms, 1000);
     let player = new().press("Down Down Down Enter").type_in("/nowhere/mine.toml").press("Enter");
     player.says("table = /nowhere/mine.toml; accepted is");
@@ -177,7 +177,7 @@ fn what_holds_for_the_session_is_shown_and_gone_on_from() {
     assert_eq!((query.rule, query.plan, query.skill == skill), (Rule::ThreeCushion, false, false));
     assert_eq!(player.app.coach.step_mm(), 50.0, "it was opened, and nothing has changed");
     assert_eq!(player.settings_text(), text);
-    // On from three cushions, around the end and once more; all else stays as it is.
+    // Continues from three cushions, past the end of the list and once more; everything else stays the same.
     let player = player.press("Home Down Down Down Down");
     player.shows(&[
         "4 changed",
@@ -189,13 +189,13 @@ fn what_holds_for_the_session_is_shown_and_gone_on_from() {
     assert_eq!(player.app.coach.query.rule, Rule::OneCushion);
     assert_eq!(player.settings_text(), "# mine\nrule = \"one-cushion\" # at home\n");
     assert_eq!((player.app.coach.query.plan, player.app.coach.step_mm()), (false, 50.0));
-    // What is in force is kept as it is.
+    // The value in force is saved unchanged.
     let player = player.press("Down Down Down Enter");
     player.says("plan (Enter alone keeps false) = ");
     let player = player.press("Enter");
     assert!(player.settings_text().contains("plan = false\n"), "{}", player.settings_text());
     assert!(!player.settings_text().contains("skill"));
-    // Back at what is the default, the file still has something else, which can be taken out.
+    // Back at the default value, the file still has another one, which can be removed.
     let player = player.press("F2 R R F5 Up Up Up");
     player.says("straight ▸ now; the file has one-cushion");
     assert!(player.press("Delete").settings_text().contains("rule = \"straight\" # at home\n"));
@@ -281,7 +281,7 @@ fn a_question_is_answered_by_its_own_letters_whatever_else_they_do() {
     let asked = given.press("Down Enter a");
     asked.shows(&["y yes   n no"]);
     assert!(asked.press("y").settings_text().contains("a = "));
-    // A key that does the work of y says yes as well.
+    // A key that is bound to the action of y also says yes.
     let other = with(TRUE_COLOUR, "[keys]\nj = \"y\"\n").press("Tab Enter a j");
     assert!(other.settings_text().contains("a = \"Left\""), "{}", other.settings_text());
 }
@@ -303,7 +303,7 @@ fn escape_goes_back_to_the_screen_before() {
     }
 }
 
-/// What one may press at any time.
+/// Keys that can be pressed at any time.
 const KEYS: &[&str] = &[
     "Left",
     "Right",
@@ -351,11 +351,11 @@ proptest! {
     ) {
         let mut player = with(TRUE_COLOUR, "# mine\nodd = 1\nplan = false # behind\n[keys]\n\"Hyper-x\" = \"q\"\n");
         for index in keys {
-            // What ends the program is another matter.
+            // The key that ends the program is excluded.
             if KEYS[index] != "q" || player.app.place() == KeyContext::Settings(SettingsContext::Pressing) {
                 player.event(&key(KEYS[index]));
             }
-            // Another key may have been given that meaning.
+            // Another key may have been bound to that action.
             if matches!(player.effects.last(), Some(Effect::Quit)) {
                 break;
             }

@@ -1,4 +1,4 @@
-//! Both players' balls: whoever is at the table, every ball keeps its place and its colour, and is called by it.
+//! Both players' balls: whichever side is at the table, every ball keeps its position, its colour and its name.
 
 use super::{
     player::{NO_COLOUR, Player},
@@ -6,10 +6,10 @@ use super::{
 };
 use carom::{drills::Record, physics::CueInputs};
 
-/// The speed of a stroke that nobody has set yet, m/s.
+/// The initial speed of a stroke, m/s.
 const FIRST_SPEED: f64 = 2.5;
 
-/// Where brackets stand around each ball's letter on the picture.
+/// Returns the positions of the brackets around each ball's letter in the picture.
 fn places(text: &str) -> Vec<Option<(usize, usize)>> {
     let find = |sign: &str| {
         text.lines().enumerate().find_map(|(row, line)| Some((row, line.chars().collect::<String>().find(sign)?)))
@@ -28,7 +28,7 @@ fn taking_the_other_ball_moves_and_repaints_none() {
     assert_eq!(places(&white), places(&yellow), "{white}\n{yellow}");
     assert_eq!(*after.app.coach.layout(), layout.for_the_opponent());
     assert!(yellow.contains("yellow is the cue ball now"), "{yellow}");
-    // In true colours too: the same cells have the same inks.
+    // In true colours, too: the same cells have the same colours.
     let inks = |player: &Player| {
         let buffer = player.picture(120, 40);
         let cells = buffer.content().iter().enumerate().filter(|(index, _)| index % 120 < 70 && index / 120 < 30);
@@ -39,7 +39,7 @@ fn taking_the_other_ball_moves_and_repaints_none() {
     let one = Player::new().press("r 3");
     let before = inks(&one);
     assert_eq!(inks(&one.press("x 3")), before);
-    // The keys are the colours', and a step back brings the other player back.
+    // Each key selects the ball of its colour, and undo restores the other player.
     let selected = after.press("2");
     assert_eq!(selected.app.coach.selected, 0, "yellow is ball 0 now");
     let back = selected.press("u");
@@ -48,7 +48,7 @@ fn taking_the_other_ball_moves_and_repaints_none() {
 }
 
 impl Player {
-    /// Strikes away from everything, softly, and goes to the end of the shot.
+    /// Plays softly away from everything, and goes to the end of the shot.
     fn misses(self) -> Self {
         (0..23).fold(self, |player, _| player.press("Down")).press("S-Left Space Enter")
     }
@@ -89,7 +89,7 @@ fn balls_of_the_drills_keep_their_colours_on_the_coachs_table() {
     assert_eq!((*coach.app.coach.layout(), coach.app.coach.cue_ball().name()), (layout, "yellow"));
 }
 
-/// At a match against the coach, whose model shot is given, after a miss.
+/// Returns a match against the coach, whose model shot is given, after a miss.
 fn against_the_coach(model_shot: Option<&'static str>, shorter: &str) -> Player {
     let mut player = Player::practising(NO_COLOUR).press("o o o o");
     if !shorter.is_empty() {
@@ -138,7 +138,7 @@ fn a_match_against_the_coach_is_left_gone_on_with_and_ends_with_its_score() {
     let noted = left.press("m");
     noted.warns("the coach cannot play at a real table");
     let mut over = noted.press("Space Enter");
-    // A point of the coach's is followed by another stroke of its own.
+    // After a point, the coach has another stroke.
     while over.store().sessions().items[0].attempts.last().unwrap().made {
         over.says("coach (yellow): ");
         over = over.press("Enter Space Enter");

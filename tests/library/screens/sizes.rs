@@ -1,4 +1,4 @@
-//! Every page on every size of terminal: nothing may panic, however little room there is.
+//! Every page at every size of terminal: nothing may panic, however little room there is.
 
 use super::{
     player::{Player, TRUE_COLOUR},

@@ -8,7 +8,7 @@ use carom::{
 use super::player::{ASCII, Player, proposal};
 use ratatui::style::Color;
 
-/// A player whose coach has answered with this shot.
+/// Returns a player whose coach has answered with this shot.
 fn advised(player: Player, balls: &str, words: &str) -> Player {
     let mut player = player.press("p");
     player.app.paste(balls);
@@ -20,7 +20,7 @@ fn advised(player: Player, balls: &str, words: &str) -> Player {
         .studied()
 }
 
-/// The same with the shot of a bundled exercise on its own balls.
+/// The same with the shot and the balls of a bundled exercise.
 fn with_model_shot(player: Player, name: &str) -> Player {
     let library = Library::bundled();
     let exercise = library.get(name).unwrap();
@@ -45,7 +45,7 @@ fn the_systems_are_gone_through_with_their_numbers_at_the_rails() {
     player.shows(&["Plus", "7 - 4 = 3: aim at 3"]);
     let player = player.press("y");
     player.shows(&["Seven", "4 x 6 = 24: aim at 24"]);
-    // The shot is not drawn beside an example, which ends where the shot is played.
+    // The shot is not drawn with an example; the example ends when the shot is played.
     player.press("Enter").answer().press("Space").is_silent_on("aim at 24");
     Player::new().press("y y y y").is_silent_on("aim at");
 }
@@ -58,7 +58,7 @@ fn the_system_of_the_shot_comes_first_with_the_shots_own_numbers() {
         let player = with_model_shot(Player::with(ASCII), name).press("Esc");
         let player = player.press("y");
         player.shows(&[&format!("{system} - for this shot")]);
-        // Where the shot is gone, its numbers go too, and the balls that are moved are seen.
+        // Without the shot, its numbers are gone, too, and the moved balls are visible.
         let moved = player.press("1 S-Up");
         moved.is_silent_on(&format!("{system} - "));
         let mut player = moved.press("u y");
@@ -76,13 +76,13 @@ fn an_example_is_without_the_players_balls_and_a_shot_that_no_system_describes_i
         let table = (1..29).flat_map(|y| (0..120).map(move |x| (x, y)));
         table.map(|at| &picture[at]).any(|cell| [cell.fg, cell.bg].contains(&yellow))
     };
-    // It is too slow for three cushions.
+    // The shot is too slow for three cushions.
     let player = advised(Player::new(), "6d,1d 7d,3.5d 0.5d,0.5d", "0,0,3,133,0.6").press("Esc");
     assert!(is_there(&player));
     let player = player.press("y");
     player.shows(&["Corner-5 \u{b7} an example", "No system describes this shot."]);
     assert!(!is_there(&player), "{}", player.text(120, 40));
-    // Before any shot there is none to speak of.
+    // Before any shot there is no message about it.
     Player::new().press("y").is_silent_on("No system describes");
 }
 

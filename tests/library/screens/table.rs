@@ -1,4 +1,4 @@
-//! The table, the hit and the spin: what they show of a shot.
+//! Display of a shot: the table, the hit and the spin.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use super::player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, check, check_a
 
 const OCTANTS: Capabilities = Capabilities { glyphs: Glyphs::Octant, ..TRUE_COLOUR };
 
-/// A player to whom the coach has shown this shot.
+/// Returns a player to whom the coach has shown this shot.
 fn shown(caps: Capabilities, cue: &str) -> Player {
     let mut player = Player::with(caps).press("Enter");
     let job = player.asked.take().unwrap();
@@ -21,7 +21,7 @@ fn shown(caps: Capabilities, cue: &str) -> Player {
     player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![proposal], seed: 1, effort: None, found: None }))
 }
 
-/// How many cells of the table have this colour before them.
+/// Counts the cells of the table with this foreground colour.
 fn count(picture: &Buffer, color: Color) -> usize {
     picture.content()[..30 * 120].iter().filter(|cell| cell.fg == color && cell.symbol() != " ").count()
 }
@@ -44,7 +44,7 @@ fn octants_are_drawn_only_where_they_were_asked_for() {
 
 #[test]
 fn the_way_that_a_ball_has_run_fades_behind_its_trail() {
-    // The yellow ball's path, the same half sunk into the cloth, and the ball itself.
+    // The yellow ball's path, the same path blended into the cloth, and the ball itself.
     let (path, past, ball) = (Color::Rgb(0xd8, 0xc0, 0x5a), Color::Rgb(0x79, 0x96, 0x6e), Color::Rgb(0xf6, 0xc3, 0x24));
     let start = Player::new().press("Enter").answer();
     let before = start.picture(120, 40);

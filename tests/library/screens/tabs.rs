@@ -1,4 +1,4 @@
-//! Going from screen to screen: wherever one is, the same keys lead everywhere, and nothing is lost on the way.
+//! Switching between screens: the same keys lead everywhere, from anywhere, and nothing is lost.
 
 use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_text};
 use carom::{
@@ -168,7 +168,7 @@ fn another_player_on_the_coachs_page_leaves_a_stroke_that_is_watched_its_result(
     let next = ended.press("Enter");
     next.says("set the stroke").says("no attempt yet");
     assert_eq!(next.app.drills.turn.as_ref().unwrap().session.skill, chosen);
-    // Where the result was seen already, the other one begins at once.
+    // If the result was already seen, the other player starts at once.
     let seen = next.press("Space Enter F2 S F3");
     seen.says("set the stroke").says("no attempt yet");
     assert_eq!(seen.app.drills.turn.as_ref().unwrap().session.skill, seen.app.coach.query.skill);

@@ -1,4 +1,4 @@
-//! Toasts through the real app: where they stand, how long, and that they hide nothing that has to be answered.
+//! Toasts through the real app: their position, their duration, and that they hide nothing that needs an answer.
 
 use std::path::Path;
 
@@ -9,7 +9,7 @@ use super::{
 use carom::terminal::{CoachNews, TrainerFailure, TrainingReport};
 use ratatui::style::Color;
 
-/// At the coach, who has refused with sentences of this many words.
+/// Returns a player whose coach has refused with sentences of these numbers of words.
 pub fn refused(mut player: Player, words: &[usize]) -> Player {
     for count in words {
         player = player.press("Enter");
@@ -102,7 +102,7 @@ fn what_fails_while_the_page_of_messages_is_open_is_told_there_once() {
     assert_eq!(SIZES.map(|size| count(&open, size)), [1, 1], "{}", open.text(80, 24));
     assert!(!open.text(80, 24).contains('┌'), "{}", open.text(80, 24));
     open.press("q").warns_nothing();
-    // Where the first lines are not in sight it is told over the others.
+    // If the first lines are out of sight, the failure is shown in a toast over the others.
     let many: Vec<usize> = (1..=40).collect();
     let mut scrolled = refused(Player::new(), &many).press("F6 Down");
     fail(&mut scrolled);

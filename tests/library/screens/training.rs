@@ -1,4 +1,4 @@
-//! The training screen as one sees it: keys and reports go through the real app, and its pictures are compared.
+//! The training screen: keys and reports go through the real app, and its pictures are compared.
 
 use std::{path::Path, sync::Arc, time::Duration};
 
@@ -179,7 +179,7 @@ fn charts_are_chosen_and_enlarged() {
     let player = player.press("3 9");
     player.says("No chart is shown");
     player.press("z").says("no chart is shown; 1 to 9 show some");
-    // Esc leaves the chart, not the run. A key that comes in one piece with it is a key of its own, not one with Alt.
+    // Esc leaves the chart, not the run. A key that arrives together with it is a separate key, not one with Alt.
     let player = Player::watching(TRUE_COLOUR).press("z");
     player.is_silent_on("3 critic loss");
     player.press("Esc").shows(&["1 mean reward", "3 critic loss"]);
@@ -191,7 +191,7 @@ fn charts_are_chosen_and_enlarged() {
 #[test]
 fn a_run_is_compared_with_another() {
     let player = Player::watching(TRUE_COLOUR).press("c");
-    // The nearest other run is marked.
+    // The nearest other run is selected.
     player.shows(&["compare with", NAME, OTHER, "Run 2 of 3", "Enter compare"]);
     let player = player.press("Enter");
     assert_eq!(player.app.subscriptions().followed[1].as_deref(), Some(Path::new(RUNS).join(OTHER).as_path()));
@@ -295,13 +295,13 @@ fn weights_that_are_not_there_are_not_offered() {
 
 #[test]
 fn shots_that_were_seen_do_not_play_again_when_one_comes_back_to_them() {
-    // What follows the run looks at all of it anew; a run that was stopped has measured itself after its last line.
+    // A follower reads the whole run again; a stopped run has measured itself after its last line.
     for after in [1_200_000, 1_210_000] {
         let news = || Update { begins: true, examples: Some(examples(after)), ..known() };
         let seen = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, NAME, news()).quiet().press("F2 F4");
         let again = seen.update(FollowSlot::Main, NAME, news());
         assert_eq!(again.app.frame_interval(), None, "{after}");
-        // One that has gone on from before comes to the same number with other shots.
+        // A run that was resumed from an earlier checkpoint reaches the same number with other shots.
         let mut other = examples(1_100_000);
         other.shots.pop();
         let fresh = Update { begins: true, examples: Some(other), ..known() };
@@ -459,7 +459,7 @@ fn numbers_that_change_keep_their_places() {
     assert!((4..24).contains(&changes), "{changes} cells");
 }
 
-/// What one may press and what may come at any time.
+/// Keys and reports that can come at any time.
 const KEYS: &str = "Enter Esc t n r c p S A w k y Space , . l s z + - Left Right Up Down 0 End Tab 1 \
     2 9 ? g q Backspace x 7 F2 F3 F4 F5 F6";
 

@@ -1,4 +1,4 @@
-//! What is taken back and made again: strokes that are set, and balls that come from elsewhere, on another table too.
+//! Undo and redo: strokes that are set, and balls that come from elsewhere, also on another table.
 
 use super::{
     player::{OTHERS, Player, SHOT, TRUE_COLOUR},
@@ -51,10 +51,10 @@ fn the_rule_of_an_exercise_goes_with_its_balls_when_they_are_taken_back() {
     back.says("what counts: straight");
     let again = back.press("U");
     assert_eq!(rule(&again), Rule::OneCushion);
-    // A rule that was chosen since is the step after it.
+    // A rule that was chosen since is a later step.
     let again = again.press("R u");
     assert_eq!(rule(&again), Rule::OneCushion);
-    // One that was set since stays.
+    // A rule that was set since stays.
     let set = again.press("F5 Home Down Down Down Down Right F2");
     assert_eq!(rule(&set), Rule::ThreeCushion);
     assert_eq!(rule(&set.press("u")), Rule::ThreeCushion);

@@ -1,4 +1,4 @@
-//! What if: the coach's shot taken over into a stroke of the player's own, changed, played and left, at the coach and in an exercise.
+//! What-if mode: the coach's shot is taken over as the player's own stroke, changed, played and left, at the coach and in an exercise.
 
 use super::player::{ASCII, NO_COLOUR, OTHERS, Player, SHOT, TRUE_COLOUR};
 use carom::{
@@ -7,12 +7,12 @@ use carom::{
     terminal::{Capabilities, CoachNews, CoachWorker, KeyContext},
 };
 
-/// At the coach, who has answered, with the coach's shot taken over.
+/// Returns a player at the coach who has taken over the coach's shot.
 fn taken_over(caps: Capabilities) -> Player {
     Player::with(caps).press("Enter").answer().press("w")
 }
 
-/// Tells how often the stroke is made that was asked about last.
+/// Reports how often the last stroke that was asked about succeeds.
 fn judged(mut player: Player, made: usize) -> Player {
     let job = player.judged.take().expect("it is asked how often the stroke is made");
     player.tell(job.id, CoachNews::Judged(SuccessRate::new(made, 1000)))
@@ -82,7 +82,7 @@ fn without_a_shot_of_the_coach_a_stroke_begins_full_at_a_ball_and_one_plays_on_f
     undone.warns("the stroke is unchanged");
     let asked = undone.press("Esc Enter").answer();
     assert!(asked.app.coach.what_if().is_none() && asked.app.coach.shot().is_some());
-    // What is asked otherwise is about another stroke.
+    // A changed request is about another stroke.
     let player = Player::with(TRUE_COLOUR).press("w F5 Down F2");
     assert!(player.app.coach.what_if().is_some());
     let player = player.press("F5 Home Down Down Down Down Right F2");
@@ -98,7 +98,7 @@ fn speeds_are_told_in_feet_where_lengths_are() {
     }
     let numbers = player.press("Esc N").text(120, 40);
     assert!(numbers.contains("8.20 ft/s, the cue") && !numbers.contains("m/s"), "{numbers}");
-    // Those of two digits have their unit, too.
+    // Speeds of two digits have their unit, too.
     let harder = Player::with_settings(TRUE_COLOUR, "length_unit = \"feet\"\n").press("Enter").answer();
     let harder = harder.press("w Up Up Up Up Up Up Up Up");
     let text = harder.text(80, 24);
@@ -113,7 +113,7 @@ fn the_stroke_is_told_as_the_keys_change_it_and_in_the_thesis_numbers_only_where
         assert!(["aim ", "288.00°", "2 tips", "2.50 m/s", "6.0° up"].iter().all(|part| text.contains(part)), "{text}");
         assert!(!text.contains("ω0"), "{text}");
     }
-    // The smallest steps of every key are seen.
+    // The smallest steps of every key are visible.
     let small = player.press("C-Right l Up +").text(80, 24);
     for part in ["287.99°", "1.8 tips", "2.60 m/s", "7.0° up"] {
         assert!(small.contains(part), "{part}\n{small}");
@@ -147,7 +147,7 @@ fn how_often_a_stroke_is_made_is_the_coachs_answer_for_this_player() {
     let [answer] = &told[..] else { panic!("{told:?}") };
     let CoachNews::Judged(made) = answer.news else { panic!("{answer:?}") };
     assert!(answer.id == job.id && (0.2..0.8).contains(&made.rate), "{made:?}");
-    // The answer to a stroke that is set no more is dropped.
+    // The answer to a stroke that has changed since is dropped.
     let player = player.press("Up").tell(job.id, CoachNews::Judged(made));
     player.shows(&["You … % · coach 94 %"]);
     let perfect = Player::new().press("S S S S S Enter").answer().press("w");

@@ -1,4 +1,4 @@
-//! The coach's words for a shot: every recommendation has a name, and a player who goes by the words makes the point.
+//! The coach's words for a shot: every recommendation has a name, and a player who follows the words makes the point.
 
 mod read_back;
 
@@ -16,16 +16,16 @@ use read_back::{Reading, stroke};
 
 const READINGS: [Reading; 4] = [Reading::Sentence, Reading::Course, Reading::Aim, Reading::Both];
 
-/// What comes of recommendations that are put in words.
+/// Results of recommendations that are put into words and read back.
 #[derive(Debug, Default)]
 struct Tried {
     solved: usize,
     named: usize,
-    /// Points of the strokes that are read back, by how they are read.
+    /// Points of the strokes that are read back, by the way of reading.
     made: [usize; READINGS.len()],
 }
 
-/// Recommends shots for so many layouts under every rule, and reads their words back.
+/// Recommends shots for this many layouts under every rule, and reads their words back.
 fn tried(layouts: usize, simulations: u64) -> Tried {
     let table = Table::default();
     let coach = Coach::new(table.clone());
@@ -64,7 +64,7 @@ fn recommendations_have_names_and_who_goes_by_the_words_makes_the_point() {
     assert!(tried.solved >= 38 && 10 * both >= 9 * tried.solved, "{tried:?}");
 }
 
-/// Run by `cargo test --profile quick --test library words:: -- --ignored --nocapture`: minutes.
+/// Run by `cargo test --profile quick --test library words:: -- --ignored --nocapture`: takes minutes.
 #[test]
 #[ignore = "minutes"]
 fn a_thousand_recommendations_have_names_and_make_the_point_when_their_words_are_read_back() {

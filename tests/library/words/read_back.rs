@@ -1,4 +1,4 @@
-//! A reader of the coach's sentences: from the text, the balls and the table alone to a stroke.
+//! A reader of the coach's sentences: converts the text, the balls and the table to a stroke.
 
 use carom::{
     coach::{Cushion, RailPoint, SpokenStroke, Technique},
@@ -7,30 +7,30 @@ use carom::{
     table::{BALL_NAMES, CueBall, Layout, Table},
 };
 
-/// What a reader goes by besides the sentence.
+/// The information that a reader uses in addition to the sentence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reading {
-    /// Nothing.
+    /// Only the sentence.
     Sentence,
-    /// The course: of all aims that the sentence allows, the one whose cushions come nearest.
+    /// The course: of all aims that agree with the sentence, the one with the nearest cushions.
     Course,
     /// The line of aim.
     Aim,
-    /// Both: of all aims that the line allows, the one whose cushions come nearest.
+    /// Both: of all aims that agree with the line, the one with the nearest cushions.
     Both,
 }
 
-/// A stop on the course: a ball, or a cushion and where it is met, diamonds.
+/// A stop on the course: a ball, or a cushion and the contact point on it, diamonds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Stop {
     Ball(usize),
     Cushion(RailPoint),
 }
 
-/// The stroke that the text tells: the sentence, the course and the line of aim, a line each.
+/// Returns the stroke that the text describes: the sentence, the course and the line of aim, one line each.
 ///
 /// # Errors
-/// What is not understood of it.
+/// Returns the part that is not understood.
 pub fn stroke(text: &str, reading: Reading, table: &Table, layout: &Layout) -> Result<CueInputs, String> {
     let [sentence, told, aim] = text.lines().collect::<Vec<_>>()[..] else { return Err("three lines".to_owned()) };
     let said = |text: &str| {
@@ -42,11 +42,11 @@ pub fn stroke(text: &str, reading: Reading, table: &Table, layout: &Layout) -> R
     let found = match reading {
         Reading::Sentence => Some(by_sentence),
         Reading::Aim => Some(by_aim),
-        // The line is rounded to a hundredth of a diamond, and its further mark is at least half a table away.
+        // The line is rounded to a hundredth of a diamond, and its farther mark is at least half a table away.
         Reading::Both => nearest(by_aim, 0.005 / 4.0, &by_sentence, &stops, table, layout),
         Reading::Course => {
             let start = layout.balls[0];
-            // A sixteenth of a ball, or a tenth of a diamond on a cushion, is rounded.
+            // A sixteenth of a ball, or a tenth of a diamond on a cushion, is lost by rounding.
             let half = match stops.first().ok_or("no stop")? {
                 Stop::Ball(ball) => 0.08 * table.radius / (layout.balls[*ball] - start).length(),
                 Stop::Cushion(mark) => 0.08 * table.diamond() / (mark.place(table) - start).length(),
@@ -62,8 +62,8 @@ fn rail_point((rail, diamond): (&str, &str)) -> Option<RailPoint> {
     Some(RailPoint { rail, diamond: diamond.trim_end_matches('.').parse().ok()? })
 }
 
-/// Reads "Red – top 5.1 – left 1.2 – red again – bottom 2.3 – yellow, thin on the left."; how the second ball is met is not gone by, nor where
-/// the first is met again.
+/// Reads "Red – top 5.1 – left 1.2 – red again – bottom 2.3 – yellow, thin on the left."; the fullness at the second ball and the place of
+/// another contact with the first ball are ignored.
 fn course(text: &str) -> Option<Vec<Stop>> {
     let text = text.trim_end_matches('.').to_lowercase();
     let text = text.split_once(", ").map_or(&*text, |(stops, _)| stops);
@@ -74,8 +74,8 @@ fn course(text: &str) -> Option<Vec<Stop>> {
     text.split(" \u{2013} ").filter(|words| !words.ends_with(" again")).map(stop).collect()
 }
 
-/// Of the strokes in directions up to `half` from that of `cue`, rad, the one whose shot is most like what is said: its first ball is met as
-/// in `said`, and its course has these stops.
+/// Of the strokes in directions up to `half` from that of `cue`, rad, returns the one whose shot agrees best with the text: its first ball
+/// is met as in `said`, and its course has these stops.
 fn nearest(
     cue: CueInputs,
     half: f64,
@@ -103,7 +103,7 @@ fn nearest(
     Some(at(middle))
 }
 
-/// How unlike its first ball is met, in units of what is rounded away.
+/// Returns the deviation of the first contact, in units of the rounding.
 fn unlike_hit(technique: &Technique, said: &Technique) -> f64 {
     let left = |technique: &Technique| {
         technique.first.map(|hit| (hit.ball, if hit.left { 1.0 - hit.fullness } else { hit.fullness - 1.0 }))
@@ -115,7 +115,7 @@ fn unlike_hit(technique: &Technique, said: &Technique) -> f64 {
     }
 }
 
-/// How unlike its course is, in the same units.
+/// Returns the deviation of the course, in the same units.
 fn unlike_course(technique: &Technique, stops: &[Stop]) -> f64 {
     let cushion = |Cushion { rail, diamond, .. }: &Cushion| Stop::Cushion(RailPoint { rail: *rail, diamond: *diamond });
     let mut course: Vec<Stop> = technique.before.iter().map(cushion).collect();
@@ -134,7 +134,7 @@ fn unlike_course(technique: &Technique, stops: &[Stop]) -> f64 {
     stops.iter().enumerate().map(unlike).sum()
 }
 
-/// What is off by less than half a unit is what was said; a little is taken off towards the middle of it.
+/// A deviation of less than half a unit counts as agreement; a small term prefers the middle of that range.
 fn beyond(units: f64) -> f64 {
     (units - 0.5).max(0.0) + 0.05 * units
 }

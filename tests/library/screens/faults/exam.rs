@@ -1,4 +1,4 @@
-//! An exam: what comes is told before the first stroke, and one that was left is gone on with.
+//! Exams: they are announced before the first stroke, and an exam that was left can be resumed.
 
 use carom::terminal::{DrillContext, KeyContext};
 
@@ -63,13 +63,13 @@ fn exams_that_were_left_or_are_open_are_all_gone_on_with() {
         let sessions = player.app.saved_session().unwrap().with_former();
         sessions.iter().filter_map(|one| one.practice.as_ref().map(|exam| exam.attempts.len())).collect::<Vec<_>>()
     };
-    // On another page than its own, too, an exam is under way.
+    // On other pages, too, an exam is in progress.
     let open = played(Player::at_library(TRUE_COLOUR, &[], &[]), 1).press("F2 Right");
     assert_eq!(attempts(&open), [1]);
     let two = played(open.press("F3 Esc y"), 2).press("Esc y");
     let three = played(two, 3).press("Esc y F2");
     assert_eq!(attempts(&three), [3, 2, 1]);
-    // The one that is open waits until all others were gone on with.
+    // The open exam waits until all others were resumed.
     let mut player = three;
     for exercise in [4, 3, 2, 4, 3] {
         player = player.press("F2 c");
@@ -111,13 +111,13 @@ fn what_another_program_has_noted_in_the_exam_is_not_written_over() {
     }
     let on = player.press("Space Space Enter Enter");
     assert_eq!(on.kept(), 5);
-    // Who opens the drills again sees it before the next stroke.
+    // A player who opens the drills again sees it before the next stroke.
     elsewhere(&on, 3);
     let seen = on.press("F2 F3");
     seen.says("another program has continued this session").says("exercise 9 of 20");
     elsewhere(&seen, 12);
     seen.press("Space Space").says("Grade: ");
-    // Notes from a real table, and those that are taken back.
+    // Results from a real table, and undone ones.
     let mut noted = Player::practising(TRUE_COLOUR).press("m m");
     elsewhere(&noted, 2);
     for key in ["m", "u"] {
@@ -138,7 +138,7 @@ fn what_the_last_session_left_can_be_had_until_it_is_gone_on_with() {
     };
     let first = Player::new().press("r");
     let left = place(&first);
-    // A key by mistake at the next start, and at the one after it.
+    // A mistaken key at the next start, and at the one after it.
     let second = next(&first).press("r");
     let third = next(&second).press("o r");
     let (at_second, at_third) = (place(&second), place(&third));
@@ -162,7 +162,7 @@ fn an_open_run_is_given_up_only_on_demand_and_gone_on_with_where_it_was_left() {
         let stays = asked.press("n Space");
         assert_eq!((stays.kept(), sessions(&stays)), (2, 1), "{key}");
     }
-    // The score tells what the question counts.
+    // The score shows the same count as the question.
     let watched = Player::practising(TRUE_COLOUR).press("o Space Space").wait(0.1);
     watched.says("no attempt yet");
     watched.press("x").says("give up the run after 1 attempt?").says(" of 1 made").is_silent_on("no attempt yet");

@@ -1,4 +1,4 @@
-//! The keys of an exercise that stood in no hint.
+//! Keys of an exercise that no hint mentioned.
 
 use crate::screens::player::{Player, TRUE_COLOUR};
 
@@ -13,7 +13,7 @@ fn notes_goals_and_shifts_are_told_where_they_apply() {
     for part in ["←→ aim", "hjkl tip", "↓↑ speed", "v hint", "m n made/miss", "o goal", "x shift"] {
         assert!(line.contains(part), "{part}: {line}");
     }
-    // There is no room in the last row: the one above it tells.
+    // There is no room in the last row, so the hint is in the row above it.
     let small = aiming.text(80, 24);
     assert!(small.contains("m made, n missed"), "{small}");
     let ended = aiming.press("Space Space").wait(60.0);

@@ -1,4 +1,4 @@
-//! Faults that somebody met who used the program for the first time: each is played here as it was met.
+//! Problems that a first-time user had: each is replayed as it happened.
 
 mod exam;
 mod hints;

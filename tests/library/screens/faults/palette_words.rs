@@ -1,10 +1,10 @@
-//! Words that a player would look for in the command palette.
+//! Words that a player would search in the command palette.
 
 use carom::terminal::{Action, CoachAction, DrillAction};
 
 use crate::screens::player::{Player, TRUE_COLOUR};
 
-/// What is marked after these words were typed, at the coach's table.
+/// Returns the selected actions after this word was typed, at the coach's table.
 fn at_coach(word: &str) -> Vec<Action> {
     let mut player = Player::new().press(":");
     player.app.paste(word);

@@ -9,7 +9,7 @@ use ratatui::layout::Rect;
 
 use crate::screens::player::Player;
 
-/// A shot that plays, somewhere on its way.
+/// Returns a player who watches a shot in progress.
 fn watching() -> Player {
     let player = Player::new().press("Enter").answer().press("Space").wait(1.0);
     assert_eq!(player.app.coach.mode, Mode::Watching);
@@ -39,7 +39,7 @@ fn a_click_on_a_ball_leads_back_to_placing_that_ball() {
     player.app.mouse(mouse(MouseEventKind::Down(MouseButton::Left), column));
     assert_eq!((player.app.coach.mode, player.app.coach.selected), (Mode::Placing, 2));
     player.warns_nothing();
-    // The ball went elsewhere under the hand: it is not dragged from there.
+    // The ball was elsewhere when it was clicked, so it is not dragged from there.
     player.app.mouse(mouse(MouseEventKind::Drag(MouseButton::Left), column + 3));
     assert_eq!(*player.app.coach.layout(), layout);
 }

@@ -1,4 +1,4 @@
-//! Saving the balls of the coach's table: asked over the table, and one stays there.
+//! Saving the balls of the coach's table: the dialog opens over the table, and the page stays the same.
 
 use carom::terminal::{KeyContext, PageId};
 

@@ -1,4 +1,4 @@
-//! What the next start may go on from, as keys change it.
+//! What the next start can continue from, as keys change it.
 
 use carom::{coach::Skill, game::Rule, terminal::Terms};
 
@@ -29,7 +29,7 @@ fn what_is_practised_is_remembered_as_long_as_it_is_on_the_screen() {
     assert!(noted.press("F2").app.saved_session().is_none(), "the coach's table is as at the start");
 }
 
-/// The next start after `player` has left, with this text in the settings' file.
+/// Returns the next start after `player` has left, with this text in the settings file.
 fn next(player: &Player, settings: &str) -> Player {
     let last = player.app.saved_session();
     let mut next = Player::with_settings(TRUE_COLOUR, settings);
@@ -48,13 +48,13 @@ fn rule_player_and_plan_are_at_the_next_start_as_they_were_left_but_for_what_was
     second.is_silent_on("c goes on");
     assert_eq!(second.app.coach.layout(), Player::new().app.coach.layout());
     assert!(second.app.saved_session().is_none(), "the file stays as it is");
-    // The settings go before what was left, where they have changed since, and each by itself.
+    // A setting takes precedence over the previous session if it has changed since; each setting is independent.
     let set = next(&chosen, "skill = \"club\"");
     assert_eq!(terms(&set), Terms { skill: Skill::CLUB, ..left });
-    // What was left on one start holds on the one after it.
+    // What was left at one start holds at the one after it.
     let third = next(&second.press("r"), "");
     assert_eq!(terms(&third), left);
-    // What is set on the screen of the settings is what holds then.
+    // Changes on the settings screen take effect immediately.
     let fourth = third.press("F5 Home Down Down Down Down Right F2 r");
     assert_eq!(terms(&fourth).rule, Rule::ThreeCushion);
     assert_eq!(terms(&next(&fourth, "rule = \"three-cushion\"")), Terms { rule: Rule::ThreeCushion, ..left });

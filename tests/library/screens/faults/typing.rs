@@ -1,4 +1,4 @@
-//! Numbers that are typed into the form of a new run, and a name that is pasted.
+//! Numbers that are typed into the form of a new run, and a pasted name.
 
 use carom::terminal::{Effect, KeyContext, TrainingContext, TrainingReport};
 
@@ -7,12 +7,12 @@ use crate::screens::{
     runs::listing,
 };
 
-/// At the form's number of shots.
+/// Returns a player at the number of shots in the form.
 fn at_the_shots() -> Player {
     Player::at_runs(TRUE_COLOUR).report(TrainingReport::Runs(Ok(listing()))).press("n Down Down Down")
 }
 
-/// The option of the run that was started.
+/// Returns the value of an option of the started run.
 fn started(player: &Player, option: &str) -> Option<String> {
     let launch = player.effects.iter().find_map(|effect| match effect {
         Effect::Train(launch) => Some(launch),
@@ -28,7 +28,7 @@ fn the_first_digit_replaces_the_number_and_the_next_ones_follow() {
     typed.says("40,000");
     let started_run = typed.press("Enter");
     assert_eq!(started(&started_run, "--steps").as_deref(), Some("40000"));
-    // Whoever comes back types a new number, in the seed as well.
+    // A player who comes back types a new number, also in the seed.
     let again = at_the_shots().press("4 0 Down 7 Up 9 0 Enter");
     assert_eq!(started(&again, "--steps").as_deref(), Some("90"));
     assert_eq!(started(&again, "--seed").as_deref(), Some("7"));

@@ -1,4 +1,4 @@
-//! A recommendation in a player's words.
+//! A recommendation in words.
 
 use std::io::{self, Write};
 
@@ -12,7 +12,7 @@ use crate::{
     table::{CueBall, Layout, Table},
 };
 
-/// A shot in words: three sentences, and the numbers that they tell.
+/// A shot in words: three sentences, and the numbers in them.
 #[derive(Serialize)]
 pub struct Words {
     sentence: String,
@@ -22,7 +22,7 @@ pub struct Words {
     numbers: ShotWords,
 }
 
-/// Why it leads: a sentence, and the facts.
+/// Why the shot is ranked first: a sentence, and the facts.
 #[derive(Serialize)]
 pub struct Reasons {
     sentence: String,
@@ -30,10 +30,10 @@ pub struct Reasons {
     facts: Why,
 }
 
-/// What is said of a shot.
+/// The description of a shot.
 #[derive(Serialize)]
-pub struct Told {
-    /// Absent where not both balls are met.
+pub struct Description {
+    /// Absent if the cue ball does not meet both balls.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pattern: Option<&'static str>,
     words: Words,
@@ -41,8 +41,8 @@ pub struct Told {
     pattern_course: Option<String>,
 }
 
-impl Told {
-    /// Of one shot.
+impl Description {
+    /// Describes one shot.
     pub fn of(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Self, ShotError> {
         let technique = Technique::of(table, layout, cue)?;
         let pattern = Pattern::of(&technique);
@@ -60,7 +60,7 @@ impl Told {
         })
     }
 
-    /// The same for people to read.
+    /// Prints the description.
     pub fn describe(&self, out: &mut impl Write, units: Units) -> io::Result<()> {
         let numbers = &self.words.numbers;
         writeln!(out, "{}", self.sentence(units))?;
@@ -72,19 +72,19 @@ impl Told {
         }
     }
 
-    /// How to strike, alone.
+    /// Returns only the sentence about how to strike.
     pub fn sentence(&self, units: Units) -> String {
         self.words.numbers.sentence(CueBall::White, units)
     }
 
-    /// Whether it meets first what it is to meet.
+    /// Whether the cue ball meets first what was requested.
     pub fn begins_with(&self, first: FirstMet) -> bool {
         first.allows_told(&self.words.numbers)
     }
 }
 
 impl Reasons {
-    /// Of a recommendation that makes the point.
+    /// Finds the reasons for a recommendation that makes the point.
     pub fn of(
         shooter: Shooter,
         rule: Rule,
@@ -97,7 +97,7 @@ impl Reasons {
         Ok(Self { sentence: facts.words(CueBall::White, Units::default()), facts })
     }
 
-    /// The same for people to read.
+    /// Prints the reasons.
     pub fn describe(&self, out: &mut impl Write, units: Units) -> io::Result<()> {
         writeln!(out, "Why: {}", self.facts.words(CueBall::White, units))
     }
