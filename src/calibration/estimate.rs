@@ -305,7 +305,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn two_valleys_apart_are_as_wide_as_their_distance_says() {
+    fn the_variance_of_two_minima_includes_their_distance() {
         let valley = |weight: f64, mean: f64| (weight, (vec![mean, 0.0], vec![vec![0.5, 0.1], vec![0.1, 1.0]]));
         let (means, covariance) = moments(2, &[valley(3.0, 1.0), valley(1.0, -3.0)]);
         assert_eq!(means, [0.0, 0.0]);

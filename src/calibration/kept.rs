@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn every_change_is_on_the_disk_and_can_be_taken_back() {
+    fn every_change_is_on_the_disk_and_can_be_undone() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deep/calibration.toml");
         let made = [
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn what_another_program_has_entered_meanwhile_stays() {
+    fn entries_of_another_program_are_kept() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("calibration.toml");
         let (_, back) = edit_entries(&path, &Edit::Add(entry("9"))).unwrap();

@@ -175,7 +175,7 @@ impl Linearization {
     }
 }
 
-/// Draws vectors of `size` independent standard normal numbers, each followed or preceded by its mirror image.
+/// Draws vectors of `size` independent standard normal numbers, in pairs of mirror images.
 fn drawn(size: usize) -> impl Iterator<Item = Vec<f64>> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
     (0..PAIRS).flat_map(move |_| {

@@ -47,7 +47,7 @@ fn exact_from(table: &Table, is_turned: bool) -> Vec<(usize, Trial)> {
 }
 
 #[test]
-fn a_level_table_stays_level_where_that_is_in_no_doubt() {
+fn a_level_table_stays_level_if_its_tilt_is_certain() {
     let (mut table, mut doubt) = base();
     table.tilt = DVec2::ZERO;
     let tilt = |doubt: &TableDoubt| {
@@ -213,7 +213,7 @@ fn marks_that_contradict_each_other_are_reported() {
 }
 
 #[test]
-fn a_half_file_is_used_as_far_as_it_goes_and_says_what_is_missing() {
+fn an_incomplete_file_is_used_and_its_missing_strokes_are_listed() {
     let (table, doubt) = base();
     let text = "name = \"club\"\n[[trial]]\ntest = \"slow-roll\"\ntime = 9.0\nstop = \"1900 mm\"\nsure = { time = 0.3 }\n\
                 [[trial]]\ntest = \"lag\"\n[[trial]]\ntest = \"hard-lag\"\nstop = 3.2\n[[trial]]\ntest = \"masse\"\nx = 1\n";
@@ -241,7 +241,7 @@ fn a_half_file_is_used_as_far_as_it_goes_and_says_what_is_missing() {
 }
 
 #[test]
-fn odd_marks_are_named_with_what_would_be_accepted() {
+fn problematic_marks_are_reported_with_the_accepted_values() {
     let table = Table::default();
     let problems = |marks: &str| {
         let entries = Entries::parse(&format!("[[trial]]\ntest = \"lag\"\n{marks}\n")).unwrap();
@@ -366,7 +366,7 @@ fn a_slower_day_is_reported_and_only_constants_that_the_weather_changes_move_muc
 }
 
 #[test]
-fn the_weather_changes_rails_of_their_own_as_it_changes_all() {
+fn the_weather_changes_single_rails_as_it_changes_all() {
     let (mut table, mut doubt) = base();
     *table.rail.own_mut(Rail::Top) = Some(OneRail { e: Some(0.8), ..OneRail::default() });
     doubt.deviations.insert("rail.top.e".to_owned(), 0.008);
@@ -380,7 +380,7 @@ fn the_weather_changes_rails_of_their_own_as_it_changes_all() {
 }
 
 #[test]
-fn a_single_stroke_of_which_nothing_counts_makes_no_table() {
+fn a_single_stroke_with_misread_marks_makes_no_table() {
     let (table, doubt) = base();
     let mut trial = exact(&table).into_iter().find(|(_, trial)| trial.test.name == "lag").unwrap();
     for reading in &mut trial.1.readings {

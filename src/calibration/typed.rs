@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tape_is_as_sure_whether_it_is_said_or_seen_from_the_unit() {
+    fn a_tape_measurement_has_the_same_error_typed_or_inferred_from_the_unit() {
         let table = Table::default();
         let sure = |typed: &str| entry(&[("stop", typed)]).readings(&table).0[0].sure;
         assert!((sure("725 mm") - sure(&format!("2.04 ± {TAPED}"))).abs() < 1e-3);
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn letters_are_kept_to_be_named() {
+    fn a_text_that_is_no_number_is_quoted_in_the_error() {
         let problems = entry(&[("stop", "far")]).readings(&Table::default()).1;
         assert!(problems[0].contains("stop = \"far\" is no length"), "{problems:?}");
         let mut entry = Entry::default();

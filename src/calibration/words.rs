@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_known_of_a_constant_is_told_in_a_players_words() {
+    fn constants_are_described_in_a_players_words() {
         let change = |name: &str, after: f64, after_deviation: f64| Change {
             name: name.to_owned(),
             before: 0.005,
@@ -264,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn what_begins_or_ends_at_nought_is_told_without_shares_of_nothing() {
+    fn constants_of_zero_are_described_without_percentages_of_zero() {
         let change = |name: &str, before: f64, after: f64| {
             let name = name.to_owned();
             Change { name, before, before_deviation: 0.1, after, after_deviation: 0.02 }.meaning("match")

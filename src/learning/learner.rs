@@ -260,7 +260,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_of_a_setting_are_laid_over_the_others_for_every_agent() {
+    fn parts_of_a_setting_are_merged_for_every_agent() {
         for (agent, changes, part, other) in [
             ("ddpg", json!({"exploration": {"uniform": 0.05}}), "/exploration/uniform", "/exploration/noise"),
             ("q-learning", json!({"epsilon": {"first": 0.5}}), "/epsilon/first", "/epsilon/over"),
@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_one_word_or_another_is_replaced_as_a_whole() {
+    fn a_setting_that_is_no_object_by_default_is_replaced_as_a_whole() {
         let defaults = json!({"episode": "one-shot", "noise": {"theta": 1, "sigma": 2}});
         let mut settings = json!({"episode": {"shots": 20}, "noise": {"theta": 3}});
         lay_over(&mut settings, &json!({"episode": {"until-miss": 5}, "noise": {"sigma": 4}}), &defaults);

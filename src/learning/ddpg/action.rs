@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn where_balls_fly_a_raised_stroke_becomes_the_level_one_of_the_same_speed_roll_and_side() {
+    fn on_tables_with_flight_a_raised_stroke_becomes_a_level_one_of_equal_speed_roll_and_side() {
         let frozen = Table { flight: None, ..Table::default() };
         let table = Table::default();
         for action in [[0.2, 0.3, 0.4, 0.5, 0.3], [0.2, -0.3, -0.6, 0.2, 1.0], [0.2, 0.9, 0.0, 0.0, 0.0]] {

@@ -170,7 +170,7 @@ mod tests {
     use std::sync::Arc;
 
     #[test]
-    fn a_saturated_actor_comes_back_where_that_costs_something() {
+    fn the_saturation_penalty_brings_a_saturated_actor_back() {
         let outputs = |penalty: f64| {
             let (mut agent, batch) = agent_and_batch(ActionSpace::Full, 21);
             agent.hyper.saturation_penalty = penalty;
@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn both_gradients_are_slopes_of_what_is_learnt() {
+    fn all_gradients_agree_with_finite_differences() {
         for space in [ActionSpace::PhiV, ActionSpace::Full] {
             let errors = (21..26).map(|seed| {
                 let (agent, batch) = agent_and_batch(space, seed);
@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn the_actor_leaves_the_critic_as_it_is() {
+    fn the_losses_of_the_actor_have_no_gradient_for_the_critic() {
         let (agent, batch) = agent_and_batch(ActionSpace::Full, 21);
         for goal in [agent.actor_goal(&batch.observed).unwrap().0, agent.imitation_loss(&batch).unwrap()] {
             let gradients = goal.backward().unwrap();
@@ -316,7 +316,7 @@ mod tests {
     }
 
     #[test]
-    fn the_nearest_head_goes_to_where_a_search_has_been_unless_it_is_better_already() {
+    fn the_nearest_head_moves_to_a_searched_stroke_unless_it_is_better_already() {
         let (start, batch) = agent_and_batch(ActionSpace::Full, 21);
         let loss = |agent: &Ddpg, batch: &ShotBatch| agent.imitation_loss(batch).unwrap().to_scalar::<f32>().unwrap();
         let sure = ShotBatch { successes: vec![1.0; batch.actions.len()], ..batch.clone() };

@@ -244,7 +244,7 @@ mod tests {
     use std::sync::Arc;
 
     #[test]
-    fn what_the_expert_finds_is_made_more_often_than_what_was_proposed() {
+    fn the_expert_finds_strokes_that_succeed_more_often_than_the_proposals() {
         let (table, mut rng) = (Arc::new(Table::default()), Xoshiro256PlusPlus::seed_from_u64(41));
         let hyper = Hyperparameters { actions: ActionSpace::Full, context: true, ..Hyperparameters::default() };
         let (inputs, networks) = (hyper.inputs(), &Networks::random(&hyper, &mut rng).unwrap());
@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn strokes_of_several_ways_stay_among_the_candidates() {
+    fn strokes_of_several_observations_stay_among_the_candidates() {
         let (table, mut rng) = (Arc::new(Table::default()), Xoshiro256PlusPlus::seed_from_u64(41));
         let observations = Observation::every(&table, &Layout::random(&table, &mut rng), true);
         let halved = |numbers: &[usize], left| {

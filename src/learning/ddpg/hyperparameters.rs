@@ -196,7 +196,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_no_number_is_outside_every_range() {
+    fn nan_is_outside_every_range() {
         let good = Hyperparameters::default();
         for (hyper, named) in [
             (Hyperparameters { critic_learning_rate: f64::NAN, ..good.clone() }, "critic_learning_rate = NaN is"),

@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn with_a_context_an_agent_begins_with_what_was_learnt_without() {
+    fn an_agent_with_a_context_can_start_from_weights_without_one() {
         let table = Table::default();
         let old = Policy::bundled(&table, Rule::OneCushion).unwrap().unwrap();
         let file = Learner::policy(&old_trainer(&old), 0.5, "2026-11-22", &mut || true).unwrap().unwrap();
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn an_agent_that_sees_ways_by_cushions_begins_with_what_was_learnt_of_straight_ones() {
+    fn an_agent_with_paths_by_cushions_can_start_from_weights_without_them() {
         let (table, skill) = (Table::default(), Skill::CLUB);
         let mut with_context = Policy::bundled_for(&table, Rule::StraightRail, true).unwrap().unwrap();
         // The runs below are not finished, so they are not calibrated.
@@ -275,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_finished_run_says_of_its_choice_is_what_it_makes_of_it() {
+    fn a_finished_run_is_calibrated_to_its_actual_success() {
         let mut task = small_task();
         (task.plan.shots, task.hyperparameters.calibrated) = (16, 1_000);
         let mut trainer = Trainer::new(task, Table::default()).unwrap();

@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn mirrored_layouts_have_the_same_views() {
+    fn mirrored_layouts_have_the_same_observations() {
         let table = Table::default();
         let layout = Layout::random(&table, &mut Xoshiro256PlusPlus::seed_from_u64(4));
         for mirror in [DVec2::new(-1.0, 1.0), DVec2::new(1.0, -1.0), DVec2::new(-1.0, -1.0)] {

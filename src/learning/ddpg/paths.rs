@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn no_action_oversteps_the_miscue_limit_and_what_is_no_number_still_gives_a_stroke() {
+    fn no_action_exceeds_the_miscue_limit_and_nan_still_gives_a_stroke() {
         for name in crate::table::PRESETS {
             let table = Table::preset(name).unwrap();
             let observation = Observation::new(&Layout::opening(&table), 0);
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mirrored_view_gets_the_mirrored_stroke_and_way() {
+    fn a_mirrored_observation_gets_the_mirrored_stroke_and_path() {
         let table = Table::default();
         let layout = Layout::new([DVec2::new(0.3, 0.1), DVec2::new(-0.5, 0.3), DVec2::new(0.2, -0.4)]);
         let mirrored = Layout::new(layout.balls.map(|ball| DVec2::new(ball.x, -ball.y)));

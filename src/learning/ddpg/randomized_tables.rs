@@ -158,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn with_a_context_there_are_many_tables_that_depend_on_the_seed_alone_and_without_there_is_one() {
+    fn with_a_context_many_tables_follow_from_the_seed_and_without_there_is_one() {
         let table = Arc::new(Table::default());
         let alone = RandomizedTables::new(&table, inputs(false), 1);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn who_errs_more_makes_fewer_points() {
+    fn larger_errors_make_fewer_points() {
         let table = Arc::new(Table::default());
         let tables = RandomizedTables::new(&table, inputs(true), 1);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);

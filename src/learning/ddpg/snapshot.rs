@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_goes_on_is_bit_for_bit_the_run_that_never_stopped() {
+    fn a_resumed_run_is_bit_for_bit_the_uninterrupted_run() {
         let mut with_context = small_task();
         with_context.hyperparameters.context = true;
         with_context.hyperparameters.ranking = 0.5;
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn settings_of_earlier_versions_are_read_where_they_changed_nothing() {
+    fn settings_of_earlier_versions_are_accepted_if_they_had_no_effect() {
         let trainer = Trainer::new(small_task(), Table::default()).unwrap();
         let bytes = bytes(&trainer);
         let reader = Reader::new(&bytes).unwrap();

@@ -127,7 +127,7 @@ pub(in crate::learning) mod tests {
     }
 
     #[test]
-    fn shots_count_alike_however_they_are_chosen() {
+    fn every_kind_of_shot_counts_as_one_shot() {
         for (ranking, critic_chooses) in [(0.0, 0.3), (0.5, 0.5), (1.0, 0.0), (0.4, 1.0)] {
             let mut task = small_task();
             task.hyperparameters = Hyperparameters { critic_chooses, ranking, ..task.hyperparameters };
@@ -151,7 +151,7 @@ pub(in crate::learning) mod tests {
     }
 
     #[test]
-    fn points_come_more_often_after_seconds_of_practice() {
+    fn seconds_of_training_raise_the_reward() {
         let hyperparameters = Hyperparameters {
             actor_layers: vec![64, 64],
             critic_layers: vec![64, 64],

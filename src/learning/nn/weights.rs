@@ -260,7 +260,7 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
-    fn half_the_digits_take_half_the_room_and_come_back_to_three_places() {
+    fn half_precision_halves_the_file_and_keeps_three_digits() {
         let mlp = Mlp::random(&[30, 40, 2], &mut Xoshiro256PlusPlus::seed_from_u64(1)).unwrap();
         let file = |mlp: &Mlp| {
             let mut writer = Writer::default();

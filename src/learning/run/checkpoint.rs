@@ -274,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_one_is_used_and_the_one_before_where_it_is_missing() {
+    fn the_current_checkpoint_is_used_or_the_previous_one_if_it_is_missing() {
         let (folder, [before, last]) = folder_of_two();
         assert_eq!(shots_after_opening(folder.path()).unwrap(), (last, false));
         assert_eq!(shots_in(folder.path()), Some(last));
@@ -285,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn a_damaged_one_does_not_push_out_the_whole_one_before() {
+    fn a_damaged_checkpoint_does_not_replace_the_intact_previous_one() {
         let (folder, [before, _]) = folder_of_two();
         fs::write(folder.path().join(CURRENT), b"damaged").unwrap();
         let (mut checkpoints, loaded) = Checkpoints::open(folder.path()).unwrap();
@@ -307,7 +307,7 @@ mod tests {
     }
 
     #[test]
-    fn means_are_over_the_shots_and_updates_since_the_last_and_survive_a_file() {
+    fn means_are_over_the_shots_and_updates_since_the_last_line_and_survive_a_file() {
         let iteration = |reward| Iteration { mean_reward: reward, q_value: 0.1, critic_loss: 0.7, actor_loss: None };
         let mut accumulator = Accumulator::default();
         // The second iteration is longer. The first one made no update and must not count in the mean loss.

@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_went_on_from_earlier_begins_anew() {
+    fn a_run_resumed_from_an_earlier_checkpoint_restarts_its_history() {
         let history = history_of([100, 200, 300, 200, 250].map(|shots| record(shots, f64::NAN, Some(shots as f64))));
         assert_eq!((history.best(), history.non_finite(Quantity::Reward).nan), (Some(250.0), 2));
         let shots: Vec<_> = history.points(Quantity::Reward, ALL).iter().map(|point| point.shots.0).collect();

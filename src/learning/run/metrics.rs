@@ -52,7 +52,7 @@ pub struct Record {
     #[serde(rename = "train/replay_buffer_fill")]
     #[serde(with = "number::option", default, skip_serializing_if = "Option::is_none")]
     pub replay_fill: Option<f64>,
-    /// Mean reward of the target networks' first choice on held-out layouts, without exploration.
+    /// Mean reward of the agent's first choice on held-out layouts, without exploration.
     #[serde(rename = "eval/mean_reward", with = "number::option", default, skip_serializing_if = "Option::is_none")]
     pub held_out_reward: Option<f64>,
     /// Share of those layouts on which any of the best proposals earns 1 or more (best-of-k success), which a perfect choice among them
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_goes_on_drops_later_lines_and_a_torn_one() {
+    fn a_resumed_run_drops_later_lines_and_an_incomplete_one() {
         let (_folder, path, mut file) = opened(5);
         for shots in [1, 2, 3] {
             file.push(&record(shots));
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_are_missing_before_a_checkpoint_are_told_with_the_gap() {
+    fn lines_that_are_missing_before_a_checkpoint_are_reported() {
         let (_folder, path, mut file) = opened(0);
         assert!(notices(&path, 99, 100).is_empty(), "no line is due yet");
         assert!(notices(&path, 640, 100)[0].contains("is missing: there is no line of the 640 shots"));
@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_was_cut_off_meanwhile_goes_on_after_its_last_whole_line() {
+    fn a_file_that_was_cut_off_meanwhile_continues_after_its_last_complete_line() {
         let (_folder, path, mut file) = opened(0);
         for shots in [1, 2] {
             file.push(&record(shots));
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_cannot_be_written_wait_and_come_later() {
+    fn lines_that_cannot_be_written_are_written_later() {
         let (_folder, path, mut file) = opened(0);
         fs::create_dir(&path).unwrap();
         for shots in [1, 2] {

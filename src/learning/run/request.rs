@@ -84,7 +84,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_no_request_is_named_once_with_what_is_accepted() {
+    fn an_unknown_request_is_reported_once_with_the_accepted_ones() {
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(Request::take(folder.path()), None);
         Request::GoOn.send(folder.path()).unwrap();

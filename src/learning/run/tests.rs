@@ -96,7 +96,7 @@ fn files_of(start: &dyn Fn(&Path) -> Run, stops: &[u32]) -> Files {
 }
 
 #[test]
-fn a_run_that_is_stopped_at_any_iteration_goes_on_to_the_same_files() {
+fn a_run_that_is_stopped_at_any_iteration_ends_with_the_same_files() {
     let whole = files_of(&small_run, &[]);
     assert_eq!(whole.2.len(), 5);
     for stops in [[0, 0, 1], [1, 2, 3], [3, 1, 5], [4, 4, 1]] {
@@ -105,7 +105,7 @@ fn a_run_that_is_stopped_at_any_iteration_goes_on_to_the_same_files() {
 }
 
 #[test]
-fn every_agent_goes_on_to_the_same_files() {
+fn every_agent_resumes_to_the_same_files() {
     for agent in AGENTS {
         let start = |folder: &Path| {
             let plan = TrainingPlan { reward: Reward::R1, seed: 3, shots: 1_000 };
@@ -118,7 +118,7 @@ fn every_agent_goes_on_to_the_same_files() {
 }
 
 #[test]
-fn a_run_that_is_stopped_saves_before_it_is_measured() {
+fn a_stopped_run_is_saved_before_its_evaluation() {
     let folder = tempfile::tempdir().unwrap();
     let mut run = small_run(folder.path());
     // The policy cannot be written, so only what was saved before the evaluation remains.
@@ -130,7 +130,7 @@ fn a_run_that_is_stopped_saves_before_it_is_measured() {
 }
 
 #[test]
-fn a_finished_run_is_saved_before_it_is_calibrated_and_stops_meanwhile() {
+fn a_finished_run_is_saved_before_its_calibration_which_can_be_stopped() {
     let (folder, whole) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let mut run = small_run(folder.path());
     // Stops after ten iterations, at the second call of the calibration's `go_on`.
@@ -146,7 +146,7 @@ fn a_finished_run_is_saved_before_it_is_calibrated_and_stops_meanwhile() {
 }
 
 #[test]
-fn a_finished_run_that_is_asked_again_says_what_it_said() {
+fn resuming_a_finished_run_returns_its_stored_result() {
     let folder = tempfile::tempdir().unwrap();
     let ending = finish(&mut small_run(folder.path())).0;
     let path = |name: &str| folder.path().join(name);
@@ -215,7 +215,7 @@ fn a_configuration_that_cannot_be_read_is_kept_and_reported() {
 }
 
 #[test]
-fn a_run_that_breaks_down_says_so_shows_what_was_odd_and_goes_on_from_before() {
+fn a_failed_run_reports_its_numbers_and_resumes_from_its_last_checkpoint() {
     let folder = tempfile::tempdir().unwrap();
     let mut run = small_run(folder.path());
     let odd = Iteration { critic_loss: f64::NAN, actor_loss: Some(f64::NEG_INFINITY), ..Iteration::default() };
@@ -261,7 +261,7 @@ fn asked(run: &mut Run, requests: &[(Phase, Request)]) -> Ending {
 }
 
 #[test]
-fn a_run_waits_goes_on_and_stops_as_it_is_asked_and_ends_in_the_same_place() {
+fn requests_pause_resume_and_stop_a_run_without_changing_its_end() {
     let folder = tempfile::tempdir().unwrap();
     let mut run = small_run(folder.path());
     // A request to an earlier process is not carried out.
@@ -280,7 +280,7 @@ fn a_run_waits_goes_on_and_stops_as_it_is_asked_and_ends_in_the_same_place() {
 }
 
 #[test]
-fn a_run_that_is_given_up_leaves_nothing_but_what_is_not_its_own() {
+fn an_abandoned_run_leaves_only_files_that_are_not_its_own() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
     let mut run = small_run(path);
@@ -307,7 +307,7 @@ impl Watcher for GivesUp<'_> {
 }
 
 #[test]
-fn a_run_that_is_given_up_during_its_last_measurement_does_not_finish() {
+fn a_run_that_is_abandoned_during_its_last_evaluation_does_not_finish() {
     let folder = tempfile::tempdir().unwrap();
     let ending = small_run(folder.path()).train(&FOREVER, &mut GivesUp(folder.path())).unwrap();
     assert_eq!(ending, Ending::Abandoned);
@@ -316,7 +316,7 @@ fn a_run_that_is_given_up_during_its_last_measurement_does_not_finish() {
 }
 
 #[test]
-fn whoever_follows_sees_a_run_begin_work_tell_what_it_does_and_end() {
+fn a_follower_sees_a_run_start_report_and_end() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run");
     let (mut follower, mut followed) = (Follower::new(&path), Followed::new(&path));

@@ -65,7 +65,8 @@ pub struct Limits<'a> {
 /// Outputs of the training.
 struct Reporting<'a> {
     metrics: MetricsFile,
-    /// `None` if it cannot be written, which is ignored: it repeats the metrics for `TensorBoard`.
+    /// `None` if the run is finished or the file cannot be written. The latter is ignored: the file only repeats the metrics for
+    /// `TensorBoard`.
     events: Option<EventFile>,
     clock: Clock,
     heartbeat: Heartbeat,

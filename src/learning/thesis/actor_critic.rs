@@ -292,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_that_are_not_finite_are_refused_before_they_do_harm() {
+    fn numbers_that_are_not_finite_are_refused_before_any_weight_changes() {
         let sizes = sizes(&[4], &[4]);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(6);
         let mut agent = ActorCritic::random(&sizes, RATES, &mut rng).unwrap();

@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn a_game_goes_on_where_the_balls_have_stopped_until_the_episode_is_over() {
+    fn a_game_continues_from_the_final_positions_until_the_episode_ends() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
         let mut game = Carom::new(thesis(), Reward::R1, Episode::Shots(2));
         game.layout = Layout::opening(&game.table);

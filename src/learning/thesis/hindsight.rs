@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn places_are_as_random_layouts_in_which_the_shot_succeeds_have_them() {
+    fn positions_are_distributed_as_in_random_layouts_in_which_the_shot_succeeds() {
         // One fixed shot at a ball, and the third ball anywhere. The test compares its distance from the cue ball when the point is made.
         let (table, mut rng) = (Table::preset("thesis").unwrap(), Xoshiro256PlusPlus::seed_from_u64(32));
         let cue = cue_inputs([0.0, 0.2]);

@@ -132,7 +132,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_library_that_is_larger_than_the_memory_is_refused() {
+    fn a_replay_buffer_in_a_file_that_exceeds_the_capacity_is_refused() {
         let mut replay = ReplayBuffer::new(3);
         (0..3).for_each(|_| replay.push(StoredTransition::default()));
         let mut writer = Writer::default();

@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_promised_too_high_is_told_as_it_is_made() {
+    fn overconfident_predictions_are_corrected() {
         let [flawless, expert, beginner] = [
             |logit| logistic(0.8 * logit - 0.3),
             |logit| logistic(0.9 * logit - 0.1),
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_changes_without_trials_or_where_the_order_would_turn_round() {
+    fn nothing_changes_without_trials_or_if_the_fit_reverses_the_order() {
         let turned: Vec<Trial> = trials(1.0, |logit| logistic(-logit)).collect();
         for calibration in [Calibration::default(), Calibration::of(&[]), Calibration::of(&turned)] {
             for errors in [0.0, 1.0, 9.0] {
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn where_all_strokes_are_made_a_probability_is_told_nonetheless() {
+    fn a_fit_in_which_every_stroke_succeeds_still_gives_a_probability() {
         let certain = Calibration::of(&trials(0.0, |_| 1.0).collect::<Vec<_>>());
         assert!((0.9..=1.0).contains(&certain.probability(2.0, 0.0)), "{certain:?}");
     }

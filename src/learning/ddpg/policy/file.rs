@@ -243,7 +243,7 @@ mod tests {
     fn is_shared<T: Send + Sync>(_: &T) {}
 
     #[test]
-    fn every_bundled_policy_reads_and_says_what_it_is_for() {
+    fn every_bundled_policy_loads_and_states_its_table_and_reward() {
         for table in ["match", "thesis"] {
             let preset = Table::preset(table).unwrap();
             for rule in Rule::ALL {
@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn a_changed_byte_is_noticed_wherever_it_stands_and_files_of_earlier_versions_are_read() {
+    fn any_changed_byte_is_detected_and_files_of_earlier_versions_are_read() {
         let policy = bundled();
         let bytes = policy.to_bytes().unwrap();
         let read = |bytes: &[u8]| Policy::of_file(bytes, "it");

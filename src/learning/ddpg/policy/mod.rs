@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn proposals_are_valid_strokes_ordered_by_their_chance() {
+    fn proposals_are_valid_strokes_sorted_by_probability() {
         let table = Table::default();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(11);
         let layouts: Vec<_> = (0..20).map(|_| Layout::random(&table, &mut rng)).collect();
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn layouts_that_make_no_sense_still_give_strokes() {
+    fn invalid_layouts_still_give_strokes() {
         let policy = bundled();
         let table = Table::default();
         for layout in [[DVec2::NAN; 3], [DVec2::ZERO; 3], [DVec2::INFINITY; 3]] {
@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn some_strokes_for_players_who_err_meet_a_cushion_first() {
+    fn some_strokes_for_players_with_errors_hit_a_cushion_first() {
         let table = Table::default();
         let policy = Policy::bundled_for(&table, Rule::ThreeCushion, true).unwrap().unwrap();
         let meets_rail_first = |layout: &Layout, cue: &CueInputs| {

@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_is_as_it_says_until_it_is_silent_or_its_process_is_gone() {
+    fn the_status_counts_until_it_is_silent_or_its_process_is_gone() {
         let at = |phase, is_locked, silent| condition(&signs(Some(phase), is_locked, silent));
         let (locked, free) = (Some(true), Some(false));
         for phase in [Phase::Training, Phase::Paused, Phase::Measuring] {
@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn without_locks_silence_tells() {
+    fn without_locks_silence_means_that_the_process_is_gone() {
         let at = |phase, silent| condition(&signs(Some(phase), None, silent));
         assert_eq!(at(Phase::Training, 5), Condition::Is(Phase::Training));
         assert_eq!(at(Phase::Training, 20), Condition::Died);

@@ -196,7 +196,7 @@ mod tests {
     use crate::learning::run::{follow::Followed, metrics::Record};
 
     #[test]
-    fn lines_are_missed_only_if_the_run_has_written_them() {
+    fn missing_lines_are_reported_only_if_the_run_has_written_them() {
         let folder = tempfile::tempdir().unwrap();
         let notices = |read: u64, logged: u64| {
             let line = Record { shots: read, ..Record::default() };

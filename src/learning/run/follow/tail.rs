@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn only_whole_lines_are_taken_and_each_once() {
+    fn only_complete_lines_are_read_and_each_once() {
         let (_folder, path, mut tail) = fresh();
         assert_eq!(look(&mut tail), None);
         let (first, second) = (line(1), line(2));
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_was_cut_off_or_removed_is_read_afresh() {
+    fn a_file_that_was_cut_off_or_removed_is_read_from_its_beginning() {
         let (_folder, path, mut tail) = fresh();
         fs::write(&path, line(1) + &line(2) + &line(3)).unwrap();
         assert_eq!(look(&mut tail), Some((false, vec![1, 2, 3])));
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_read_is_tried_again() {
+    fn a_failed_read_is_repeated() {
         let (_folder, path, mut tail) = fresh();
         std::fs::create_dir(&path).unwrap();
         for _ in 0..2 {
