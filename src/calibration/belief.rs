@@ -1,5 +1,5 @@
-//! What is held of a table's constants: values, and a covariance by its factor, so that unknowns are independent numbers
-//! with deviation 1.
+//! The prior belief about a table's constants: a normal distribution, stored by the factor of its covariance, so that the unknowns are
+//! independent numbers with standard deviation 1.
 
 use glam::DVec2;
 
@@ -8,43 +8,43 @@ use crate::{
     table::{DoubtError, Table, TableDoubt, steepest_tilt},
 };
 
-/// A slope that nobody can see, m/s² along both sides: 0.02 mm a metre. Rolls on a level table are computed in another way,
-/// with other roundings of up to half a percent: marks shall not jump where a slope comes to nothing.
+/// A negligible tilt, m/s² along both sides: 0.02 mm per metre. It replaces zero, because rolls on a level table are computed in another
+/// way, with different rounding of up to half a percent: marks must not jump where the tilt passes through zero.
 const LEVEL: f64 = 2e-4;
 
-/// The steepest slope that is considered, as a share of what a table may have.
-const STEEPEST: f64 = 0.995;
+/// Limit on the tilt, as a share of the largest tilt that a table may have.
+const MAX_TILT_SHARE: f64 = 0.995;
 
-/// Correlations up to this are left out of what is told.
-const TOLD: f64 = 0.05;
+/// Smallest absolute correlation that the resulting doubt contains.
+const MIN_CORRELATION: f64 = 0.05;
 
-/// Most times that correlations are made smaller by a hundredth; after that they are so small that they contradict nothing.
-const MOST_SHRINKINGS: usize = 500;
+/// Limit on the steps that shrink the correlations by one hundredth; after these they are too small to contradict each other.
+const MAX_SHRINKS: usize = 500;
 
-/// A normal distribution of the constants that are in doubt.
+/// A normal distribution of the uncertain constants.
 #[derive(Clone, Debug)]
 pub struct Belief {
     /// The table, without its doubt.
     table: Table,
     names: Vec<String>,
     means: Vec<f64>,
-    /// The lower triangle L of the covariance `L Lᵀ`, by rows.
+    /// The lower triangular factor L of the covariance `L Lᵀ`, by rows.
     factor: Vec<Vec<f64>>,
 }
 
 impl Belief {
-    /// What `doubt` says around `table`.
+    /// Creates the belief with the constants of `table` as means and the deviations and correlations of `doubt`.
     ///
     /// # Errors
-    /// Where its correlations contradict each other.
+    /// Fails if the correlations contradict each other.
     pub fn new(table: &Table, doubt: &TableDoubt) -> Result<Self, DoubtError> {
         let mut table = Table { doubt: None, ..table.clone() };
-        let slope = |name: &str| {
-            let may_be = doubt.deviations.get(name).is_some_and(|deviation| *deviation > 0.0);
-            if may_be { LEVEL } else { 0.0 }
+        let tilt = |name: &str| {
+            let is_uncertain = doubt.deviations.get(name).is_some_and(|deviation| *deviation > 0.0);
+            if is_uncertain { LEVEL } else { 0.0 }
         };
         if table.tilt == DVec2::ZERO {
-            table.tilt = DVec2::new(slope("tilt.x"), slope("tilt.y"));
+            table.tilt = DVec2::new(tilt("tilt.x"), tilt("tilt.y"));
         }
         let known = |(name, deviation): (&String, &f64)| {
             let value = TableDoubt::value(&table, name).filter(|_| *deviation > 0.0);
@@ -55,34 +55,37 @@ impl Belief {
         Ok(Self { table, names, means, factor })
     }
 
-    /// How many constants there are.
+    /// Number of uncertain constants.
     pub fn count(&self) -> usize {
         self.names.len()
     }
 
-    /// The table with these unknowns, its constants within their limits.
+    /// Returns the table for these unknowns, with its constants clamped to their limits.
     pub fn table(&self, unknowns: &[f64]) -> Table {
         let change = |table: Table, (name, value): (&String, f64)| TableDoubt::with_value(&table, name, value);
         let table = self.names.iter().zip(self.values(unknowns)).fold(self.table.clone(), change);
-        // On a steeper one balls might never stop.
-        let steepest = STEEPEST * steepest_tilt(&table);
-        Table { tilt: table.tilt.clamp_length_max(steepest), ..table }
+        // On a steeper table balls might never stop.
+        let limit = MAX_TILT_SHARE * steepest_tilt(&table);
+        Table { tilt: table.tilt.clamp_length_max(limit), ..table }
     }
 
-    /// The constants' values with these unknowns, as they are before a table's limits.
+    /// Returns the values of the constants for these unknowns, before they are clamped to the table's limits.
     pub fn values(&self, unknowns: &[f64]) -> Vec<f64> {
         self.means.iter().zip(&self.factor).map(|(mean, row)| mean + dot(row, unknowns)).collect()
     }
 
-    /// The likeliest unknowns with which a constant is so many deviations from its mean; `None` where it is not in doubt.
+    /// Returns the most probable unknowns with which a constant is `deviations` standard deviations from its mean; `None` if the constant
+    /// is not uncertain.
     pub fn unknowns_at(&self, name: &str, deviations: f64) -> Option<Vec<f64>> {
         let row = &self.factor[self.names.iter().position(|one| one == name)?];
-        let whole = dot(row, row).sqrt();
-        Some((0..self.count()).map(|index| row.get(index).map_or(0.0, |entry| deviations * entry / whole)).collect())
+        let deviation = dot(row, row).sqrt();
+        Some(
+            (0..self.count()).map(|index| row.get(index).map_or(0.0, |entry| deviations * entry / deviation)).collect(),
+        )
     }
 
-    /// Name, value and deviation of each constant.
-    pub fn told(&self) -> impl Iterator<Item = (&str, f64, f64)> {
+    /// Iterates over the name, mean and standard deviation of each constant.
+    pub fn constants(&self) -> impl Iterator<Item = (&str, f64, f64)> {
         self.names
             .iter()
             .zip(&self.means)
@@ -90,7 +93,7 @@ impl Belief {
             .map(|((name, mean), row)| (name.as_str(), *mean, dot(row, row).sqrt()))
     }
 
-    /// The covariance of the constants where that of the unknowns is `covariance`.
+    /// Returns the covariance of the constants if that of the unknowns is `covariance`.
     pub fn covariance(&self, covariance: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let line = |row: &Vec<f64>| -> Vec<f64> {
             let columns = 0..covariance.len();
@@ -100,9 +103,9 @@ impl Belief {
         half.iter().map(|one| self.factor.iter().map(|other| dot(one, other)).collect()).collect()
     }
 
-    /// The doubt that a covariance of the constants is, under the table's own law of the rails: other laws that its file holds in
-    /// doubt are not told apart and left out. Small correlations are left out, and what that leaves stays the
-    /// covariance of something.
+    /// Converts a covariance of the constants to a doubt, with the table's own law of the rails: the calibration does not distinguish
+    /// other laws in the table's file, so they are left out. Small correlations are left out, too; the others are shrunk if necessary, so
+    /// that the result remains a valid covariance.
     pub fn doubt(&self, covariance: &[Vec<f64>]) -> TableDoubt {
         let deviation = |index: usize| covariance[index][index].max(0.0).sqrt();
         let deviations = self.names.iter().enumerate().map(|(index, name)| (name.clone(), deviation(index))).collect();
@@ -110,14 +113,14 @@ impl Belief {
         for (row, line) in covariance.iter().enumerate() {
             for (column, entry) in line.iter().enumerate().take(row) {
                 let value = entry / (deviation(row) * deviation(column));
-                // What is certain has no correlation.
-                if value.abs() > TOLD && value.is_finite() {
+                // A certain constant has no correlation: the quotient is not finite.
+                if value.abs() > MIN_CORRELATION && value.is_finite() {
                     let rounded = (1e4 * value).round() / 1e4;
                     doubt.correlations.push((self.names[column].clone(), self.names[row].clone(), rounded));
                 }
             }
         }
-        for _ in 0..MOST_SHRINKINGS {
+        for _ in 0..MAX_SHRINKS {
             if doubt.validate().is_ok() {
                 break;
             }

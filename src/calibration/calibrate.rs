@@ -1,14 +1,14 @@
-//! From trials to a table of the player's own, with its doubts, what speaks against which mark, and what to play next.
+//! Calibrates the player's own table from trials: its constants with their doubts, a verdict on each mark, and the best next tests.
 
 use serde::Serialize;
 
 use super::{
     belief::Belief,
-    estimate::{Estimate, Trial, estimate, off},
+    estimate::{Estimate, Trial, estimate, standardized_residuals},
     forward::STROKE,
     information::information,
     protocol::{PROTOCOL, Quantity, Test},
-    rails::told_apart,
+    rails::distinct_rails,
     robust::misread,
 };
 use crate::{
@@ -16,13 +16,13 @@ use crate::{
     table::{DoubtError, Table, TableDoubt, TableError},
 };
 
-/// Most trials: the time that the fit takes grows with their cube.
-const MOST: usize = 60;
+/// Limit on the number of trials: the time of the fit grows with its cube.
+const MAX_TRIALS: usize = 60;
 
-/// From so many deviations on, a stroke is far from what was asked for.
-const FAR: f64 = 2.5;
+/// Standard deviations from the requested stroke above which a stroke counts as strange.
+const STRANGE_FROM: f64 = 2.5;
 
-/// What the numbers of a stroke are, in their order.
+/// Names of the numbers of a stroke, in their order.
 const STROKES: [&str; STROKE] =
     ["speed", "direction", "tip to the side", "height of the tip", "elevation", "line of the balls"];
 
@@ -31,109 +31,109 @@ const STROKES: [&str; STROKE] =
 pub struct Calibration {
     /// The table, with its doubt.
     pub table: Table,
-    /// What the table was called that it was held to be before.
+    /// Name of the prior table.
     #[serde(skip)]
     pub before: String,
-    /// Its constants.
+    /// The constants before and after.
     pub constants: Vec<Change>,
     /// The marks, in the order of the trials.
     #[serde(rename = "marks")]
     pub verdicts: Vec<Verdict>,
-    /// Trials, from 1 on, of which most marks look misread: nothing of them counts.
+    /// Numbers, from 1 on, of trials with mostly misread marks: none of their marks counts.
     pub left_out: Vec<usize>,
-    /// Strokes that must have been far from what the tests ask for, if the marks are right.
+    /// Strokes that must have been far from the requested ones, if the marks are right.
     pub strange: Vec<Strange>,
-    /// All tests, the one that tells most first.
+    /// All tests, the most informative first.
     pub next: Vec<Next>,
 }
 
 /// A constant before and after.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Change {
-    /// Its name in a table's file.
+    /// Name of the constant in a table's file.
     pub name: String,
-    /// What was held of it.
+    /// Prior mean.
     pub before: f64,
-    /// How far that could be off.
+    /// Prior standard deviation.
     pub before_deviation: f64,
-    /// What the trials say.
+    /// Posterior mean.
     pub after: f64,
-    /// How far that can be off.
+    /// Posterior standard deviation.
     pub after_deviation: f64,
 }
 
-/// What the other marks say of one.
+/// Agreement of a mark with the other marks.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Verdict {
-    /// Which trial, from 1 on.
+    /// Number of the trial, from 1 on.
     pub trial: usize,
-    /// Its test.
+    /// Name of its test.
     pub test: &'static str,
-    /// The mark.
+    /// Name of the mark.
     pub mark: &'static str,
-    /// What was marked, in the mark's unit.
+    /// The marked value, in the mark's unit.
     pub marked: f64,
-    /// How far it is from what was expected, in its standard errors.
+    /// Difference from the expected value, in standard errors of the mark.
     pub off: f64,
-    /// Whether it looks misread.
+    /// Whether the mark looks misread.
     pub misread: bool,
-    /// What was expected of a mark that looks misread, and its deviation; none where no stroke comes there.
+    /// Expected value of a mark that looks misread, and its standard deviation; `None` if no stroke leads there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expected: Option<(f64, f64)>,
-    /// Short rails before the ball stopped as it was marked, and as it was expected; of places where balls stop.
+    /// Short rails hit before the ball stopped, according to the mark and to the expectation; only for marks of stopped balls.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rails: Option<(usize, usize)>,
 }
 
-/// A stroke that the marks only fit if it was far from what its test asks for.
+/// A stroke that fits its marks only if it was far from the requested one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Strange {
-    /// Which trial, from 1 on.
+    /// Number of the trial, from 1 on.
     pub trial: usize,
-    /// Its test.
+    /// Name of its test.
     pub test: &'static str,
-    /// What was different.
+    /// The quantity that differed.
     pub what: &'static str,
-    /// By how many of the deviations that are assumed of any player.
+    /// The difference, in the standard deviations that are assumed for every player.
     pub off: f64,
 }
 
 /// A test that may be played next.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Next {
-    /// Its name.
+    /// Name of the test.
     pub test: &'static str,
-    /// Bits that one more stroke of it is expected to tell of the table.
+    /// Expected information of one more stroke about the table, bits.
     pub bits: f64,
 }
 
-/// Why there is no calibration.
+/// A calibration is not possible.
 #[derive(Debug, thiserror::Error)]
 pub enum CalibrationError {
-    /// Nothing to calibrate with.
-    #[error("there is no mark that can be used; carom calibrate --tests says what to play and what to mark")]
+    /// There is nothing to calibrate with.
+    #[error("there is no mark that can be used; carom calibrate --tests shows what to play and what to mark")]
     Nothing,
-    /// More strokes than are fitted in a reasonable time.
-    #[error("there are {0} trials; accepted are at most {MOST}, three times as many as are asked for")]
+    /// There are more strokes than can be fitted in a reasonable time.
+    #[error("there are {0} trials; accepted are at most {MAX_TRIALS}, three times as many as the tests ask for")]
     TooMany(usize),
-    /// The table is certain.
+    /// The table has no uncertain constant.
     #[error(
         "the table \"{0}\" has no constant in doubt that a calibration could find; use match or a table file of your own"
     )]
     Certain(String),
-    /// Its doubt cannot be.
+    /// The doubt is not valid.
     #[error(transparent)]
     Doubt(#[from] DoubtError),
-    /// The result is no table.
-    #[error("the marks lead to a table that cannot be: {0}")]
+    /// The result is not a valid table.
+    #[error("the marks lead to an impossible table: {0}")]
     Table(#[from] TableError),
 }
 
-/// Calibrates a table that is held to be `table`, with what `doubt` leaves open, by these trials, each with its number in
-/// the file.
+/// Calibrates the table from these trials, each with its number in the file, with `table` and `doubt` as the prior. The result is called
+/// `name`.
 ///
 /// # Errors
-/// Where nothing can be found.
+/// [`CalibrationError`] if the trials or the doubt do not allow a calibration.
 pub fn calibrate(
     name: &str,
     table: &Table,
@@ -146,7 +146,7 @@ pub fn calibrate(
     if trials.is_empty() {
         return Err(CalibrationError::Nothing);
     }
-    if trials.len() > MOST {
+    if trials.len() > MAX_TRIALS {
         return Err(CalibrationError::TooMany(trials.len()));
     }
     let (numbers, trials): (Vec<usize>, Vec<Trial>) = trials.iter().cloned().unzip();
@@ -154,8 +154,8 @@ pub fn calibrate(
     let fitted = belief.table(&found.likely);
     let (mut verdicts, mut kept, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
     for (index, trial) in trials.iter().enumerate() {
-        let all = off(&fitted, trial, &found.strokes[index]);
-        // Where most marks of a stroke are wrong, it was another stroke, and the others say nothing.
+        let all = standardized_residuals(&fitted, trial, &found.strokes[index]);
+        // If most marks of a stroke are wrong, it was another stroke, and its other marks contain no information.
         if 2 * all.iter().filter(|off| misread(**off) > 0.5).count() > all.len() {
             left_out.push(numbers[index] + 1);
         } else {
@@ -166,8 +166,8 @@ pub fn calibrate(
             let is_misread = misread(off) > 0.5;
             let expected = is_misread.then(|| found.expected(&belief, &trials, index, reading.mark)).flatten();
             let is_stop = matches!(mark.quantity, Quantity::StopAlong(_));
-            let place = |way: f64| if is_stop { trial.test.place(table, way) } else { (0, way) };
-            let (rails, marked) = place(reading.value);
+            let position = |value: f64| if is_stop { trial.test.position(table, value) } else { (0, value) };
+            let (rails, marked) = position(reading.value);
             verdicts.push(Verdict {
                 trial: numbers[index] + 1,
                 test: trial.test.name,
@@ -175,14 +175,14 @@ pub fn calibrate(
                 marked,
                 off: -off,
                 misread: is_misread,
-                expected: expected.map(|(value, deviation)| (place(value).1, deviation)),
-                rails: is_stop.then(|| (rails, expected.map_or(rails, |(value, _)| place(value).0))),
+                expected: expected.map(|(value, deviation)| (position(value).1, deviation)),
+                rails: is_stop.then(|| (rails, expected.map_or(rails, |(value, _)| position(value).0))),
             });
         }
     }
     let mut strange = Vec::new();
     for ((number, trial), stroke) in numbers.iter().zip(&trials).zip(&found.strokes) {
-        let far = stroke.iter().zip(STROKES).filter(|(off, _)| off.abs() > FAR);
+        let far = stroke.iter().zip(STROKES).filter(|(off, _)| off.abs() > STRANGE_FROM);
         strange.extend(far.map(|(off, what)| Strange { trial: number + 1, test: trial.test.name, what, off: *off }));
     }
     let (belief, found) = if left_out.is_empty() { (belief, found) } else { fit(table, doubt, &kept)? };
@@ -197,31 +197,31 @@ pub fn calibrate(
         after: TableDoubt::value(&after, name).unwrap_or(before),
         after_deviation: covariance[index][index].max(0.0).sqrt(),
     };
-    let constants = belief.told().enumerate().map(change).collect();
+    let constants = belief.constants().enumerate().map(change).collect();
     let next = next(&belief, &found.unknowns, &found.covariance);
     Ok(Calibration { table: after, before: table.name.clone(), constants, verdicts, left_out, strange, next })
 }
 
-/// The belief about the table and its estimate from the trials; a rail that differs from the others gets constants of its own.
+/// Estimates the table from the trials and returns its belief, too; a rail that differs from the others gets its own constants.
 fn fit(table: &Table, doubt: &TableDoubt, trials: &[Trial]) -> Result<(Belief, Estimate), CalibrationError> {
-    if let Some(apart) = told_apart(table, doubt, trials)? {
-        return Ok(apart);
+    if let Some(with_distinct_rails) = distinct_rails(table, doubt, trials)? {
+        return Ok(with_distinct_rails);
     }
     let belief = Belief::new(table, doubt)?;
     let found = estimate(&belief, trials);
     Ok((belief, found))
 }
 
-/// What is not known of a table before it is calibrated: what its file says, or as much as tables differ by. The constants of
-/// `match` are sure of the filmed table alone.
+/// Returns the doubt about a table before its calibration: that of its file, or the spread between tables. The precise constants of
+/// `match` apply to the filmed table only, so the table loses its name here.
 pub fn prior(table: &Table) -> TableDoubt {
     TableDoubt::of(&Table { name: String::new(), ..table.clone() })
 }
 
-/// All tests, the one that tells most first, before anything was played.
+/// Returns all tests before any trial, the most informative first.
 ///
 /// # Errors
-/// Where the table has no doubt that a test could lessen.
+/// Fails if the doubt is not valid, or if the table has no uncertain constant.
 pub fn prospects(table: &Table, doubt: &TableDoubt) -> Result<Vec<Next>, CalibrationError> {
     let belief = Belief::new(table, doubt)?;
     let count = belief.count();
@@ -239,14 +239,14 @@ fn next(belief: &Belief, unknowns: &[f64], covariance: &[Vec<f64>]) -> Vec<Next>
 }
 
 impl Calibration {
-    /// Trials of which a mark looks misread, in order.
+    /// Returns the numbers of the trials with a mark that looks misread, in order.
     pub fn misread(&self) -> Vec<usize> {
         let mut trials: Vec<usize> = self.verdicts.iter().filter(|one| one.misread).map(|one| one.trial).collect();
         trials.dedup();
         trials
     }
 
-    /// Whether so many trials look misread that they contradict each other, or nothing of the only one counts.
+    /// Whether so many trials look misread that they contradict each other, or all trials are left out.
     pub fn is_contradictory(&self) -> bool {
         let mut trials: Vec<usize> = self.verdicts.iter().map(|one| one.trial).collect();
         trials.dedup();

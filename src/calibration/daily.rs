@@ -1,4 +1,4 @@
-//! From day to day: what changes with the weather, and whether the table plays shorter or longer than yesterday.
+//! Changes from day to day: the constants that depend on the weather, and whether the table plays shorter or longer than before.
 
 use super::{
     entries::Entries,
@@ -7,21 +7,22 @@ use super::{
 };
 use crate::table::{Rail, Table, TableDoubt};
 
-/// By how much constants change from one day to the next with the humidity of cloth and rails: standard deviations. They are
-/// assumptions. A rail's own values change as, and with, those of all rails.
+/// Standard deviations of the constants' changes from one day to the next, due to the humidity of cloth and rails. They are
+/// assumptions. A rail's own values change by the same amount as, and together with, those of all rails.
 const DAY: [(&str, f64); 5] =
     [("mu_r", 0.0005), ("mu_s", 0.01), ("e_rail", 0.01), ("mu_rail", 0.03), ("rail.kappa", 0.05)];
 
-/// The tests of a daily check: the first mark that is told of each.
+/// The tests of a daily check.
 pub const DAILY: [&str; 2] = ["lag", "corner-five"];
 
-/// The tests of a check of the day that are still to be played, a stroke of each.
+/// Returns the tests of a daily check that are not played yet, with one stroke each.
 pub fn missing_today(entries: &Entries) -> Vec<(&'static Test, usize)> {
     let is_open = |name: &&str| entries.trials.iter().all(|entry| entry.test != **name);
     DAILY.iter().filter(|name| is_open(name)).filter_map(|name| Some((Test::named(name)?, 1))).collect()
 }
 
-/// What changes together, and by how much: each constant of [`DAY`] that the table has, and those of its single rails.
+/// Returns the groups of constants that change together, with the deviation of the change: each constant of [`DAY`] that the table has,
+/// with those of its single rails.
 fn changing(table: &Table) -> [(f64, Vec<String>); DAY.len()] {
     DAY.map(|(name, change)| {
         let own: &[&str] = match name {
@@ -35,7 +36,7 @@ fn changing(table: &Table) -> [(f64, Vec<String>); DAY.len()] {
     })
 }
 
-/// The doubt about a table on the day after: what was known of it, and what may have changed since.
+/// Returns the doubt about a table on the next day: the known doubt plus the possible changes since.
 pub fn overnight(table: &Table, doubt: &TableDoubt) -> TableDoubt {
     let (mut after, groups) = (doubt.clone(), changing(table));
     for (change, names) in &groups {
@@ -48,12 +49,12 @@ pub fn overnight(table: &Table, doubt: &TableDoubt) -> TableDoubt {
     let share = |name: &String| doubt.deviations.get(name).map_or(0.0, |before| before / deviations[name]);
     after.correlations.iter_mut().for_each(|(one, other, value)| *value *= share(one) * share(other));
     for (change, names) in &groups {
-        for (place, one) in names.iter().enumerate() {
-            for other in &names[place + 1..] {
+        for (index, one) in names.iter().enumerate() {
+            for other in &names[index + 1..] {
                 let common = change * change / (deviations[one] * deviations[other]);
-                let is_theirs =
+                let is_this_pair =
                     |(a, b, _): &&mut (String, String, f64)| (a, b) == (one, other) || (b, a) == (one, other);
-                match after.correlations.iter_mut().find(is_theirs) {
+                match after.correlations.iter_mut().find(is_this_pair) {
                     Some((_, _, value)) => *value += common,
                     None => after.correlations.push((one.clone(), other.clone(), common)),
                 }
@@ -63,17 +64,17 @@ pub fn overnight(table: &Table, doubt: &TableDoubt) -> TableDoubt {
     after
 }
 
-/// How a table plays: what the two tests of a day come to with the stroke that is asked for.
+/// How a table plays: the results of the two daily tests with exactly the requested strokes.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Play {
-    /// The way of a lag along the table, diamonds.
+    /// Distance of a lag along the table, diamonds.
     pub lag: f64,
-    /// Where Corner-5 from 50 to 20 arrives on the third rail, diamonds from the player's end.
+    /// Arrival of Corner-5 from 50 to 20 on the third rail, diamonds from the player's end.
     pub third_rail: f64,
 }
 
 impl Play {
-    /// That of `table`.
+    /// Simulates the tests on `table`.
     pub fn of(table: &Table) -> Self {
         let mark = |test: &str, mark: &str| {
             let test = Test::named(test)?;
@@ -81,14 +82,14 @@ impl Play {
             Hand::ASSUMED.seen(table, test, false, &[0.0; STROKE])[index]
         };
         let [lag, corner] = DAILY;
-        // On a table on which the ball never comes there it has no way.
+        // 0 on a table on which the ball never gets there.
         let or_none = |mark: Option<f64>| mark.unwrap_or_default();
         Self { lag: or_none(mark(lag, "stop")), third_rail: or_none(mark(corner, "third")) }
     }
 
-    /// The same in words, against an earlier day.
+    /// Describes the difference from an earlier day in words.
     pub fn against(&self, before: &Self) -> String {
-        // Without a sign where it rounds to nought.
+        // Adding zero removes the sign of a negative zero.
         let further = (100.0 * (self.lag / before.lag - 1.0)).round() + 0.0;
         let longer = before.third_rail - self.third_rail;
         let compare = |value: f64, least: f64, [less, more]: [&'static str; 2]| {

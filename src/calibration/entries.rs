@@ -1,4 +1,4 @@
-//! What a player has written down: trials by name, as they stand in a file, and what they mean.
+//! The player's entries: trials with their marks as written in a file, and their conversion to readings.
 
 use std::{collections::BTreeMap, fmt};
 
@@ -14,20 +14,20 @@ use crate::{
     table::Table,
 };
 
-/// How sure a place is that was measured with a tape, diamonds: 5 mm.
+/// Standard error of a position measured with a tape, diamonds: 5 mm.
 const TAPE: f64 = 0.015;
 
-/// Shortest time that is believed, s: nobody starts and stops a watch faster.
+/// Shortest accepted time, s: nobody starts and stops a watch faster.
 const SHORTEST: f64 = 0.2;
 
-/// Most short rails that a ball meets in a test: nobody strikes it so hard.
+/// Largest accepted number of short rails that a ball hits in a test: nobody strikes harder.
 pub const MOST_RAILS: usize = 12;
 
 /// A file of entries.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Entries {
-    /// The name that the table shall have.
+    /// The name of the calibrated table.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// The strokes, in the order in which they were played.
@@ -40,14 +40,14 @@ pub struct Entries {
 pub struct Entry {
     /// Name of the test.
     pub test: String,
-    /// How many short rails the ball met, where it is not what the test expects.
+    /// Number of short rails that the ball hit, if it is not the one that the test expects.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rails: Option<usize>,
-    /// Whether it was played from the far end of the table, with everything counted from where the player stands: then the
-    /// balls meet the other rails.
+    /// Whether it was played from the far end of the table, with all marks counted from the player's position: the
+    /// balls then hit the opposite rails.
     #[serde(default, rename = "far-end", skip_serializing_if = "std::ops::Not::not")]
     pub far_end: bool,
-    /// How sure marks are, where it is not what is usual.
+    /// Standard errors of marks, if they are not the usual ones.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub sure: BTreeMap<String, Written>,
     /// The marks by their names.
@@ -55,13 +55,13 @@ pub struct Entry {
     pub marks: BTreeMap<String, Written>,
 }
 
-/// A number as it is written: in the mark's unit, or with a unit of its own, like `"412 mm"`.
+/// A number as written: in the mark's unit, or with its own unit, like `"412 mm"`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged, expecting = "expected a number, or a text like \"412 mm\"")]
 pub enum Written {
-    /// In the mark's unit.
+    /// A number in the mark's unit.
     Number(f64),
-    /// With a unit.
+    /// A text with a unit.
     Text(String),
 }
 
@@ -75,7 +75,7 @@ impl fmt::Display for Written {
 }
 
 impl Written {
-    /// The number in the mark's unit, and whether it was measured with a tape.
+    /// Returns the number in the mark's unit, and whether it was measured with a tape.
     fn read(&self, unit: Unit, table: &Table) -> Option<(f64, bool)> {
         let text = match self {
             Self::Number(number) => return Some((*number, false)),
@@ -92,23 +92,23 @@ impl Written {
     }
 }
 
-/// What is odd about an entry; what is odd is left out.
+/// A problem of an entry; the part with the problem is left out.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("trial {number} ({test}): {what}")]
 pub struct Oddity {
-    /// Which trial, from 1 on.
+    /// Number of the trial, from 1 on.
     pub number: usize,
-    /// Its test.
+    /// Name of its test.
     pub test: String,
-    /// What is odd, and what would be accepted.
+    /// The problem, and what would be accepted.
     pub what: String,
 }
 
 impl Entries {
-    /// Reads a file's text: TOML, or JSON where it begins with a brace.
+    /// Parses a file's text: TOML, or JSON if it begins with a brace.
     ///
     /// # Errors
-    /// Where it is neither, in words.
+    /// A message if the text is neither.
     pub fn parse(text: &str) -> Result<Self, String> {
         if text.trim_start().starts_with('{') {
             return serde_json::from_str(text).map_err(|error| json_flaw(&error));
@@ -116,7 +116,7 @@ impl Entries {
         toml::from_str(text).map_err(|error| toml_flaw(text, &error))
     }
 
-    /// The trials that can be used, each with its number in the file from 0 on, and what is odd about the others.
+    /// Returns the usable trials, each with its number in the file from 0 on, and the problems of all entries.
     pub fn trials(&self, table: &Table) -> (Vec<(usize, Trial)>, Vec<Oddity>) {
         let (mut trials, mut odd) = (Vec::new(), Vec::new());
         for (index, entry) in self.trials.iter().enumerate() {
@@ -131,7 +131,7 @@ impl Entries {
         (trials, odd)
     }
 
-    /// How many strokes of each test are still missing, of those that miss any.
+    /// Returns the tests with missing strokes, and the number of these strokes.
     pub fn missing(&self) -> Vec<(&'static Test, usize)> {
         let played = |test: &Test| self.trials.iter().filter(|entry| entry.test == test.name).count();
         PROTOCOL
@@ -143,11 +143,11 @@ impl Entries {
 }
 
 impl Entry {
-    /// What the marks mean, and what is odd.
+    /// Converts the marks to readings, and returns the problems.
     pub fn readings(&self, table: &Table) -> (Vec<Reading>, Vec<String>) {
         let Some(test) = Test::named(&self.test) else {
             let names: Vec<&str> = PROTOCOL.iter().map(|test| test.name).collect();
-            return (Vec::new(), vec![format!("there is no such test; there are {}", names.join(", "))]);
+            return (Vec::new(), vec![format!("there is no such test; the tests are {}", names.join(", "))]);
         };
         let (mut readings, mut odd) = (Vec::new(), Vec::new());
         let names: Vec<&str> = test.marks.iter().map(|mark| mark.name).collect();
@@ -168,7 +168,7 @@ impl Entry {
         (readings, odd)
     }
 
-    /// A mark's value, where a ball stops along the table as its way, and how sure it is.
+    /// Converts a mark to its value and standard error. The value of a ball that stops along the table is its travel ([`Test::travel`]).
     fn reading(&self, table: &Table, test: &Test, mark: &Mark, written: &Written) -> Result<(f64, f64), String> {
         let Mark { name, .. } = mark;
         let unit = mark.unit();
@@ -183,14 +183,14 @@ impl Entry {
         let least = if unit == Unit::Seconds { SHORTEST } else { 0.0 };
         let most = mark.most();
         if !(least..=most).contains(&value) {
-            let whose = match unit {
+            let reason = match unit {
                 Unit::Diamonds => "no ball can be there",
                 Unit::Seconds if value > most => "no ball rolls that long: was the stopwatch left running?",
                 Unit::Seconds => "nobody stops a watch that fast",
             };
-            return Err(format!("{name} = {written}: {whose}; accepted is {least} to {most} {}", unit.sign()));
+            return Err(format!("{name} = {written}: {reason}; accepted is {least} to {most} {}", unit.sign()));
         }
-        // A ball that touches a rail is a radius from it, though it may be marked at the rail itself.
+        // The centre of a ball that touches a rail is a radius from it, but the player may have marked the rail itself.
         let radius = table.radius / table.diamond();
         let value = if unit == Unit::Diamonds { value.clamp(radius, most - radius) } else { value };
         let sure = match self.sure.get(*name) {
@@ -208,7 +208,9 @@ impl Entry {
             return Ok((value, sure));
         }
         let rails = self.rails.or(test.rails).ok_or_else(|| {
-            format!("{name} = {written} says nothing without the number of short rails that the ball met; add rails = 5, or as many as it was")
+            format!(
+                "{name} = {written} needs the number of short rails that the ball hit; add it, for example as rails = 5"
+            )
         })?;
         if rails > 0 && test.balls.len() > 1 {
             return Err(format!("rails = {rails}: no ball may meet a rail in this test; play it again, softer"));
@@ -216,6 +218,6 @@ impl Entry {
         if rails > MOST_RAILS {
             return Err(format!("rails = {rails}: nobody strikes that hard; accepted is 0 to {MOST_RAILS}"));
         }
-        Ok((test.way(table, rails, value), sure))
+        Ok((test.travel(table, rails, value), sure))
     }
 }

@@ -1,4 +1,4 @@
-//! What a stroke of a test leads to on a table: the simulation as a player with a stopwatch sees it.
+//! The forward model of the calibration: simulates a stroke of a test and measures its marks like a player with a stopwatch.
 
 use std::{borrow::Cow, ops::ControlFlow};
 
@@ -11,28 +11,27 @@ use crate::{
     table::{BALLS, Layout, Table},
 };
 
-/// How many numbers say how a stroke differed from what the test asks for.
+/// Number of values that describe the difference of a stroke from the requested one.
 pub const STROKE: usize = 6;
 
-/// By how much strokes differ from what a test asks for, and how far balls are put beside their places: standard
-/// deviations of a player who has never seen the table. They are assumptions, and wide ones: what was really struck is
-/// found from the marks, as far as they say it.
+/// Standard deviations of a player's strokes from the requested ones, and of the ball placement, for a player who has never seen the
+/// table. They are wide assumptions: the fit infers the actual strokes from the marks, as far as these determine them.
 #[derive(Clone, Copy, Debug)]
 pub struct Hand {
-    /// Of the speed, as a share.
+    /// Deviation of the speed, as a share.
     pub speed: f64,
-    /// Of the direction, rad.
+    /// Deviation of the direction, rad.
     pub direction: f64,
-    /// Of the tip's place to the side and in height, ball radii.
+    /// Deviation of the tip position to the side and in height, ball radii.
     pub tip: f64,
-    /// Of the elevation, rad.
+    /// Deviation of the elevation, rad.
     pub elevation: f64,
-    /// Of the line of a frozen pair, or of the direction in which an object ball was put, rad.
+    /// Deviation of the line of a frozen pair, or of the direction in which an object ball was placed, rad.
     pub line: f64,
 }
 
 impl Hand {
-    /// What is assumed of every player.
+    /// The deviations assumed for every player.
     pub const ASSUMED: Self = Self {
         speed: 0.2,
         direction: 0.3_f64.to_radians(),
@@ -41,7 +40,7 @@ impl Hand {
         line: 0.4_f64.to_radians(),
     };
 
-    /// The stroke that differs from a test's by so many of these deviations, and where the balls lie then.
+    /// Returns the stroke and the layout that differ from those of the test by `off`, in these deviations.
     pub fn stroke(&self, table: &Table, test: &Test, off: &[f64; STROKE]) -> (CueInputs, Layout) {
         let [a, b, theta, phi, speed] = test.cue;
         let cue = CueInputs {
@@ -54,8 +53,8 @@ impl Hand {
         (cue, test.layout(table, self.line * off[5]))
     }
 
-    /// What the marks of `test` are after such a stroke, played from the far end or not; `None` where the ball never comes to
-    /// what is marked.
+    /// Returns the marks of `test` after such a stroke, played from the far end if `is_turned`; `None` for a mark to which the ball never
+    /// gets.
     pub fn seen(&self, table: &Table, test: &Test, is_turned: bool, off: &[f64; STROKE]) -> Vec<Option<f64>> {
         let table = if is_turned { Cow::Owned(table.turned()) } else { Cow::Borrowed(table) };
         let (cue, layout) = self.stroke(&table, test, off);
@@ -63,18 +62,20 @@ impl Hand {
     }
 }
 
-/// What a player can see of a shot.
+/// The part of a shot that a player can observe.
 #[derive(Clone, Debug)]
-struct Seen {
-    /// Rails that each ball has met: time, place of its centre.
+struct Observed {
+    /// Rail contacts of each ball: time, s, and position of the ball's centre, m.
     rails: [Vec<(f64, DVec2)>; BALLS],
-    /// How many of them are short.
+    /// Number of contacts with short rails.
     short: [usize; BALLS],
-    places: [DVec2; BALLS],
+    /// Current and finally last positions, m.
+    positions: [DVec2; BALLS],
+    /// Times at which the balls stop, s.
     stops: [f64; BALLS],
 }
 
-impl Observer for Seen {
+impl Observer for Observed {
     fn wants_segments(&self) -> bool {
         true
     }
@@ -82,7 +83,7 @@ impl Observer for Seen {
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         match event.kind {
             EventKind::BallRail(ball, rail) => {
-                self.rails[ball].push((event.time, self.places[ball]));
+                self.rails[ball].push((event.time, self.positions[ball]));
                 self.short[ball] += usize::from(matches!(rail, Rail::Left | Rail::Right));
             }
             EventKind::RollingStationary(ball) => self.stops[ball] = event.time,
@@ -92,26 +93,29 @@ impl Observer for Seen {
     }
 
     fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
-        self.places[ball] = segment.position_after(end - segment.start);
+        self.positions[ball] = segment.position_after(end - segment.start);
     }
 }
 
-/// What the marks of `test` are after this stroke, in their units; `None` where the ball never comes to what is marked.
+/// Returns the marks of `test` after this stroke, in their units; `None` for a mark to which the ball never gets.
 fn marks(table: &Table, test: &Test, cue: &CueInputs, layout: &Layout) -> Vec<Option<f64>> {
-    let mut seen = Seen { rails: Default::default(), short: [0; BALLS], places: layout.balls, stops: [0.0; BALLS] };
-    watch(table, layout, &strike(table, cue), &mut seen);
-    let diamonds = |place: DVec2| (place + 0.5 * DVec2::new(table.length, table.width)) / table.diamond();
-    let rail = |ball: usize, number: usize| seen.rails[ball].get(number - 1);
+    let mut observed =
+        Observed { rails: Default::default(), short: [0; BALLS], positions: layout.balls, stops: [0.0; BALLS] };
+    watch(table, layout, &strike(table, cue), &mut observed);
+    let diamonds = |position: DVec2| (position + 0.5 * DVec2::new(table.length, table.width)) / table.diamond();
+    let rail = |ball: usize, number: usize| observed.rails[ball].get(number - 1);
     let moment = |moment: Moment| match moment {
         Moment::Stroke => Some(0.0),
         Moment::Rail(ball, number) => rail(ball, number).map(|(time, _)| *time),
-        Moment::Stop(ball) => Some(seen.stops[ball]),
+        Moment::Stop(ball) => Some(observed.stops[ball]),
     };
     let value = |quantity: Quantity| match quantity {
-        Quantity::StopAlong(ball) => Some(test.way(table, seen.short[ball], diamonds(seen.places[ball]).x)),
-        Quantity::StopAcross(ball) => Some(diamonds(seen.places[ball]).y),
-        Quantity::RailAlong(ball, number) => rail(ball, number).map(|(_, place)| diamonds(*place).x),
-        Quantity::RailAcross(ball, number) => rail(ball, number).map(|(_, place)| diamonds(*place).y),
+        Quantity::StopAlong(ball) => {
+            Some(test.travel(table, observed.short[ball], diamonds(observed.positions[ball]).x))
+        }
+        Quantity::StopAcross(ball) => Some(diamonds(observed.positions[ball]).y),
+        Quantity::RailAlong(ball, number) => rail(ball, number).map(|(_, position)| diamonds(*position).x),
+        Quantity::RailAcross(ball, number) => rail(ball, number).map(|(_, position)| diamonds(*position).y),
         Quantity::Time(from, to) => Some(moment(to)? - moment(from)?),
     };
     test.marks.iter().map(|mark| value(mark.quantity)).collect()

@@ -1,4 +1,4 @@
-//! What another stroke of a test is expected to tell: by how much the constants' entropy falls, from the linearized model.
+//! Expected information of one more stroke of a test: the decrease of the constants' entropy in the linearized model.
 
 use std::f64::consts::LN_2;
 
@@ -10,27 +10,28 @@ use super::{
 };
 use crate::statistics::half_log_determinant;
 
-/// Bits that a stroke of `test` is expected to tell of the constants whose unknowns are `unknowns` with this covariance.
+/// Returns the expected information, bits, of a stroke of `test` about constants whose unknowns have the means `unknowns` and this
+/// covariance.
 pub fn information(belief: &Belief, unknowns: &[f64], covariance: &[Vec<f64>], test: &Test) -> f64 {
     let seen =
         |unknowns: &[f64], stroke: &[f64; STROKE]| Hand::ASSUMED.seen(&belief.table(unknowns), test, false, stroke);
-    let still = [0.0; STROKE];
-    let at = seen(unknowns, &still);
-    let told: Vec<usize> = (0..at.len()).filter(|mark| at[*mark].is_some()).collect();
-    // Derivatives of the marks in their standard errors; of one that is lost on the way, nothing is expected.
+    let exact = [0.0; STROKE];
+    let at = seen(unknowns, &exact);
+    let marks: Vec<usize> = (0..at.len()).filter(|mark| at[*mark].is_some()).collect();
+    // Derivatives of the marks in standard errors; 0 for a mark to which the ball does not get after the step.
     let column = |moved: Vec<Option<f64>>| -> Vec<f64> {
         let slope = |mark: &usize| {
             let change = moved[*mark].zip(at[*mark]).map_or(0.0, |(moved, at)| moved - at);
             change / (STEP * test.marks[*mark].sure)
         };
-        told.iter().map(slope).collect()
+        marks.iter().map(slope).collect()
     };
-    let slopes: Vec<Vec<f64>> = moved(unknowns, &still, seen).map(column).collect();
+    let slopes: Vec<Vec<f64>> = moved(unknowns, &exact, seen).map(column).collect();
     let (by_constant, by_stroke) = slopes.split_at(belief.count());
-    let mut noise: Vec<Vec<f64>> = vec![vec![0.0; told.len()]; told.len()];
+    let mut noise: Vec<Vec<f64>> = vec![vec![0.0; marks.len()]; marks.len()];
     let mut all = noise.clone();
-    for row in 0..told.len() {
-        for other in 0..told.len() {
+    for row in 0..marks.len() {
+        for other in 0..marks.len() {
             let own = f64::from(u8::from(row == other));
             noise[row][other] = own + by_stroke.iter().map(|slope| slope[row] * slope[other]).sum::<f64>();
             let spread = by_constant.iter().zip(covariance).map(|(slope, line)| {

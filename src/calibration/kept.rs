@@ -1,4 +1,4 @@
-//! The file in which entries are kept: each change is on the disk before anything else is done with it.
+//! The file of the player's entries: every change is written to the disk before the program uses it.
 
 use std::{
     io,
@@ -11,48 +11,48 @@ use crate::storage::{self, Lock, target_of, write_atomic};
 /// A change of the entries.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edit {
-    /// A stroke was played.
+    /// Appends a stroke.
     Add(Entry),
-    /// This stroke is put at its place, from 0 on.
+    /// Inserts a stroke at an index, from 0 on.
     Insert(usize, Entry),
-    /// This stroke, which stands there, is taken out.
+    /// Removes the stroke at an index.
     TakeOut(usize, Entry),
-    /// The first stroke, which stands there, becomes the second.
+    /// Replaces the first stroke, at an index, by the second.
     Amend(usize, Entry, Entry),
-    /// All of it becomes this; what there was is kept beside the file, with what was kept before.
+    /// Replaces all entries. The old ones are kept in a backup file, next to earlier backups.
     Anew(Entries),
 }
 
-/// Why entries are not read or kept.
+/// Entries cannot be read or saved.
 #[derive(Debug, thiserror::Error)]
 pub enum KeptError {
     /// The file cannot be read.
     #[error("{0} cannot be read: {1}")]
     Unread(PathBuf, io::Error),
-    /// It holds no entries.
+    /// The file does not contain entries.
     #[error("{0}: {1}")]
     Wrong(PathBuf, String),
-    /// It cannot be written.
-    #[error("{0} cannot be written, so this change is not kept: {1}")]
+    /// The file cannot be written.
+    #[error("{0} cannot be written, so this change is not saved: {1}")]
     Unwritten(PathBuf, io::Error),
-    /// What was to be changed is not there any more.
-    #[error("the file {0} was changed by another program, and the stroke is not there any more")]
+    /// The stroke to change no longer exists.
+    #[error("the file {0} was changed by another program, and the stroke no longer exists")]
     Gone(PathBuf),
 }
 
-/// The entries of a file.
+/// Reads the entries of a file.
 ///
 /// # Errors
-/// Where it cannot be read, or holds something else.
+/// Fails if the file cannot be read or does not contain entries.
 pub fn entries_of(path: &Path) -> Result<Entries, KeptError> {
     let text = storage::read_text(path, storage::SMALL).map_err(|error| KeptError::Unread(path.to_owned(), error))?;
     Entries::parse(&text).map_err(|error| KeptError::Wrong(path.to_owned(), error))
 }
 
-/// The same; none where there is no file yet.
+/// Reads the entries of a file; no entries if the file does not exist yet.
 ///
 /// # Errors
-/// As [`entries_of`].
+/// The same as [`entries_of`].
 pub fn kept_entries(path: &Path) -> Result<Entries, KeptError> {
     match entries_of(path) {
         Err(KeptError::Unread(_, error)) if error.kind() == io::ErrorKind::NotFound => Ok(Entries::default()),
@@ -60,20 +60,21 @@ pub fn kept_entries(path: &Path) -> Result<Entries, KeptError> {
     }
 }
 
-/// Makes a change of what the file holds now, whoever has written it; gives all entries, and the change back.
+/// Applies a change to the current content of the file, including changes by other programs. Returns all entries, and the change that
+/// reverts this one.
 ///
 /// # Errors
-/// Where the file cannot be read or written, or does not hold what was to be changed: then it stays as it is.
+/// Fails if the file cannot be read or written, or does not contain the stroke to change. The file is then unchanged.
 pub fn edit_entries(path: &Path, edit: &Edit) -> Result<(Entries, Edit), KeptError> {
     let _lock = lock(path)?;
     let mut entries = kept_entries(path)?;
-    let place = |trials: &[Entry], place: usize, entry: &Entry| {
-        let is_there = trials.get(place) == Some(entry);
-        let found = if is_there { Some(place) } else { trials.iter().rposition(|one| one == entry) };
+    let index_of = |trials: &[Entry], index: usize, entry: &Entry| {
+        let is_there = trials.get(index) == Some(entry);
+        let found = if is_there { Some(index) } else { trials.iter().rposition(|one| one == entry) };
         found.ok_or_else(|| KeptError::Gone(path.to_owned()))
     };
     let trials = &mut entries.trials;
-    let back = match edit {
+    let undo = match edit {
         Edit::Add(entry) => {
             trials.push(entry.clone());
             Edit::TakeOut(trials.len() - 1, entry.clone())
@@ -84,11 +85,11 @@ pub fn edit_entries(path: &Path, edit: &Edit) -> Result<(Entries, Edit), KeptErr
             Edit::TakeOut(at, entry.clone())
         }
         Edit::TakeOut(at, entry) => {
-            let at = place(trials, *at, entry)?;
+            let at = index_of(trials, *at, entry)?;
             Edit::Insert(at, trials.remove(at))
         }
         Edit::Amend(at, before, after) => {
-            let at = place(trials, *at, before)?;
+            let at = index_of(trials, *at, before)?;
             trials[at] = after.clone();
             Edit::Amend(at, after.clone(), before.clone())
         }
@@ -100,52 +101,52 @@ pub fn edit_entries(path: &Path, edit: &Edit) -> Result<(Entries, Edit), KeptErr
         }
     };
     write(path, &entries)?;
-    Ok((entries, back))
+    Ok((entries, undo))
 }
 
-/// Where entries are kept that were put aside last.
+/// Returns the path of the latest backup of the entries.
 pub fn beside(path: &Path) -> PathBuf {
     path.with_extension("before.toml")
 }
 
-/// Where they are kept that were put aside so many times ago; 1 is the last time.
-fn aged(path: &Path, age: usize) -> PathBuf {
+/// Returns the path of a backup; `age` 1 is the latest.
+fn backup_path(path: &Path, age: usize) -> PathBuf {
     if age == 1 { beside(path) } else { path.with_extension(format!("before-{age}.toml")) }
 }
 
-/// How often entries that were put aside are kept.
-const MOST_KEPT: usize = 9;
+/// Number of backups that are kept.
+const MAX_BACKUPS: usize = 9;
 
-/// Keeps a file beside its place that holds no entries that can be read, so that others can be kept there.
+/// Moves an unreadable file to the backups, so that new entries can be saved under its name.
 ///
 /// # Errors
-/// Where it cannot be moved: then it stays.
+/// Fails if the file cannot be moved; it then stays.
 pub fn put_aside_unread(path: &Path) -> Result<(), KeptError> {
     let _lock = lock(path)?;
-    // Another program may have mended it, or put it aside.
+    // Another program may have repaired or moved it.
     if kept_entries(path).is_ok() {
         return Ok(());
     }
-    make_room_beside(path)?;
+    rotate_backups(path)?;
     std::fs::rename(path, beside(path)).map_err(|error| KeptError::Unwritten(beside(path), error))
 }
 
-/// The right to change the file, which one program has at a time.
+/// Waits for the exclusive right to change the file.
 fn lock(path: &Path) -> Result<Lock, KeptError> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     Lock::wait(folder).map_err(|error| KeptError::Unwritten(path.to_owned(), error))
 }
 
-/// Keeps entries beside the file.
+/// Writes entries to a new backup.
 fn put_aside(path: &Path, entries: &Entries) -> Result<(), KeptError> {
-    make_room_beside(path)?;
+    rotate_backups(path)?;
     write(&beside(path), entries)
 }
 
-/// What was kept beside the file before becomes one older.
-fn make_room_beside(path: &Path) -> Result<(), KeptError> {
-    for age in (1..MOST_KEPT).rev() {
-        let (from, to) = (aged(path, age), aged(path, age + 1));
+/// Renames each backup to the next age, and drops the oldest.
+fn rotate_backups(path: &Path) -> Result<(), KeptError> {
+    for age in (1..MAX_BACKUPS).rev() {
+        let (from, to) = (backup_path(path, age), backup_path(path, age + 1));
         match std::fs::rename(&from, &to) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(KeptError::Unwritten(to, error)),
             _ => {}
@@ -154,7 +155,7 @@ fn make_room_beside(path: &Path) -> Result<(), KeptError> {
     Ok(())
 }
 
-/// Writes the entries, whole or not at all.
+/// Writes the entries atomically.
 fn write(path: &Path, entries: &Entries) -> Result<(), KeptError> {
     let unwritten = |error| KeptError::Unwritten(path.to_owned(), error);
     let text = toml::to_string(entries).map_err(|error| unwritten(io::Error::other(error)))?;
@@ -174,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn every_change_is_on_the_disk_and_can_be_taken_back() {
+    fn every_change_is_on_the_disk_and_can_be_undone() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deep/calibration.toml");
         let made = [
@@ -192,12 +193,12 @@ mod tests {
             states.push(entries);
             backs.push(back);
         }
-        assert_eq!(kept_entries(&beside(&path)).unwrap(), states[5], "what was put aside");
-        // What is put aside later leaves it there.
+        assert_eq!(kept_entries(&beside(&path)).unwrap(), states[5], "the backup");
+        // A later backup does not replace it.
         edit_entries(&path, &Edit::Add(entry("6"))).unwrap();
         let (_, back) = edit_entries(&path, &Edit::Anew(Entries::default())).unwrap();
         assert_eq!(kept_entries(&beside(&path)).unwrap().trials, [entry("6")]);
-        assert_eq!(kept_entries(&aged(&path, 2)).unwrap(), states[5]);
+        assert_eq!(kept_entries(&backup_path(&path, 2)).unwrap(), states[5]);
         edit_entries(&path, &back).unwrap();
         edit_entries(&path, &Edit::TakeOut(0, entry("6"))).unwrap();
         for (before, back) in states.iter().zip(&backs).rev() {
@@ -206,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn what_another_program_has_entered_meanwhile_stays() {
+    fn entries_of_another_program_are_kept() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("calibration.toml");
         let (_, back) = edit_entries(&path, &Edit::Add(entry("9"))).unwrap();

@@ -1,10 +1,10 @@
-//! A table of the player's own: what short tests at it measure, and the constants that follow.
+//! Calibration of the player's own table: short tests at the table, and the estimation of its constants from their marks.
 //!
-//! `protocol` has the tests, `entries` what a player has written down of them. `forward` says what a stroke of a test leads
-//! to, `estimate` which constants the marks speak for, starting from what `belief` holds of the table, and `posterior` how sure they
-//! are then; `rails` tells rails apart that differ; `robust` knows misread marks, `information` which test tells most, `daily` what
-//! the weather changes. `calibrate` does it all, `words` says it, and `simulated` measures how far it is to be trusted. `typed`,
-//! `kept` and `saved` are what a player types, the file that keeps it and the table's own; `sketch` is a test to be drawn.
+//! `protocol` defines the tests, `entries` the marks that a player has written down. `forward` simulates a stroke of a test.
+//! `estimate` fits the constants to the marks, starting from the prior in `belief`, and `posterior` computes their uncertainty.
+//! `rails` detects rails that differ from the others, `robust` handles misread marks, `information` finds the most informative test,
+//! and `daily` models the weather. `calibrate` combines all of these, `words` describes the result, and `simulated` measures the
+//! coverage of the intervals. `typed` parses input, `kept` stores the entries, `saved` the table; `sketch` contains a drawing of a test.
 
 mod belief;
 mod calibrate;

@@ -1,4 +1,4 @@
-//! The tests that a player plays to calibrate a table: where the balls lie, how to strike, what to mark.
+//! The tests that a player plays to calibrate a table: positions of the balls, the stroke, and the marks.
 
 use glam::DVec2;
 use serde::Serialize;
@@ -8,7 +8,7 @@ use Quantity::{RailAcross, RailAlong, StopAcross, StopAlong, Time};
 
 use crate::table::{Layout, Table};
 
-/// What a mark is counted in.
+/// The unit of a mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Unit {
@@ -19,7 +19,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// How numbers are written in it.
+    /// Returns the unit's name after a number.
     pub const fn sign(self) -> &'static str {
         match self {
             Self::Diamonds => "diamonds",
@@ -28,50 +28,50 @@ impl Unit {
     }
 }
 
-/// By how much a way of one length may come out too long by rounding, in lengths: far more than that, and far less than anybody sees.
+/// Tolerance for the rounding of a travel, in table lengths: far above any rounding error, and far below anything visible.
 const ROUNDING: f64 = 1e-9;
 
 /// A moment at which a stopwatch is pressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Moment {
-    /// The tip meets the cue ball.
+    /// The tip hits the cue ball.
     Stroke,
-    /// A ball meets its first, second, … rail.
+    /// A ball hits its first, second, … rail.
     Rail(usize, usize),
     /// A ball stops.
     Stop(usize),
 }
 
-/// What is marked. Balls are numbered as in a layout, rails by the order in which a ball meets them, from 1 on.
+/// The measured quantity of a mark. Balls are numbered as in a layout, rails in the order in which a ball hits them, from 1 on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// Where a ball stops, along the table, beyond the short rails that it has met ([`Test::way`]).
+    /// Final position of a ball along the table, as its travel over the short rails that it has hit ([`Test::travel`]).
     StopAlong(usize),
-    /// Where a ball stops, across the table.
+    /// Final position of a ball across the table.
     StopAcross(usize),
-    /// Where a ball meets a long rail.
+    /// Position along the table at which a ball hits a long rail.
     RailAlong(usize, usize),
-    /// Where a ball meets a short rail.
+    /// Position across the table at which a ball hits a short rail.
     RailAcross(usize, usize),
-    /// A time.
+    /// Time between two moments.
     Time(Moment, Moment),
 }
 
-/// One number that a test asks for.
+/// One number that a player marks in a test.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
     /// Its name in a file of entries.
     pub name: &'static str,
-    /// What it is, for a player.
+    /// Description for the player.
     pub words: &'static str,
-    /// The same for the simulation.
+    /// The measured quantity, for the simulation.
     pub quantity: Quantity,
-    /// How sure such a mark is, in its unit, where nothing else is said.
+    /// Usual standard error of the mark, in its unit.
     pub sure: f64,
 }
 
 impl Mark {
-    /// What it is counted in.
+    /// The unit of the mark.
     pub const fn unit(&self) -> Unit {
         match self.quantity {
             Quantity::Time(..) => Unit::Seconds,
@@ -79,7 +79,7 @@ impl Mark {
         }
     }
 
-    /// The largest value that it can have, in its own unit: the table's sides, and one minute.
+    /// The largest accepted value, in its unit: the table's sides, and one minute.
     pub const fn most(&self) -> f64 {
         match self.quantity {
             Quantity::StopAlong(_) | Quantity::RailAlong(..) => 8.0,
@@ -94,29 +94,28 @@ impl Mark {
 pub struct Test {
     /// Its name in files and on the command line.
     pub name: &'static str,
-    /// What it is about.
+    /// What the test measures, for the player.
     pub title: &'static str,
-    /// Where the balls lie, for a player.
+    /// Positions of the balls, for the player.
     pub place: &'static str,
-    /// How to strike, for a player.
+    /// Description of the stroke, for the player.
     pub strike: &'static str,
-    /// The balls that take part, the cue ball first, in diamonds from the right-hand corner at the player's end.
+    /// Positions of the balls in use, the cue ball first, in diamonds from the right-hand corner at the player's end.
     pub balls: &'static [[f64; 2]],
-    /// Whether balls 1 and 2 touch: then ball 2 lies beyond ball 1 in the direction, degrees, that is named here.
+    /// For touching balls 1 and 2, the direction from ball 1 to ball 2, degrees.
     pub frozen: Option<f64>,
-    /// The stroke that is asked for: a, b in radii, elevation and direction in degrees, speed of the cue in m/s.
+    /// The requested stroke: a, b in radii, elevation and direction in degrees, speed of the cue in m/s.
     pub cue: [f64; 5],
-    /// What is marked.
+    /// The marks.
     pub marks: &'static [Mark],
-    /// How many short rails a ball meets that is marked where it stops along the table, where nothing else is said; `None`
-    /// where that has to be said.
+    /// Usual number of short rails hit by a ball whose final position along the table is marked; `None` if the player must enter it.
     pub rails: Option<usize>,
-    /// How often it is asked for.
+    /// Requested number of strokes.
     pub times: usize,
 }
 
 impl Test {
-    /// The test of this name.
+    /// Returns the test called `name`.
     pub fn named(name: &str) -> Option<&'static Self> {
         PROTOCOL.iter().find(|test| test.name == name)
     }
@@ -126,27 +125,28 @@ impl Test {
         self.cue[3].to_radians().cos() < 0.0
     }
 
-    /// How far along the table a ball has come that has met so many short rails and stands at `place`, diamonds: counted on
-    /// from rail to rail, so that what is a little further is a little more.
-    pub fn way(&self, table: &Table, rails: usize, place: f64) -> f64 {
+    /// Returns the travel of a ball along the table, diamonds, if it has hit `rails` short rails and stopped at `position`. The travel
+    /// continues from rail to rail, so it is a continuous function of the ball's motion.
+    pub fn travel(&self, table: &Table, rails: usize, position: f64) -> f64 {
         let lengths = rails as f64 * (8.0 - 2.0 * table.radius / table.diamond());
-        lengths + if (rails % 2 == 1) == self.is_back() { place } else { 8.0 - place }
+        lengths + if (rails % 2 == 1) == self.is_back() { position } else { 8.0 - position }
     }
 
-    /// How many short rails a ball has met on its way, and where it stands. The rail at which it stands is not counted.
-    pub fn place(&self, table: &Table, way: f64) -> (usize, f64) {
+    /// Returns the number of short rails hit and the position after a travel, both in diamonds. A rail that the ball touches at the end
+    /// does not count. This is the inverse of [`Test::travel`].
+    pub fn position(&self, table: &Table, travel: f64) -> (usize, f64) {
         let radius = table.radius / table.diamond();
-        let rails = ((way - radius) / (8.0 - 2.0 * radius) - ROUNDING).floor().max(0.0) as usize;
-        let beyond = way - rails as f64 * (8.0 - 2.0 * radius);
+        let rails = ((travel - radius) / (8.0 - 2.0 * radius) - ROUNDING).floor().max(0.0) as usize;
+        let beyond = travel - rails as f64 * (8.0 - 2.0 * radius);
         (rails, if (rails % 2 == 1) == self.is_back() { beyond } else { 8.0 - beyond })
     }
 
-    /// Where the balls lie, with the line of balls 1 and 2 turned by `turned`, rad. Balls that take no part are far away.
+    /// Returns the layout with the line of balls 1 and 2 turned by `turned`, rad. Balls that are not in use are far away.
     pub fn layout(&self, table: &Table, turned: f64) -> Layout {
-        let metres = |place: [f64; 2]| (DVec2::from_array(place) - DVec2::new(4.0, 2.0)) * table.diamond();
+        let metres = |position: [f64; 2]| (DVec2::from_array(position) - DVec2::new(4.0, 2.0)) * table.diamond();
         let mut balls = [DVec2::ZERO, DVec2::new(1e3, 1e3), DVec2::new(-1e3, 1e3)];
-        for (ball, place) in balls.iter_mut().zip(self.balls) {
-            *ball = metres(*place);
+        for (ball, position) in balls.iter_mut().zip(self.balls) {
+            *ball = metres(*position);
         }
         if let Some(direction) = self.frozen {
             balls[2] = balls[1] + 2.0 * table.radius * DVec2::from_angle(direction.to_radians() + turned);
@@ -157,12 +157,12 @@ impl Test {
     }
 }
 
-/// A mark that is as sure as most are: to a tenth of a diamond, or of a second.
+/// Creates a mark with the usual standard error: a tenth of a diamond, or of a second.
 const fn mark(name: &'static str, words: &'static str, quantity: Quantity) -> Mark {
     Mark { name, words, quantity, sure: 0.1 }
 }
 
-/// What several tests ask for.
+/// Marks of several tests.
 const TIME: Mark =
     Mark { sure: 0.2, ..mark("time", "seconds from the stroke until the ball stops", Time(Stroke, Stop(0))) };
 const STOP: Mark = mark("stop", "where it stops along the table", StopAlong(0));
@@ -172,7 +172,7 @@ const FIRST: Mark = mark("first", "where it meets the left long rail", RailAlong
 const THIRD: Mark = mark("third", "where it meets the right long rail", RailAlong(0, 3));
 const FOURTH: Mark = mark("fourth", "where it meets your own short rail after that", RailAcross(0, 4));
 
-/// What the tests have in common in which a ball goes from near a corner through diamond 6.
+/// The common part of the tests in which a ball goes from near a corner through diamond 6.
 const FROM_CORNER: Test = Test {
     name: "",
     title: "",
@@ -186,10 +186,10 @@ const FROM_CORNER: Test = Test {
     times: 4,
 };
 
-/// The protocol, in the order in which it is played, chosen from candidates by what it is worth to a club player's three-cushion
-/// shots: what rails do to a ball without side or with reverse side, which slips and sticks at them, and where a ball stops
-/// that has met several, tell more than anything else. A frozen pair tells of the throw between balls, which hardly matters
-/// there: nobody is asked to play it.
+/// The protocol, in the order in which it is played. The tests were chosen from candidates by their value for a club player's
+/// three-cushion shots. The most informative are the rebound of a ball without side or with reverse side, which slips and sticks at the
+/// rails, and the final position of a ball after several rails. A frozen pair measures the throw between balls, which hardly matters for
+/// these shots, so it is not requested (`times` is 0).
 pub const PROTOCOL: &[Test] = &[
     Test {
         name: "slow-roll",
@@ -206,7 +206,7 @@ pub const PROTOCOL: &[Test] = &[
     },
     Test {
         name: "slow-back",
-        title: "slow roll back: how the table leans along",
+        title: "slow roll back: lean along the table",
         place: "any ball in the middle of the far end: diamond 7 along, 2 across",
         strike: "from the far end, straight back along the middle, four tips above centre, as softly as before",
         balls: &[[7.0, 2.0]],
@@ -274,7 +274,7 @@ pub const PROTOCOL: &[Test] = &[
         name: "side-along",
         title: "maximum side: squirt, how long side lasts",
         place: "the cue ball in the middle of your end: diamond 1 along, 2 across",
-        strike: "maximum side on the left, straight along the middle, at medium speed: it shall reach a long rail",
+        strike: "maximum side on the left, straight along the middle, at medium speed: it must reach a long rail",
         balls: &[[1.0, 2.0]],
         frozen: None,
         cue: [0.45, 0.0, 3.0, 0.0, 1.8],
@@ -291,7 +291,7 @@ pub const PROTOCOL: &[Test] = &[
         name: "full-hit",
         title: "a full hit: what is lost between the balls",
         place: "the cue ball at diamond 1 along, another ball at 2 along, both in the middle (2 across)",
-        strike: "centre ball, full, soft: the other ball shall stop before the far rail",
+        strike: "centre ball, full, soft: the other ball must stop before the far rail",
         balls: &[[1.0, 2.0], [2.0, 2.0]],
         frozen: None,
         cue: [0.0, 0.0, 2.0, 0.0, 0.55],

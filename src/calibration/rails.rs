@@ -1,4 +1,4 @@
-//! Rails that differ from each other: told apart where tests were played from both ends of the table.
+//! Detects rails that differ from the others, if tests were played from both ends of the table.
 
 use super::{
     belief::Belief,
@@ -6,22 +6,22 @@ use super::{
 };
 use crate::table::{DoubtError, OneRail, Rail, Table, TableDoubt};
 
-/// What a rail can have of its own: the name of the constant that all have, its own, and by how much rails of one table differ
-/// in it (standard deviation). The latter are assumptions.
+/// Constants that a rail can have individually: name of the common constant, name of the rail's own, and the standard deviation between
+/// the rails of one table, which is an assumption.
 const OWN: [(&str, &str, f64); 2] = [("e_rail", "e", 0.02), ("mu_rail", "mu", 0.03)];
 
-/// By how many times as much a rail is taken to differ that was told apart: it is not one of the many that are alike.
+/// Factor on the deviation of a detected rail: it is not one of the many similar ones.
 const WIDE: f64 = 3.0;
 
-/// From so many deviations on, a rail has a value of its own. Of eight that are looked at, chance alone lets one come there in two
+/// Standard deviations from which a rail gets its own value. Among the eight values of a table, chance alone exceeds it in two
 /// of a hundred tables.
-const APART: f64 = 3.0;
+const THRESHOLD: f64 = 3.0;
 
-/// How much of the variance of a difference may be left for it to be looked at.
-const MOST_LEFT: f64 = 0.95;
+/// Largest remaining share of the prior variance of a difference at which the difference is tested.
+const MAX_REMAINING: f64 = 0.95;
 
-/// The belief in which these rails have values of their own, before the trials as likely above as below the others', and differ
-/// by so many times as much as usual.
+/// Returns the belief in which these rails have their own values, with those of the others as prior means, and with the deviations
+/// between rails multiplied by `wide`.
 fn with_own(table: &Table, doubt: &TableDoubt, rails: &[Rail], wide: f64) -> Result<Belief, DoubtError> {
     let (mut table, mut doubt) = (table.clone(), doubt.clone());
     for rail in rails {
@@ -32,7 +32,7 @@ fn with_own(table: &Table, doubt: &TableDoubt, rails: &[Rail], wide: f64) -> Res
             let Some(deviation) = doubt.deviations.get(common).copied() else { continue };
             let name = name(*rail, own);
             let whole = deviation.hypot(wide * differ);
-            // What all rails have in common it shares with them, and with what that is correlated with.
+            // The common part is correlated with the constant of all rails, and with everything that this is correlated with.
             let share = deviation / whole;
             let others = doubt.correlations.iter().filter_map(|(one, other, value)| match () {
                 () if one == common => Some((other.clone(), name.clone(), share * value)),
@@ -48,24 +48,24 @@ fn with_own(table: &Table, doubt: &TableDoubt, rails: &[Rail], wide: f64) -> Res
     Belief::new(&table, &doubt)
 }
 
-/// The name of a constant that a rail has of its own.
+/// Returns the name of a rail's own constant.
 fn name(rail: Rail, own: &str) -> String {
     format!("rail.{}.{own}", rail.name())
 }
 
-/// How many deviations a difference is from nought that was found to be `difference`, with this variance, where it was held before
-/// to have the deviation `differ`. That draws it to nought: were there no difference, what is found would spread by less than
-/// what is left open.
+/// Returns the significance of a difference, in standard deviations of its estimate without a true difference. `difference` and `variance`
+/// are its posterior mean and variance, `differ` is its prior deviation. The prior pulls the estimate to zero, so without a true
+/// difference the estimates spread by less than the posterior deviation.
 fn deviations(difference: f64, variance: f64, differ: f64) -> f64 {
-    let left = (variance / (differ * differ)).clamp(1e-6, 1.0);
-    // From marks that tell next to nothing nothing follows.
-    if left > MOST_LEFT { 0.0 } else { difference.abs() / (variance * (1.0 - left)).sqrt() }
+    let remaining = (variance / (differ * differ)).clamp(1e-6, 1.0);
+    // Marks with hardly any information allow no conclusion.
+    if remaining > MAX_REMAINING { 0.0 } else { difference.abs() / (variance * (1.0 - remaining)).sqrt() }
 }
 
-/// Looks for rails that differ from the others by more than the trials leave open; gives the belief in which they have values
-/// of their own, with what the trials say then. `None` where there are none, where the table's file has some already, or where
-/// all tests were played from one end.
-pub fn told_apart(
+/// Looks for rails that differ significantly from the others. Returns the belief in which they have their own values, and the estimate
+/// with it. `None` if there are no such rails, if the table's file already has individual rails, or if all tests were played from one
+/// end.
+pub fn distinct_rails(
     table: &Table,
     doubt: &TableDoubt,
     trials: &[Trial],
@@ -78,12 +78,12 @@ pub fn told_apart(
     let belief = with_own(table, doubt, &Rail::ALL, 1.0)?;
     let found = estimate(&belief, trials);
     let (values, covariance) = (belief.values(&found.unknowns), belief.covariance(&found.covariance));
-    let place = |name: &str| belief.told().position(|(told, ..)| told == name);
+    let index_of = |name: &str| belief.constants().position(|(constant, ..)| constant == name);
     let differs = |rail: &Rail| {
         OWN.iter().any(|(common, own, differ)| {
-            let Some((all, one)) = place(common).zip(place(&name(*rail, own))) else { return false };
+            let Some((all, one)) = index_of(common).zip(index_of(&name(*rail, own))) else { return false };
             let variance = covariance[one][one] + covariance[all][all] - 2.0 * covariance[one][all];
-            deviations(values[one] - values[all], variance, *differ) > APART
+            deviations(values[one] - values[all], variance, *differ) > THRESHOLD
         })
     };
     let rails: Vec<Rail> = Rail::ALL.into_iter().filter(differs).collect();

@@ -1,21 +1,21 @@
-//! Marks that may be misread: a mixture of those that are as good as they say, and a few that are far off.
+//! The error model of marks that may be misread: a mixture of good marks with their standard error, and a few with a much larger one.
 
-/// The share of marks that are expected to be misread: one in fifty.
+/// Expected share of misread marks: one in fifty.
 const SHARE: f64 = 0.02;
 
-/// How many times as far off as the others those are.
+/// Factor on the standard error of misread marks.
 const WIDTH: f64 = 10.0;
 
-/// What counts for a mark that a stroke does not even come to, in deviations.
+/// Residual, in standard errors, of a mark to which the ball never gets; larger residuals are clamped to it.
 pub const NEVER: f64 = 30.0;
 
-/// The densities of good and of misread marks at so many deviations, up to a common factor.
+/// Returns the densities of good and of misread marks at a residual `off`, in standard errors, up to a common factor.
 fn densities(off: f64) -> [f64; 2] {
     [(1.0 - SHARE) * (-0.5 * off * off).exp(), SHARE / WIDTH * (-0.5 * (off / WIDTH).powi(2)).exp()]
 }
 
-/// The number whose square is minus twice the logarithm of the mixture: that of a good mark is `off` itself, and far off
-/// it grows ever more slowly.
+/// Returns the number whose square is minus twice the log density of the mixture. For a small residual this is `off` itself; for a large
+/// one it grows much more slowly.
 pub fn soften(off: f64) -> f64 {
     let off = off.clamp(-NEVER, NEVER);
     let [good, bad] = densities(off);
@@ -23,17 +23,17 @@ pub fn soften(off: f64) -> f64 {
     (-2.0 * ((good + bad) / (best + worst)).ln()).max(0.0).sqrt().copysign(off)
 }
 
-/// How likely a mark that is off by so many deviations is misread.
+/// Returns the probability that a mark with the residual `off`, in standard errors, is misread.
 pub fn misread(off: f64) -> f64 {
     let [good, bad] = densities(off.clamp(-NEVER, NEVER));
     bad / (good + bad)
 }
 
-/// How much a mark counts that no stroke comes near: nothing, up to what keeps matrices regular.
+/// Weight of a mark to which no stroke gets: zero, except for what keeps matrices regular.
 const NOTHING: f64 = 1e-9;
 
-/// How much such a mark counts, against one that is certainly good. From [`NEVER`] on it counts nothing, for [`soften`] is flat there:
-/// however far off it is, it draws the constants no farther.
+/// Returns the weight of a mark with the residual `off`, relative to a certainly good one. From [`NEVER`] on it is practically zero,
+/// because [`soften`] is flat there: a larger residual does not pull the constants further.
 pub fn weight(off: f64) -> f64 {
     if off.abs() >= NEVER {
         return NOTHING;

@@ -10,21 +10,21 @@ use crate::{
     table::Table,
 };
 
-/// Why a table is not written.
+/// A table cannot be saved.
 #[derive(Debug, thiserror::Error)]
 pub enum SaveError {
-    /// Something else is there.
-    #[error("{0} is there already and is no table, so it stays as it is; give another name")]
+    /// The file exists and is not a table.
+    #[error("{0} already exists and is no table, so it is not overwritten; give another name")]
     Other(PathBuf),
-    /// It cannot be written.
+    /// The file cannot be written.
     #[error("{0} cannot be written: {1}")]
     Unwritten(PathBuf, io::Error),
 }
 
-/// Whether a table may be written there: over another table at most.
+/// Checks whether a table may be saved at `path`. It may replace another table, but no other file.
 ///
 /// # Errors
-/// Where something else is there.
+/// Fails if the file exists and is not a table.
 pub fn may_save_table(path: &Path) -> Result<(), SaveError> {
     let is_table = |text: String| Table::from_toml(&text).is_ok();
     if path.exists() && !storage::read_text(path, storage::SMALL).is_ok_and(is_table) {
@@ -33,16 +33,16 @@ pub fn may_save_table(path: &Path) -> Result<(), SaveError> {
     Ok(())
 }
 
-/// Writes the table, over another table at most.
+/// Writes the table. It may replace another table, but no other file.
 ///
 /// # Errors
-/// As [`may_save_table`], and where the file cannot be written.
+/// The same as [`may_save_table`], and if the file cannot be written.
 pub fn save_table(path: &Path, table: &Table) -> Result<(), SaveError> {
     may_save_table(path)?;
     let unwritten = |error| SaveError::Unwritten(path.to_owned(), error);
     let text = toml::to_string(table).map_err(|error| unwritten(io::Error::other(error)))?;
     let text = format!(
-        "# Written by carom calibrate. carom recommend --table plays on it, with the path of this file.\n{text}"
+        "# Written by carom calibrate. To use this table, give the path of this file to carom recommend --table.\n{text}"
     );
     write_atomic(&target_of(path), text.as_bytes()).map_err(unwritten)
 }

@@ -1,4 +1,4 @@
-//! The calibration measured on tables whose constants are known: how often its intervals hold the truth.
+//! Validation of the calibration on simulated tables with known constants: how often its intervals contain the truth.
 
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -16,7 +16,7 @@ use crate::{
     table::{DoubtError, Table, TableDoubt, TableSampler},
 };
 
-/// By how much a club player's strokes differ from what is asked for.
+/// Standard deviations of a club player's strokes from the requested ones.
 const CLUB: Hand = Hand {
     speed: 0.1,
     direction: 0.25_f64.to_radians(),
@@ -28,31 +28,31 @@ const CLUB: Hand = Hand {
 /// Half the width of a 95 % interval, in standard deviations.
 const HALF_WIDTH: f64 = 1.96;
 
-/// How a constant came out.
+/// Coverage of a constant's intervals.
 #[derive(Clone, Debug, Serialize)]
 pub struct Coverage {
-    /// Its name.
+    /// Name of the constant.
     pub name: String,
-    /// Tables on which its 95 % interval held the truth.
+    /// Number of tables whose 95 % interval contained the truth.
     pub held: usize,
-    /// Its deviation before.
+    /// Prior standard deviation.
     pub before: f64,
-    /// Its deviation afterwards, on average.
+    /// Mean posterior standard deviation.
     pub after: f64,
-    /// Root mean square of what it was off by.
+    /// Root mean square error of the posterior mean.
     pub error: f64,
 }
 
-/// Draws `count` tables from the doubt, has a club player play the whole protocol on each, and calibrates them.
+/// Draws `count` tables from the doubt, simulates a club player who plays the whole protocol on each, and calibrates them.
 ///
 /// # Errors
-/// Where the doubt cannot be.
+/// Fails if the doubt is not valid.
 pub fn coverage(table: &Table, doubt: &TableDoubt, count: usize, seed: u64) -> Result<Vec<Coverage>, DoubtError> {
     let belief = Belief::new(table, doubt)?;
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let sampler = TableSampler::new(table, doubt, 1.0);
     let mut found: Vec<Coverage> = belief
-        .told()
+        .constants()
         .map(|(name, _, before)| Coverage { name: name.to_owned(), held: 0, before, after: 0.0, error: 0.0 })
         .collect();
     for _ in 0..count {
@@ -74,10 +74,10 @@ pub fn coverage(table: &Table, doubt: &TableDoubt, count: usize, seed: u64) -> R
     Ok(found)
 }
 
-/// A table drawn from the doubt about `table`, and what a club player makes of `table` who plays the whole protocol on it.
+/// Returns a true table drawn from the doubt about `table`, and its calibration by a simulated club player who plays the whole protocol.
 ///
 /// # Errors
-/// Where the doubt cannot be, or leaves nothing to find.
+/// Fails if the doubt is not valid or contains no uncertain constant.
 pub fn calibrated(table: &Table, doubt: &TableDoubt, seed: u64) -> Result<[Table; 2], CalibrationError> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let truth = TableSampler::new(table, doubt, 1.0).map_or_else(|| table.clone(), |sampler| drawn(&sampler, &mut rng));
@@ -85,7 +85,7 @@ pub fn calibrated(table: &Table, doubt: &TableDoubt, seed: u64) -> Result<[Table
     Ok([truth, calibrate("calibrated", table, doubt, &trials)?.table])
 }
 
-/// A table that can be played on.
+/// Draws a table until it is a valid one.
 fn drawn(sampler: &TableSampler, rng: &mut Xoshiro256PlusPlus) -> Table {
     loop {
         let table = sampler.draw(|| normal_pair(rng)[0]);
@@ -95,29 +95,29 @@ fn drawn(sampler: &TableSampler, rng: &mut Xoshiro256PlusPlus) -> Table {
     }
 }
 
-/// The whole protocol as a club player plays and marks it.
+/// Simulates the whole protocol as a club player plays and marks it.
 pub fn played(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Vec<Trial> {
     let tests = PROTOCOL.iter().flat_map(|test| std::iter::repeat_n(test, test.times));
     tests.map(|test| trial(table, test, rng)).collect()
 }
 
-/// One stroke. Where a mark cannot be made, since the ball has stopped before, it is left out.
+/// Simulates one stroke. A mark that is not possible, because the ball has stopped before, is left out.
 fn trial(table: &Table, test: &'static Test, rng: &mut Xoshiro256PlusPlus) -> Trial {
     let stroke: [f64; STROKE] = std::array::from_fn(|_| normal_pair(rng)[0]);
     let seen = CLUB.seen(table, test, false, &stroke);
     let readings = seen.into_iter().zip(test.marks).enumerate().filter_map(|(index, (seen, mark))| {
         let off = mark.sure * normal_pair(rng)[0];
-        // To a tenth of a diamond, as it is written down.
-        let written = |place: f64| (10.0 * (place + off)).round() / 10.0;
+        // Rounded to a tenth of a diamond, as a player writes it down.
+        let written = |position: f64| (10.0 * (position + off)).round() / 10.0;
         let value = match mark.quantity {
             Quantity::Time(..) => seen? + off,
             Quantity::StopAlong(_) => {
-                let (rails, place) = test.place(table, seen?);
-                // A ball that has met a rail too many is played again; here the mark is left out.
+                let (rails, position) = test.position(table, seen?);
+                // A player repeats a stroke in which the ball has hit a rail; here the mark is left out.
                 if test.rails == Some(0) && rails > 0 && test.balls.len() > 1 {
                     return None;
                 }
-                test.way(table, rails, written(place))
+                test.travel(table, rails, written(position))
             }
             _ => written(seen?),
         };

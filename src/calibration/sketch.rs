@@ -1,4 +1,4 @@
-//! What a test looks like on the table: the ways of its balls after the stroke that is asked for, and where the marks are.
+//! A sketch of a test: the paths of its balls after the requested stroke, and the positions of the marks.
 
 use std::ops::ControlFlow;
 
@@ -14,71 +14,71 @@ use crate::{
     table::{BALLS, Layout, Table},
 };
 
-/// Time between two looks at a way, s.
-const LOOK: f64 = 0.002;
+/// Time step of the sampling of a path, s.
+const TIME_STEP: f64 = 0.002;
 
-/// A test on a table. What it shows is what the table's constants let expect.
+/// A sketch of a test on a table, simulated with the table's constants.
 #[derive(Clone, Debug)]
 pub struct Sketch {
-    /// Where the balls lie; those that take no part are far away.
+    /// Initial positions of the balls; those not in use are far away.
     pub layout: Layout,
-    /// The stroke that is asked for.
+    /// The requested stroke.
     pub cue: CueInputs,
-    /// Places along the ways of the balls, m.
+    /// Points along the paths of the balls, m.
     pub ways: [Vec<DVec2>; BALLS],
-    /// Where a ball's centre is that is marked, mark by mark, m; none of times, and of marks that no ball comes to.
+    /// Position of the marked ball's centre for each mark, m; `None` for times, and for marks to which no ball gets.
     pub places: Vec<Option<DVec2>>,
 }
 
 impl Sketch {
-    /// Distance of two places of a way, m.
+    /// Distance between two points of a path, m.
     pub const SPACING: f64 = 0.02;
 
-    /// That of `test` on `table`.
+    /// Simulates `test` on `table`.
     pub fn of(table: &Table, test: &Test) -> Self {
         let (cue, layout) = Hand::ASSUMED.stroke(table, test, &[0.0; STROKE]);
-        let ways = layout.balls.map(|ball| vec![ball]);
-        let mut seen = Seen { ways, now: layout.balls, rails: Default::default() };
-        watch(table, &layout, &strike(table, &cue), &mut seen);
-        let place = |quantity: Quantity| match quantity {
-            Quantity::StopAlong(ball) | Quantity::StopAcross(ball) => Some(seen.now[ball]),
+        let paths = layout.balls.map(|ball| vec![ball]);
+        let mut observed = Observed { paths, positions: layout.balls, rails: Default::default() };
+        watch(table, &layout, &strike(table, &cue), &mut observed);
+        let position = |quantity: Quantity| match quantity {
+            Quantity::StopAlong(ball) | Quantity::StopAcross(ball) => Some(observed.positions[ball]),
             Quantity::RailAlong(ball, number) | Quantity::RailAcross(ball, number) => {
-                seen.rails[ball].get(number - 1).copied()
+                observed.rails[ball].get(number - 1).copied()
             }
             Quantity::Time(..) => None,
         };
-        let places = test.marks.iter().map(|mark| place(mark.quantity)).collect();
-        Self { layout, cue, ways: seen.ways, places }
+        let places = test.marks.iter().map(|mark| position(mark.quantity)).collect();
+        Self { layout, cue, ways: observed.paths, places }
     }
 }
 
-struct Seen {
-    ways: [Vec<DVec2>; BALLS],
-    now: [DVec2; BALLS],
+struct Observed {
+    paths: [Vec<DVec2>; BALLS],
+    positions: [DVec2; BALLS],
     rails: [Vec<DVec2>; BALLS],
 }
 
-impl Observer for Seen {
+impl Observer for Observed {
     fn wants_segments(&self) -> bool {
         true
     }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         if let EventKind::BallRail(ball, _) = event.kind {
-            self.rails[ball].push(self.now[ball]);
+            self.rails[ball].push(self.positions[ball]);
         }
         ControlFlow::Continue(())
     }
 
     fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
-        let way = &mut self.ways[ball];
-        for look in 1..=((end - segment.start) / LOOK) as u32 {
-            let place = segment.position_after(LOOK * f64::from(look));
-            if way.last().is_none_or(|last| last.distance(place) >= Sketch::SPACING) {
-                way.push(place);
+        let path = &mut self.paths[ball];
+        for step in 1..=((end - segment.start) / TIME_STEP) as u32 {
+            let point = segment.position_after(TIME_STEP * f64::from(step));
+            if path.last().is_none_or(|last| last.distance(point) >= Sketch::SPACING) {
+                path.push(point);
             }
         }
-        self.now[ball] = segment.position_after(end - segment.start);
+        self.positions[ball] = segment.position_after(end - segment.start);
     }
 }
 

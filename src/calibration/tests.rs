@@ -1,4 +1,4 @@
-//! Known tables found again, and what is said about odd marks.
+//! Tests of the calibration: known tables are found again, and problematic marks are reported.
 
 use glam::DVec2;
 use rand::SeedableRng;
@@ -13,20 +13,20 @@ use super::{
 };
 use crate::table::{OneRail, Rail, Table, TableDoubt};
 
-/// `match` as a table of which nothing more is known than of any.
+/// `match` as an unknown table, with the doubt of any table.
 fn base() -> (Table, TableDoubt) {
     let table = Table { name: "own".into(), ..Table::default() };
     let doubt = TableDoubt::of(&table);
     (table, doubt)
 }
 
-/// A table that differs from `match` by about a standard deviation in what a lag and slow rolls tell.
+/// A table that differs from `match` by about a standard deviation in the constants that a lag and slow rolls measure.
 fn other(table: &Table) -> Table {
     let change = |table: Table, (name, value)| TableDoubt::with_value(&table, name, value);
     [("mu_r", 0.0064), ("e_rail", 0.825), ("tilt.y", 1.2e-3), ("mu_rail", 0.27)].into_iter().fold(table.clone(), change)
 }
 
-/// Every test as often as it is asked for, struck as it should be and marked exactly.
+/// Every test as often as requested, with exactly the requested strokes and exact marks.
 fn exact(table: &Table) -> Vec<(usize, Trial)> {
     exact_from(table, false)
 }
@@ -38,7 +38,7 @@ fn exact_from(table: &Table, is_turned: bool) -> Vec<(usize, Trial)> {
         let seen = Hand::ASSUMED.seen(table, test, is_turned, &[0.0; STROKE]);
         let readings = seen.iter().zip(test.marks).enumerate().map(|(mark, (seen, kind))| Reading {
             mark,
-            value: seen.unwrap_or_else(|| panic!("{} {} is never met", test.name, kind.name)),
+            value: seen.unwrap_or_else(|| panic!("{} {} is never reached", test.name, kind.name)),
             sure: kind.sure,
         });
         Trial { test, is_turned, readings: readings.collect() }
@@ -47,14 +47,14 @@ fn exact_from(table: &Table, is_turned: bool) -> Vec<(usize, Trial)> {
 }
 
 #[test]
-fn a_level_table_stays_level_where_that_is_in_no_doubt() {
+fn a_level_table_stays_level_if_its_tilt_is_certain() {
     let (mut table, mut doubt) = base();
     table.tilt = DVec2::ZERO;
     let tilt = |doubt: &TableDoubt| {
         let belief = Belief::new(&table, doubt).unwrap();
         belief.table(&vec![0.0; belief.count()]).tilt
     };
-    assert!(tilt(&doubt).length() > 0.0, "what is not known may be measured");
+    assert!(tilt(&doubt).length() > 0.0, "an uncertain tilt must be measurable");
     doubt.deviations.retain(|name, _| !name.starts_with("tilt"));
     doubt.correlations.clear();
     assert_eq!(tilt(&doubt), DVec2::ZERO);
@@ -68,30 +68,30 @@ fn a_known_table_is_found_again_from_exact_marks() {
     assert!(found.verdicts.iter().all(|verdict| verdict.off.abs() < 1.0), "{:?}", found.verdicts);
     assert!(found.misread().is_empty() && !found.is_contradictory());
     for change in &found.constants {
-        let wanted = TableDoubt::value(&truth, &change.name).unwrap();
-        let off = (change.after - wanted).abs() / change.after_deviation;
-        assert!(off < 1.5, "{}: {} for {wanted}, {off} deviations", change.name, change.after);
+        let expected = TableDoubt::value(&truth, &change.name).unwrap();
+        let off = (change.after - expected).abs() / change.after_deviation;
+        assert!(off < 1.5, "{}: {} for {expected}, {off} deviations", change.name, change.after);
         assert!(change.after_deviation <= 1.01 * change.before_deviation, "{change:?}");
     }
     let change = |name: &str| found.constants.iter().find(|change| change.name == name).unwrap();
     let roll = change("mu_r");
     assert!(roll.after_deviation < 0.2 * roll.before_deviation && (roll.after - 0.0064).abs() < 1e-4, "{roll:?}");
-    // No test tells how a ball slides: what was held of it stays.
+    // No test measures how a ball slides, so the prior remains.
     let slide = change("mu_s");
     assert!(slide.after_deviation > 0.9 * slide.before_deviation, "{slide:?}");
-    // The table is a file like any other.
+    // The table survives a round trip through its file.
     assert_eq!(found.table.name, "club");
     assert_eq!(Table::from_toml(&toml::to_string(&found.table).unwrap()).unwrap(), found.table);
     assert!(!found.table.doubt.as_ref().unwrap().correlations.is_empty());
 }
 
 #[test]
-fn a_fit_that_begins_at_another_place_of_a_constant_takes_with_it_what_that_is_correlated_with() {
+fn a_start_at_another_value_of_a_constant_moves_the_correlated_constants_with_it() {
     let (table, mut doubt) = base();
     doubt.correlations = vec![("mu_rail".to_owned(), "rail.kappa".to_owned(), -0.6)];
     let belief = Belief::new(&table, &doubt).unwrap();
     let values = belief.values(&belief.unknowns_at("rail.kappa", 1.5).unwrap());
-    for ((name, mean, deviation), value) in belief.told().zip(values) {
+    for ((name, mean, deviation), value) in belief.constants().zip(values) {
         let expected = match name {
             "rail.kappa" => 1.5,
             "mu_rail" => -0.9,
@@ -107,7 +107,7 @@ fn the_intervals_hold_the_truth_of_tables_that_a_club_player_marks() {
     let (table, doubt) = base();
     let coverage = coverage(&table, &doubt, 6, 8).unwrap();
     let held: usize = coverage.iter().map(|one| one.held).sum();
-    // Of 84 intervals four or so may miss, more where one table is far from what is usual.
+    // Of 84 intervals about four may miss the truth, more if one table is unusual.
     assert!(held >= 74, "{coverage:?}");
     assert!(coverage.iter().all(|one| one.after < 1.01 * one.before), "{coverage:?}");
 }
@@ -117,7 +117,7 @@ fn a_misread_mark_is_named_with_what_was_expected_and_hardly_counts() {
     let (table, doubt) = base();
     let truth = other(&table);
     let mut trials = exact(&truth);
-    // The second slow roll: the watch was stopped three seconds late.
+    // In the second slow roll the watch was stopped three seconds late.
     trials[1].1.readings[0].value += 3.0;
     let found = calibrate("club", &table, &doubt, &trials).unwrap();
     assert_eq!(found.misread(), [2]);
@@ -126,14 +126,14 @@ fn a_misread_mark_is_named_with_what_was_expected_and_hardly_counts() {
     assert_eq!((verdict.test, verdict.mark), ("slow-roll", "time"));
     assert!((verdict.marked - 3.0 - expected).abs() < 0.3 && deviation < 0.3, "{verdict:?}");
     for change in &found.constants {
-        let wanted = TableDoubt::value(&truth, &change.name).unwrap();
-        assert!((change.after - wanted).abs() < 2.0 * change.after_deviation, "{change:?} for {wanted}");
+        let expected = TableDoubt::value(&truth, &change.name).unwrap();
+        assert!((change.after - expected).abs() < 2.0 * change.after_deviation, "{change:?} for {expected}");
     }
 }
 
-/// The marks of a stroke that was another one counted wherever they did not contradict the others: the constants seemed surer for it.
+/// Earlier, marks of a wrong stroke counted if they did not contradict the others, so that the constants seemed more certain.
 #[test]
-fn of_a_stroke_whose_marks_are_mostly_misread_nothing_counts() {
+fn no_mark_of_a_stroke_with_mostly_misread_marks_counts() {
     let (table, doubt) = base();
     let lag = exact(&other(&table)).into_iter().find(|(_, trial)| trial.test.name == "lag").unwrap();
     let alone = calibrate("club", &table, &doubt, std::slice::from_ref(&lag)).unwrap();
@@ -144,22 +144,22 @@ fn of_a_stroke_whose_marks_are_mostly_misread_nothing_counts() {
     let both = calibrate("club", &table, &doubt, &[lag, wrong.clone()]).unwrap();
     assert_eq!(both.left_out, [wrong.0 + 1]);
     assert_eq!((&both.constants, &both.next), (&alone.constants, &alone.next));
-    let said = both.agreement(|trial, test| format!("stroke {trial} of {test}"));
+    let text = both.agreement(|trial, test| format!("stroke {trial} of {test}"));
     let other = format!(
         "most marks of stroke {} of lag look misread: it was another stroke, and nothing of it counts",
         wrong.0 + 1
     );
-    assert_eq!(said, format!("the other marks agree with each other; {other}"));
-    // Nor where there is no other.
+    assert_eq!(text, format!("the other marks agree with each other; {other}"));
+    // Its marks do not count either if there is no other stroke.
     let nothing = calibrate("club", &table, &doubt, &[wrong]).unwrap();
     for change in &nothing.constants {
         assert!((change.after_deviation / change.before_deviation - 1.0).abs() < 1e-6, "{change:?}");
     }
 }
 
-/// A watch that was left running for a minute drew the constants to it, and made them less sure than they were without the stroke.
+/// Earlier, a watch left running for a minute pulled the constants towards it, and made them less certain than without the stroke.
 #[test]
-fn one_absurd_mark_draws_nothing_to_it_and_takes_nothing_away() {
+fn one_absurd_mark_neither_pulls_the_constants_nor_widens_them() {
     let (table, doubt) = base();
     let found = |rests: &[f64]| {
         let lag = |rest: &f64| {
@@ -179,20 +179,21 @@ fn one_absurd_mark_draws_nothing_to_it_and_takes_nothing_away() {
 }
 
 #[test]
-fn a_mark_that_only_another_stroke_explains_is_told() {
+fn a_mark_that_only_another_stroke_explains_is_reported() {
     let (table, doubt) = base();
     let mut trials = exact(&table);
     let corner = trials.iter().rposition(|(_, trial)| trial.test.name == "corner-five").unwrap();
-    // The first rail says how the ball went: what is left is the tip.
+    // The mark at the first rail determines the direction, so only another tip position explains the rest.
     trials[corner].1.readings[1].value -= 1.5;
     let found = calibrate("club", &table, &doubt, &trials).unwrap();
-    let is_told = found.strange.iter().any(|strange| strange.trial == corner + 1) || found.misread() == [corner + 1];
-    assert!(is_told, "{:?} {:?}", found.strange, found.verdicts);
+    let is_reported =
+        found.strange.iter().any(|strange| strange.trial == corner + 1) || found.misread() == [corner + 1];
+    assert!(is_reported, "{:?} {:?}", found.strange, found.verdicts);
     assert!(calibrate("club", &table, &doubt, &exact(&table)).unwrap().strange.is_empty());
 }
 
 #[test]
-fn marks_that_contradict_each_other_are_said_to() {
+fn marks_that_contradict_each_other_are_reported() {
     let (table, doubt) = base();
     let trial = |time: f64| Entry {
         test: "slow-roll".into(),
@@ -204,15 +205,15 @@ fn marks_that_contradict_each_other_are_said_to() {
     assert_eq!(odd, []);
     let found = calibrate("club", &table, &doubt, &trials).unwrap();
     assert!(found.is_contradictory(), "{:?}", found.verdicts);
-    let said = found.agreement(|trial, test| format!("stroke {trial} of {test}"));
+    let text = found.agreement(|trial, test| format!("stroke {trial} of {test}"));
     for trial in found.misread() {
-        assert!(said.contains(&format!("stroke {trial} of slow-roll")), "{said}");
+        assert!(text.contains(&format!("stroke {trial} of slow-roll")), "{text}");
     }
     assert!(found.constants.iter().all(|change| found.known(change) == "unsure"));
 }
 
 #[test]
-fn a_half_file_is_used_as_far_as_it_goes_and_says_what_is_missing() {
+fn an_incomplete_file_is_used_and_its_missing_strokes_are_listed() {
     let (table, doubt) = base();
     let text = "name = \"club\"\n[[trial]]\ntest = \"slow-roll\"\ntime = 9.0\nstop = \"1900 mm\"\nsure = { time = 0.3 }\n\
                 [[trial]]\ntest = \"lag\"\n[[trial]]\ntest = \"hard-lag\"\nstop = 3.2\n[[trial]]\ntest = \"masse\"\nx = 1\n";
@@ -221,10 +222,10 @@ fn a_half_file_is_used_as_far_as_it_goes_and_says_what_is_missing() {
     assert_eq!((trials.len(), trials[0].0), (1, 0));
     let stop = trials[0].1.readings[1];
     assert!((stop.value - 1.9 / table.diamond()).abs() < 1e-12 && stop.sure < 0.02, "by tape: {stop:?}");
-    let said: Vec<String> = odd.iter().map(ToString::to_string).collect();
-    assert!(said[0].starts_with("trial 2 (lag): nothing is marked yet"), "{said:?}");
-    assert!(said[1].contains("hard-lag") && said[1].contains("rails = 5"), "{said:?}");
-    assert!(said[2].contains("masse") && said[2].contains("corner-five"), "{said:?}");
+    let problems: Vec<String> = odd.iter().map(ToString::to_string).collect();
+    assert!(problems[0].starts_with("trial 2 (lag): nothing is marked yet"), "{problems:?}");
+    assert!(problems[1].contains("hard-lag") && problems[1].contains("rails = 5"), "{problems:?}");
+    assert!(problems[2].contains("masse") && problems[2].contains("corner-five"), "{problems:?}");
     let found = calibrate("club", &table, &doubt, &trials).unwrap();
     let known = |name: &str| {
         let change = found.constants.iter().find(|change| change.name == name).unwrap();
@@ -240,14 +241,14 @@ fn a_half_file_is_used_as_far_as_it_goes_and_says_what_is_missing() {
 }
 
 #[test]
-fn odd_marks_are_named_with_what_would_be_accepted() {
+fn problematic_marks_are_reported_with_the_accepted_values() {
     let table = Table::default();
-    let said = |marks: &str| {
+    let problems = |marks: &str| {
         let entries = Entries::parse(&format!("[[trial]]\ntest = \"lag\"\n{marks}\n")).unwrap();
         let (_, odd) = entries.trials(&table);
         odd.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
     };
-    for (marks, says) in [
+    for (marks, expected) in [
         ("stop = 9.2", "trial 1 (lag): stop = 9.2: no ball can be there; accepted is 0 to 8 diamonds"),
         ("rest = 240", "no ball rolls that long: was the stopwatch left running?"),
         ("lap = 0.05", "nobody stops a watch that fast"),
@@ -259,9 +260,9 @@ fn odd_marks_are_named_with_what_would_be_accepted() {
         ("stop = 3\nrails = 40", "rails = 40: nobody strikes that hard"),
         ("stop = 3\nsure = { stop = 0 }", "stop ~ 0: how sure a mark is must be above 0"),
     ] {
-        assert!(said(marks).contains(says), "{marks}: {}", said(marks));
+        assert!(problems(marks).contains(expected), "{marks}: {}", problems(marks));
     }
-    assert_eq!(said("lap = 4.4\nstop = 3"), "");
+    assert_eq!(problems("lap = 4.4\nstop = 3"), "");
     let hit = Entries::parse("[[trial]]\ntest = \"full-hit\"\nobject = 6.5\nrails = 1\n").unwrap();
     assert!(hit.trials(&table).1[0].to_string().contains("(full-hit): rails = 1: no ball may meet a rail"));
     let wrong = Entries::parse("[[trial]]\ntest = 3").unwrap_err();
@@ -278,8 +279,8 @@ fn a_ball_that_is_marked_at_a_rail_touches_it_and_has_met_none() {
     let text = "[[trial]]\ntest = \"full-hit\"\nobject = 8\n[[trial]]\ntest = \"slow-back\"\nstop = 0\ndrift = 4\n";
     let trials = Entries::parse(text).unwrap().trials(&table).0;
     let radius = table.radius / table.diamond();
-    let places = trials.iter().map(|(_, trial)| trial.test.place(&table, trial.readings[0].value));
-    let [(rails, far), (turned, near)] = places.collect::<Vec<_>>()[..] else { panic!("{trials:?}") };
+    let positions = trials.iter().map(|(_, trial)| trial.test.position(&table, trial.readings[0].value));
+    let [(rails, far), (turned, near)] = positions.collect::<Vec<_>>()[..] else { panic!("{trials:?}") };
     assert_eq!((rails, turned), (0, 0));
     assert!((far - (8.0 - radius)).abs() < 1e-12 && (near - radius).abs() < 1e-12, "{far} {near}");
     assert!((trials[1].1.readings[1].value - (4.0 - radius)).abs() < 1e-12);
@@ -294,10 +295,10 @@ fn a_constant_that_has_become_certain_is_correlated_with_nothing() {
     let mut covariance = vec![vec![0.0; belief.count()]; belief.count()];
     covariance[1][1] = 1e-4;
     (covariance[0][1], covariance[1][0]) = (1e-9, 1e-9);
-    let told = belief.doubt(&covariance);
-    assert_eq!(told.correlations, []);
-    told.validate().unwrap();
-    // What contradicts itself ends, too.
+    let result = belief.doubt(&covariance);
+    assert_eq!(result.correlations, []);
+    result.validate().unwrap();
+    // Correlations that contradict each other are shrunk until they are valid.
     for (row, line) in covariance.iter_mut().enumerate() {
         line.fill(-1e-4);
         line[row] = 1e-4;
@@ -315,17 +316,18 @@ fn entries_are_the_same_after_a_round_trip_and_may_be_json() {
 }
 
 #[test]
-fn a_way_is_counted_on_from_rail_to_rail_and_back() {
+fn travel_and_position_are_inverse_over_several_rails() {
     let table = Table::default();
     for test in ["lag", "slow-back"].map(|name| Test::named(name).unwrap()) {
-        for way in [0.5, 3.0, 7.8, 8.3, 15.0, 17.2, 30.0] {
-            let (rails, place) = test.place(&table, way);
-            assert!((test.way(&table, rails, place) - way).abs() < 1e-12 && (0.0..=8.0).contains(&place), "{way}");
+        for travel in [0.5, 3.0, 7.8, 8.3, 15.0, 17.2, 30.0] {
+            let (rails, position) = test.position(&table, travel);
+            let again = test.travel(&table, rails, position);
+            assert!((again - travel).abs() < 1e-12 && (0.0..=8.0).contains(&position), "{travel}");
         }
     }
     let lag = Test::named("lag").unwrap();
-    assert_eq!(lag.place(&table, 3.0), (0, 3.0));
-    assert_eq!(Test::named("slow-back").unwrap().place(&table, 3.0), (0, 5.0));
+    assert_eq!(lag.position(&table, 3.0), (0, 3.0));
+    assert_eq!(Test::named("slow-back").unwrap().position(&table, 3.0), (0, 5.0));
     let drawn = played(&table, &mut Xoshiro256PlusPlus::seed_from_u64(3));
     let stops =
         drawn.iter().flat_map(|trial| trial.readings.iter().map(|reading| trial.test.marks[reading.mark].quantity));
@@ -346,7 +348,7 @@ fn every_test_can_be_played() {
 }
 
 #[test]
-fn a_slower_day_is_told_and_only_what_the_weather_changes_moves_much() {
+fn a_slower_day_is_reported_and_only_constants_that_the_weather_changes_move_much() {
     let (table, doubt) = base();
     let known = calibrate("club", &table, &doubt, &exact(&table)).unwrap().table;
     let before = known.doubt.clone().unwrap();
@@ -357,14 +359,14 @@ fn a_slower_day_is_told_and_only_what_the_weather_changes_moves_much() {
     let damp = TableDoubt::with_value(&known, "mu_r", 1.25 * TableDoubt::value(&known, "mu_r").unwrap());
     let today: Vec<_> = exact(&damp).into_iter().filter(|(_, trial)| DAILY.contains(&trial.test.name)).collect();
     let found = calibrate("club", &known, &after, &today).unwrap();
-    let said = Play::of(&found.table).against(&Play::of(&known));
-    assert!(said.contains("a lag rolls shorter"), "{said}");
+    let text = Play::of(&found.table).against(&Play::of(&known));
+    assert!(text.contains("a lag rolls shorter"), "{text}");
     let roll = found.constants.iter().find(|change| change.name == "mu_r").unwrap();
     assert!(roll.after > 1.1 * roll.before, "{roll:?}");
 }
 
 #[test]
-fn the_weather_changes_rails_of_their_own_as_it_changes_all() {
+fn the_weather_changes_single_rails_as_it_changes_all() {
     let (mut table, mut doubt) = base();
     *table.rail.own_mut(Rail::Top) = Some(OneRail { e: Some(0.8), ..OneRail::default() });
     doubt.deviations.insert("rail.top.e".to_owned(), 0.008);
@@ -378,7 +380,7 @@ fn the_weather_changes_rails_of_their_own_as_it_changes_all() {
 }
 
 #[test]
-fn a_single_stroke_of_which_nothing_counts_makes_no_table() {
+fn a_single_stroke_with_misread_marks_makes_no_table() {
     let (table, doubt) = base();
     let mut trial = exact(&table).into_iter().find(|(_, trial)| trial.test.name == "lag").unwrap();
     for reading in &mut trial.1.readings {
@@ -410,26 +412,26 @@ fn both(truth: &Table) -> Vec<(usize, Trial)> {
 }
 
 #[test]
-fn a_rail_that_is_unlike_the_others_is_told_apart_where_tests_are_played_from_both_ends() {
+fn a_rail_that_differs_from_the_others_is_detected_if_tests_are_played_from_both_ends() {
     let (table, doubt) = base();
     let mut truth = table.clone();
     *truth.rail.own_mut(Rail::Top) = Some(OneRail { e: Some(table.rail_restitution - 0.08), ..OneRail::default() });
     let found = calibrate("club", &table, &doubt, &both(&truth)).unwrap();
-    let told = found.rails_apart();
-    assert_eq!(told.len(), 1, "{told:?}");
-    assert!(told[0].starts_with("the left long rail (top) is unlike the others: it gives back less (0."), "{told:?}");
+    let texts = found.rails_apart();
+    assert_eq!(texts.len(), 1, "{texts:?}");
+    assert!(texts[0].starts_with("the left long rail (top) is unlike the others: it gives back less (0."), "{texts:?}");
     let own = found.table.rail.top.unwrap().e.unwrap();
     let deviation = found.table.doubt.as_ref().unwrap().deviations["rail.top.e"];
     assert!((own - truth.rail.top.unwrap().e.unwrap()).abs() < 2.0 * deviation, "{own} ± {deviation}");
     assert!(deviation < 0.035 && found.table.rail.bottom.is_none(), "{deviation}");
     assert_eq!(Table::from_toml(&toml::to_string(&found.table).unwrap()).unwrap(), found.table);
-    // Rails that are alike stay one, and from one end nobody can tell.
+    // Equal rails keep common constants, and tests from one end alone do not distinguish rails.
     assert_eq!(calibrate("club", &table, &doubt, &both(&table)).unwrap().rails_apart(), [""; 0]);
     assert_eq!(calibrate("club", &table, &doubt, &exact(&truth)).unwrap().table.rail.top, None);
 }
 
 #[test]
-fn a_test_from_the_far_end_is_read_and_written_and_what_it_meets_are_the_other_rails() {
+fn a_test_from_the_far_end_is_read_and_written_and_hits_the_opposite_rails() {
     let text = "[[trial]]\ntest = \"lag\"\nfar-end = true\nlap = 2.6\n";
     let entries = Entries::parse(text).unwrap();
     assert_eq!(toml::to_string(&entries).unwrap(), text);

@@ -1,4 +1,4 @@
-//! Marks as a player types them: a number, with its unit and how sure it is where that is not what is usual.
+//! Parses marks as a player types them: a number, optionally with its unit and its standard error.
 
 use super::{
     entries::{Entry, MOST_RAILS, Written},
@@ -6,21 +6,21 @@ use super::{
 };
 use crate::printing::typed_number;
 
-/// How many short rails a ball has met, among the names of a test's marks.
+/// Field name, next to the marks of a test, for the number of short rails that a ball has hit.
 pub const RAILS: &str = "rails";
 
-/// Whether a test was played from the far end, among the names of its marks.
+/// Field name, next to the marks of a test, for whether it was played from the far end.
 pub const FAR_END: &str = "far-end";
 
-/// How sure a place is that was measured with a tape, as it is written down.
+/// Standard error of a position measured with a tape, as a player writes it.
 pub const TAPED: &str = "5 mm";
 
 impl Entry {
-    /// Takes the mark `name`, the number of [`RAILS`] or [`FAR_END`], as it is typed: `5.3`, `725 mm`, `5.3 ~ 0.2`, `yes`; nothing
-    /// or `-` where it is not known.
+    /// Parses and stores the mark `name`, the number of [`RAILS`] or [`FAR_END`], as typed: `5.3`, `725 mm`, `5.3 ~ 0.2`, `yes`. An empty
+    /// text or `-` means unknown and stores nothing.
     ///
     /// # Errors
-    /// A sentence where the number of rails is none, or the far end is neither `yes` nor `no`.
+    /// A message if the number of rails is not a number, or the far end is neither `yes` nor `no`.
     pub fn take(&mut self, name: &str, typed: &str) -> Result<(), String> {
         let typed = typed.trim();
         if typed.is_empty() || typed == "-" {
@@ -35,7 +35,7 @@ impl Entry {
             self.far_end = match typed {
                 "yes" => true,
                 "no" => false,
-                _ => return Err(format!("far-end {typed} says nothing; accepted are yes and no")),
+                _ => return Err(format!("far-end {typed} is not understood; accepted are yes and no")),
             };
             return Ok(());
         }
@@ -47,7 +47,7 @@ impl Entry {
         Ok(())
     }
 
-    /// The mark as it could be typed; nothing where it is not known.
+    /// Returns the mark as a player could type it; empty if it is unknown.
     pub fn typed(&self, name: &str) -> String {
         if name == RAILS {
             return self.rails.map_or_else(String::new, |rails| rails.to_string());
@@ -62,15 +62,15 @@ impl Entry {
 }
 
 impl Test {
-    /// The names of all that is asked for: the marks, then [`RAILS`] where a lone ball is marked where it stops.
+    /// Returns the names of the fields to fill in: the marks, then [`RAILS`] if a single ball is marked where it stops along the table.
     pub fn asked(&self) -> impl Iterator<Item = &'static str> {
-        let counts =
+        let has_rails =
             self.balls.len() == 1 && self.marks.iter().any(|mark| matches!(mark.quantity, Quantity::StopAlong(_)));
-        self.marks.iter().map(|mark| mark.name).chain(counts.then_some(RAILS))
+        self.marks.iter().map(|mark| mark.name).chain(has_rails.then_some(RAILS))
     }
 }
 
-/// What is no number is kept as it was typed, to be named.
+/// Parses a typed value. A text that is not a number is kept, so that error messages can quote it.
 fn written(typed: &str) -> Written {
     typed_number(typed).map_or_else(|| Written::Text(typed.trim().to_owned()), Written::Number)
 }
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tape_is_as_sure_whether_it_is_said_or_seen_from_the_unit() {
+    fn a_tape_measurement_has_the_same_error_typed_or_inferred_from_the_unit() {
         let table = Table::default();
         let sure = |typed: &str| entry(&[("stop", typed)]).readings(&table).0[0].sure;
         assert!((sure("725 mm") - sure(&format!("2.04 ± {TAPED}"))).abs() < 1e-3);
@@ -116,9 +116,9 @@ mod tests {
     }
 
     #[test]
-    fn letters_are_kept_to_be_named() {
-        let said = entry(&[("stop", "far")]).readings(&Table::default()).1;
-        assert!(said[0].contains("stop = \"far\" is no length"), "{said:?}");
+    fn a_text_that_is_no_number_is_quoted_in_the_error() {
+        let problems = entry(&[("stop", "far")]).readings(&Table::default()).1;
+        assert!(problems[0].contains("stop = \"far\" is no length"), "{problems:?}");
         let mut entry = Entry::default();
         assert!(entry.take(RAILS, "two").unwrap_err().contains("rails two is no number"));
     }

@@ -1,4 +1,4 @@
-//! What a calibration has found, in a player's words.
+//! Describes the result of a calibration in a player's words.
 
 use super::{
     calibrate::{Calibration, Change, Strange, Verdict},
@@ -6,12 +6,13 @@ use super::{
 };
 use crate::table::Rail;
 
-/// What is said of a constant of which the tests tell next to nothing.
+/// Word for a constant about which the tests contain hardly any information.
 pub const NO_BETTER: &str = "no better";
 
-/// The constants by their names: what each is, and the same in twelve characters at most. A rail's own are no part of it.
+/// Names of the constants with their descriptions: a longer one, and one of at most twelve characters. Constants of single rails are not
+/// included.
 const CONSTANTS: [(&str, [&str; 2]); 14] = [
-    ("e_rail", ["what rails give back", "rail bounce"]),
+    ("e_rail", ["bounce of the rails", "rail bounce"]),
     ("mu_rail", ["grip of the rails", "rail grip"]),
     ("rail.height", ["height of the rubber, m", "rail height"]),
     ("rail.kappa", ["how the rubber yields", "rail give"]),
@@ -22,12 +23,12 @@ const CONSTANTS: [(&str, [&str; 2]); 14] = [
     ("mu_sp", ["how soon side is lost", "loss of side"]),
     ("tilt.x", ["lean along the table, m/s²", "lean along"]),
     ("tilt.y", ["lean across it, m/s²", "lean across"]),
-    ("e_ball", ["what balls give back", "ball bounce"]),
+    ("e_ball", ["bounce of the balls", "ball bounce"]),
     ("mu_b", ["throw between balls", "throw"]),
     ("m_end", ["squirt: mass of the cue's end", "squirt"]),
 ];
 
-/// A value and its error, with as many decimals as the error has for two digits: others say nothing.
+/// Formats a value and its error with as many decimals as give the error two significant digits.
 fn to_the_error(value: f64, error: f64) -> [String; 2] {
     let first = error.abs().log10().floor();
     let decimals = if first.is_finite() { (1.0 - first).clamp(0.0, 9.0) as usize } else { 5 };
@@ -35,7 +36,7 @@ fn to_the_error(value: f64, error: f64) -> [String; 2] {
 }
 
 impl Change {
-    /// In a word, how much the marks have told, if they agree.
+    /// Returns a word for how well the constant is known after the trials, if the marks agree.
     fn known(&self) -> &'static str {
         match self.after_deviation / self.before_deviation {
             left if left < 0.5 => "well",
@@ -44,22 +45,22 @@ impl Change {
         }
     }
 
-    /// What was held of it, and how far that could be off.
+    /// Returns the prior mean and standard deviation as text.
     pub fn told_before(&self) -> [String; 2] {
         to_the_error(self.before, self.before_deviation)
     }
 
-    /// What the trials say, and how far that can be off.
+    /// Returns the posterior mean and standard deviation as text.
     pub fn told(&self) -> [String; 2] {
         to_the_error(self.after, self.after_deviation)
     }
 
-    /// What it means at the table, against what was held of one that is called `before`; `None` where the tests tell next to
-    /// nothing of it, where a player sees nothing of it, or where the share would be one of nought: of what
-    /// it was before or, for `mu_r`, whose share is inverse, of what it is now.
+    /// Describes the constant's meaning at the table, compared with the prior table, which is called `before`. `None` if the tests contain
+    /// hardly any information about it, if a player cannot notice it, or if the percentage would be relative to zero: to the prior
+    /// value or, for `mu_r`, whose percentage is inverse, to the posterior value.
     fn meaning(&self, before: &str) -> Option<String> {
         let (what, [less, same, more], is_inverse) = match self.name.as_str() {
-            // What resists less lets a ball roll farther, in the same proportion.
+            // Inverse, because the distance that a ball rolls is inversely proportional to the friction.
             "mu_r" => ("the cloth is", ["slower than", "as fast as", "faster than"], true),
             "e_rail" => ("the rails give back", ["less speed than", "as much speed as", "more speed than"], false),
             "mu_rail" => ("the rails grip", ["less than", "as much as", "more than"], false),
@@ -68,7 +69,7 @@ impl Change {
         };
         let known = Some(self.known()).filter(|known| *known != NO_BETTER)?;
         let (from, to) = if is_inverse { (self.after, self.before) } else { (self.before, self.after) };
-        // Of nought nothing is a share.
+        // There is no percentage of zero.
         if from == 0.0 {
             return None;
         }
@@ -78,13 +79,13 @@ impl Change {
         let number = |share: f64| if share < 0.95 { format!("{share:.1}") } else { format!("{share:.0}") };
         let end = format!("on {before} (± {} %), known {known}", number(error));
         Some(match change {
-            // What the error may hide is no difference.
+            // A change smaller than its error counts as no difference.
             _ if change.abs() < error => format!("{what} {same} {end}"),
             _ => format!("{what} {} % {} {end}", number(change.abs()), if change > 0.0 { more } else { less }),
         })
     }
 
-    /// What the constant is, in twelve characters at most; nothing of one that no test measures.
+    /// Describes the constant in at most twelve characters; empty for a constant that no test measures.
     pub fn short_words(&self) -> String {
         match self.of_a_rail() {
             Some((rail, own)) => format!("{} {}", called(rail)[1], if own == "e" { "bounce" } else { "grip" }),
@@ -92,29 +93,29 @@ impl Change {
         }
     }
 
-    /// What is said of it in [`CONSTANTS`]; nothing where it is not among them.
+    /// Returns the descriptions in [`CONSTANTS`]; empty if the constant is not among them.
     fn of_the_table(&self) -> [&'static str; 2] {
         CONSTANTS.iter().find(|(name, _)| *name == self.name).map_or([""; 2], |(_, words)| *words)
     }
 
-    /// The rail whose own constant it is, and which of the two: `e` or `mu`.
+    /// Returns the rail and the kind, `e` or `mu`, of a single rail's constant.
     fn of_a_rail(&self) -> Option<(Rail, &str)> {
         let own = |rail: &Rail| Some((*rail, self.name.strip_prefix("rail.")?.strip_prefix(rail.name())?));
         let (rail, own) = Rail::ALL.iter().find_map(own)?;
         [".e", ".mu"].contains(&own).then(|| (rail, &own[1..]))
     }
 
-    /// What the constant is.
+    /// Describes the constant.
     pub fn words(&self) -> String {
         match self.of_a_rail() {
-            Some((rail, "e")) => format!("what {} gives back", called(rail)[0]),
+            Some((rail, "e")) => format!("bounce of {}", called(rail)[0]),
             Some((rail, _)) => format!("grip of {}", called(rail)[0]),
             None => self.of_the_table()[0].to_owned(),
         }
     }
 }
 
-/// Which rail it is for a player who stands on the left, and the same in a word.
+/// Returns a rail's name for a player who stands at the left end, and the same in one word.
 const fn called(rail: Rail) -> [&'static str; 2] {
     match rail {
         Rail::Left => ["your own short rail", "near"],
@@ -125,35 +126,35 @@ const fn called(rail: Rail) -> [&'static str; 2] {
 }
 
 impl Verdict {
-    /// What speaks against a mark that looks misread, of a stroke that is called this.
+    /// Explains why a mark of the stroke called `stroke` looks misread.
     pub fn doubtful(&self, stroke: &str) -> String {
         let Self { test, mark, marked, expected, rails, .. } = self;
         let unit = Test::named(test)
             .and_then(|test| test.marks.iter().find(|one| one.name == *mark))
             .map_or_else(String::new, |mark| format!(" {}", mark.unit().sign()));
         let after = |rails: usize| format!(" after {rails} {}", if rails == 1 { "rail" } else { "rails" });
-        let [met, wanted] = match rails {
-            Some((met, wanted)) if met != wanted => [after(*met), after(*wanted)],
+        let [after_marked, after_expected] = match rails {
+            Some((marked, expected)) if marked != expected => [after(*marked), after(*expected)],
             _ => [String::new(), String::new()],
         };
-        let but = expected.map_or_else(
-            || "no stroke of this test comes there".to_owned(),
-            |(value, deviation)| format!("expected {value:.1} ± {deviation:.1}{wanted}"),
+        let expectation = expected.map_or_else(
+            || "no stroke of this test gets there".to_owned(),
+            |(value, deviation)| format!("expected {value:.1} ± {deviation:.1}{after_expected}"),
         );
-        format!("{stroke} looks misread: you marked {mark} {marked:.1}{unit}{met}, {but}")
+        format!("{stroke} looks misread: you marked {mark} {marked:.1}{unit}{after_marked}, {expectation}")
     }
 }
 
 impl Strange {
-    /// How a stroke that is called this was different.
+    /// Describes the difference of the stroke called `stroke` from the requested one.
     pub fn words(&self, stroke: &str) -> String {
         let Self { what, off, .. } = self;
-        format!("{stroke} was struck far from what is asked for ({what}: {off:+.1} deviations), or a mark is misread")
+        format!("{stroke} was far from the requested stroke ({what}: {off:+.1} deviations), or a mark is misread")
     }
 }
 
 impl Calibration {
-    /// The rails that differ from the others, each with how.
+    /// Describes the rails that differ from the others.
     pub fn rails_apart(&self) -> Vec<String> {
         let constant = |name: &str| self.constants.iter().find(|one| one.name == name);
         let differs = |rail: Rail| {
@@ -175,12 +176,12 @@ impl Calibration {
         Rail::ALL.into_iter().filter_map(differs).collect()
     }
 
-    /// In a word, how much the marks have told of a constant: nothing that one could rely on where they contradict each other.
+    /// Returns a word for how well a constant is known after the trials; "unsure" if the marks contradict each other.
     pub fn known(&self, change: &Change) -> &'static str {
         if self.is_contradictory() { "unsure" } else { change.known() }
     }
 
-    /// What the constants mean at the table that the marks have told something of.
+    /// Describes the meaning at the table of all constants about which the marks contain information.
     pub fn meanings(&self) -> Vec<String> {
         if self.is_contradictory() {
             return Vec::new();
@@ -188,7 +189,7 @@ impl Calibration {
         self.constants.iter().filter_map(|change| change.meaning(&self.before)).collect()
     }
 
-    /// Whether the marks agree, of strokes that `called` has names for.
+    /// Describes whether the marks agree; `called` names a stroke by its number and test.
     pub fn agreement(&self, called: impl Fn(usize, &str) -> String) -> String {
         if self.is_contradictory() {
             let mut strokes: Vec<String> =
@@ -244,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_known_of_a_constant_is_told_in_a_players_words() {
+    fn constants_are_described_in_a_players_words() {
         let change = |name: &str, after: f64, after_deviation: f64| Change {
             name: name.to_owned(),
             before: 0.005,
@@ -263,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn what_begins_or_ends_at_nought_is_told_without_shares_of_nothing() {
+    fn constants_of_zero_are_described_without_percentages_of_zero() {
         let change = |name: &str, before: f64, after: f64| {
             let name = name.to_owned();
             Change { name, before, before_deviation: 0.1, after, after_deviation: 0.02 }.meaning("match")

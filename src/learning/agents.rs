@@ -10,16 +10,16 @@ use super::{
 pub const AGENTS: [AgentKind; 4] = [DDPG, kind_of::<QLearning>(), kind_of::<Dqn>(), kind_of::<PlainDdpg>()];
 
 impl AgentKind {
-    /// The agent called `name`.
+    /// Returns the agent called `name`.
     ///
     /// # Errors
-    /// [`UnknownAgent`], which lists them.
+    /// [`UnknownAgent`], whose message lists the known agents.
     pub fn named(name: &str) -> Result<Self, UnknownAgent> {
         AGENTS.into_iter().find(|agent| agent.name == name).ok_or_else(|| UnknownAgent(name.to_owned()))
     }
 }
 
-/// An agent's name that is not known.
+/// The name of an agent is unknown.
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error("there is no agent \"{0}\"; use {list}", list = AGENTS.map(|agent| agent.name).join(", "))]
 pub struct UnknownAgent(String);

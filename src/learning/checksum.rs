@@ -1,47 +1,48 @@
-//! A checksum within the file that it guards: any changed byte is noticed, wherever it stands.
+//! A checksum that is stored inside the file that it protects. It detects any changed byte, including those of the checksum.
 
-/// What a checkpoint's checksum is called: the first field of a JSON note, which stands as a text in the JSON of the header.
+/// Field name of a checkpoint's checksum: the first field of a JSON note, which is stored as a string in the header's JSON.
 pub const OF_CHECKPOINT: &str = "checksum";
 
-/// A policy's.
+/// Field name of a policy's checksum.
 pub const OF_POLICY: &str = "policy_checksum";
 
 /// Hexadecimal digits of a checksum.
 const DIGITS: usize = 16;
 
-/// What stands in the note until the checksum is written.
+/// Placeholder in the note until the checksum is written.
 pub const NO_CHECKSUM: &str = "0000000000000000";
 
-/// Puts the checksum of this name in its place. `false` where there is no place for it.
+/// Writes the checksum into the field `name`. Returns `false` if `bytes` have no such field.
 pub fn write_checksum(name: &str, bytes: &mut [u8]) -> bool {
-    let Some(place) = place(name, bytes) else { return false };
-    bytes[place..place + DIGITS].copy_from_slice(NO_CHECKSUM.as_bytes());
+    let Some(offset) = digits_offset(name, bytes) else { return false };
+    bytes[offset..offset + DIGITS].copy_from_slice(NO_CHECKSUM.as_bytes());
     let digits = checksum(bytes);
-    bytes[place..place + DIGITS].copy_from_slice(digits.as_bytes());
+    bytes[offset..offset + DIGITS].copy_from_slice(digits.as_bytes());
     true
 }
 
-/// The checksum of a file's bytes, in [`DIGITS`] digits.
+/// Returns the checksum of a file's bytes, in [`DIGITS`] hexadecimal digits.
 pub fn checksum(bytes: &[u8]) -> String {
     format!("{:016x}", hash([bytes].into_iter()))
 }
 
-/// Whether the content fits its checksum of this name; `None` where there is none.
+/// Whether the content matches the checksum in the field `name`; `None` if there is no such field.
 pub fn is_whole(name: &str, bytes: &[u8]) -> Option<bool> {
-    let place = place(name, bytes)?;
-    let digits = &bytes[place..place + DIGITS];
-    let parts = [&bytes[..place], NO_CHECKSUM.as_bytes(), &bytes[place + DIGITS..]];
+    let offset = digits_offset(name, bytes)?;
+    let digits = &bytes[offset..offset + DIGITS];
+    let parts = [&bytes[..offset], NO_CHECKSUM.as_bytes(), &bytes[offset + DIGITS..]];
     Some(digits == format!("{:016x}", hash(parts.into_iter())).as_bytes())
 }
 
-fn place(name: &str, bytes: &[u8]) -> Option<usize> {
-    let mark = format!("{{\\\"{name}\\\":\\\"").into_bytes();
-    let place = bytes.windows(mark.len()).position(|window| window == mark)? + mark.len();
-    (place + DIGITS <= bytes.len()).then_some(place)
+/// Returns the offset of the checksum's first digit.
+fn digits_offset(name: &str, bytes: &[u8]) -> Option<usize> {
+    let prefix = format!("{{\\\"{name}\\\":\\\"").into_bytes();
+    let offset = bytes.windows(prefix.len()).position(|window| window == prefix)? + prefix.len();
+    (offset + DIGITS <= bytes.len()).then_some(offset)
 }
 
-/// FNV-1a with 64 bits. For a given byte every step maps sums one to one, so that a single changed byte always changes
-/// the result; several do but for one chance in 2^64. It guards against accidents, not against an adversary.
+/// Computes FNV-1a with 64 bits. For a given byte each step is one-to-one, so a single changed byte always changes the result.
+/// Several changed bytes go undetected with a probability of 2^-64. It protects against accidents, not against an adversary.
 fn hash<'a>(parts: impl Iterator<Item = &'a [u8]>) -> u64 {
     parts
         .flatten()

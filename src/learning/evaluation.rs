@@ -1,46 +1,46 @@
-//! How well a player does on held-out layouts.
+//! Held-out layouts and the score of a policy on them.
 
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::table::{Layout, Table};
 
-/// Seed of the layouts that training measures itself on.
+/// Seed of the held-out layouts on which a training run measures its progress.
 pub const HELD_OUT_SEED: u64 = 2026;
 
-/// Seed of the layouts that `carom evaluate` measures on: no training run and no setting was ever chosen by them.
+/// Seed of the layouts that `carom evaluate` uses. No training run and no setting was ever selected by its score on them.
 pub const EVALUATION_SEED: u64 = 1867;
 
-/// Steps of resting contacts that are followed while an agent trains; a shot that needs more counts for what it has earned so
-/// far. Of 12,000 shots at a ball on the `thesis` table all but one earned the same as when followed to the end, and training takes a
-/// sixth less time.
+/// Limit on the steps of resting contacts that are simulated for a shot in training. A shot that needs more keeps the reward that it
+/// has earned so far. Of 12,000 shots at a ball on the `thesis` table all but one earned the same reward as without the limit, and
+/// training takes a sixth less time.
 pub const CONTACT_STEPS: u32 = 20;
 
-/// `count` layouts drawn from `seed`.
+/// Draws `count` layouts from `seed`.
 pub fn held_out_layouts(table: &Table, count: usize, seed: u64) -> Vec<Layout> {
-    // Jumped ahead by 2^192 numbers: no training run of the same seed reaches these layouts.
+    // A jump of 2^192 numbers: no training run with the same seed reaches these layouts.
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     rng.long_jump();
     (0..count).map(|_| Layout::random(table, &mut rng)).collect()
 }
 
-/// What a policy earned on a set of layouts.
+/// Result of a policy on a set of layouts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Score {
-    /// Mean reward of its first choice.
+    /// Mean reward of the policy's first choice.
     pub mean_reward: f64,
-    /// Share of layouts in which any of its proposals earns at least one: what a perfect choice would reach, but for
-    /// proposals that leave balls pressed together for long.
+    /// Share of layouts on which at least one proposal earns a reward of 1 or more (best-of-k success). A perfect choice among the
+    /// proposals would reach it, except for proposals that leave balls pressed together for long.
     pub best_of_k: f64,
 }
 
 impl Score {
-    /// From what the first choice earned on each layout, and whether any proposal earned at least one there.
+    /// Computes the score from one pair per layout: the reward of the first choice, and whether any proposal earned 1 or more.
     pub fn of(played: &[(f64, bool)]) -> Self {
         let count = played.len().max(1) as f64;
         let total = played.iter().fold(0.0, |total, (first, _)| total + first);
-        let reached = played.iter().filter(|(_, is_reached)| *is_reached).count();
-        Self { mean_reward: total / count, best_of_k: reached as f64 / count }
+        let successes = played.iter().filter(|(_, any_succeeds)| *any_succeeds).count();
+        Self { mean_reward: total / count, best_of_k: successes as f64 / count }
     }
 }
 

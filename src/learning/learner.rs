@@ -1,4 +1,4 @@
-//! What a training run needs of an agent, whichever it is.
+//! The interface between a training run and any agent: [`Learner`], its kinds, plan, settings and progress.
 
 use std::fmt::{Debug, Display};
 
@@ -23,7 +23,7 @@ use crate::{
 /// Creates an untrained agent from a plan, a table and settings.
 pub type StartFn = fn(TrainingPlan, Table, &Value) -> Result<Box<dyn Learner>, StartError>;
 
-/// Takes up a learner from a file.
+/// Restores a learner from a file.
 pub type RestoreFn = fn(&Reader<'_>, Value) -> Result<Box<dyn Learner>, WeightsError>;
 
 /// A kind of agent: how to create it untrained, and how to restore a saved one.
@@ -31,17 +31,17 @@ pub type RestoreFn = fn(&Reader<'_>, Value) -> Result<Box<dyn Learner>, WeightsE
 pub struct AgentKind {
     /// Name on the command line and in files.
     pub name: &'static str,
-    /// What it is, in one line for people.
+    /// Description in one line, for users.
     pub title: &'static str,
-    /// All its settings, from an object of those that differ from its defaults.
+    /// Returns all settings, from an object of those that differ from the agent's defaults.
     pub settings: fn(&Value) -> Result<Value, StartError>,
-    /// An untrained agent for a plan on a table. The value is an object of the settings that differ from the agent's defaults.
+    /// Creates an untrained agent for a plan on a table. The value is an object of the settings that differ from the agent's defaults.
     pub start: StartFn,
-    /// The learner whose [`Learner::save`] filled the file and returned the note.
+    /// Restores the learner whose [`Learner::save`] filled the file and returned the note.
     pub restore: RestoreFn,
     /// Settings that apply only when weights are loaded; `--from` does not pass them on.
     pub not_inherited: &'static [&'static str],
-    /// Settings that say what the networks' inputs and outputs mean: weights that were learnt under others mean something else.
+    /// Settings that define the meaning of the networks' inputs and outputs. Weights are usable only with equal values of these.
     pub must_match: &'static [&'static str],
 }
 
@@ -51,26 +51,26 @@ pub enum StartError {
     /// A setting is unknown, of another type or outside its range.
     #[error("the agent's settings: {0}")]
     Settings(String),
-    /// candle refuses.
+    /// candle reports an error.
     #[error("the agent cannot start: {}", first_line(.0))]
     Network(#[from] candle_core::Error),
 }
 
 impl StartError {
-    /// Settings that are refused for this reason.
+    /// Creates the error for settings that are refused for `reason`.
     pub fn settings(reason: impl Display) -> Self {
         Self::Settings(reason.to_string())
     }
 }
 
-/// An agent's settings as an object.
+/// Returns an agent's settings as a JSON object.
 pub fn settings_as_object(settings: &impl Serialize) -> Value {
-    // They are numbers, words and lists of them: they can be written.
+    // Settings are numbers, words and lists of them, which always serialize.
     note_of(settings).unwrap_or_default()
 }
 
-/// Puts `changes` in the place of the values of the same names. Where an agent's defaults have an object, only the parts of it that
-/// are named change, and the others stay.
+/// Merges `changes` into `settings` by name. A setting that is an object in the agent's defaults is merged part by part; any other
+/// value is replaced as a whole.
 pub fn lay_over(settings: &mut Value, changes: &Value, defaults: &Value) {
     let Some(changes) = changes.as_object() else {
         *settings = changes.clone();
@@ -87,10 +87,10 @@ pub fn lay_over(settings: &mut Value, changes: &Value, defaults: &Value) {
     }
 }
 
-/// An agent's settings, from an object of those that differ from its defaults; of a setting that has parts, of the parts that differ.
+/// Returns an agent's settings, from an object of the settings (or parts of settings) that differ from its defaults.
 ///
 /// # Errors
-/// Where one is unknown or of another type, or `validate` refuses them.
+/// Fails if a setting is unknown or of another type, or if `validate` refuses the settings.
 pub fn settings_from<S: Default + Serialize + DeserializeOwned>(
     object: &Value,
     validate: impl Fn(&S) -> Result<(), SettingError>,
@@ -101,7 +101,7 @@ pub fn settings_from<S: Default + Serialize + DeserializeOwned>(
         lay_over(&mut settings, changes, &defaults);
         S::deserialize(settings)
     };
-    // A value that is refused tells what would be accepted in its place.
+    // Finds the accepted range of a setting: the error for a value outside the range contains it.
     let accepted = |name: &str| {
         [json!(0), json!(u32::MAX), json!([0])].into_iter().find_map(|value| {
             let settings = read(&json!({ name: value })).ok()?;
@@ -109,33 +109,33 @@ pub fn settings_from<S: Default + Serialize + DeserializeOwned>(
         })
     };
     let settings = read(object).map_err(|error| {
-        // Which of them it is, where one alone cannot be read either.
-        let alone = |(name, value): (&String, &Value)| {
+        // Names the setting at fault: the first that cannot be read on its own either.
+        let error_of = |(name, value): (&String, &Value)| {
             let error = read(&json!({ name: value })).err()?.to_string();
-            // Settings of earlier versions are read where they mean nothing, and are offered to nobody.
+            // Settings of earlier versions are accepted without effect, but the message must not offer them.
             let error = match error.split_once("expected one of ") {
-                Some((what, _)) if defaults.get(name).is_none() => {
-                    format!("{what}expected one of {}", names(&defaults))
+                Some((start, _)) if defaults.get(name).is_none() => {
+                    format!("{start}expected one of {}", names(&defaults))
                 }
                 _ => error,
             };
-            Some(format!("{name} = {value}: {}", told(&error, accepted(name))))
+            Some(format!("{name} = {value}: {}", plain_message(&error, accepted(name))))
         };
-        let named = object.as_object().and_then(|settings| settings.iter().find_map(alone));
-        StartError::settings(named.unwrap_or_else(|| told(&error.to_string(), None)))
+        let named = object.as_object().and_then(|settings| settings.iter().find_map(error_of));
+        StartError::settings(named.unwrap_or_else(|| plain_message(&error.to_string(), None)))
     })?;
     validate(&settings).map_err(StartError::settings)?;
     Ok(settings)
 }
 
-/// The names in an object.
+/// Lists the names in an object.
 fn names(object: &Value) -> String {
     let names = object.as_object().into_iter().flat_map(serde_json::Map::keys);
     names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
-/// A message of serde in plain words, with what is accepted where that is known.
-fn told(message: &str, accepted: Option<&str>) -> String {
+/// Rewrites a message of serde in plain words and adds the accepted range, if it is known.
+fn plain_message(message: &str, accepted: Option<&str>) -> String {
     let message = in_plain_words(message).replace("unknown field", "unknown setting");
     let Some(range) = accepted else { return message };
     let message = message.replace("a whole number from 0 on", "a whole number");
@@ -144,32 +144,32 @@ fn told(message: &str, accepted: Option<&str>) -> String {
         .fold(message, |message, words| message.replace(words, &format!("{words}; accepted is {range}")))
 }
 
-/// What is to be learnt, and how long; the same for every agent.
+/// Goal and length of a training; the same fields for every agent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TrainingPlan {
-    /// What earns a reward.
+    /// The reward function.
     pub reward: Reward,
-    /// Seed of everything random.
+    /// Seed of all random numbers.
     pub seed: u64,
     /// Shots to play.
     pub shots: u64,
 }
 
-/// What one iteration, rollout and update, did.
+/// Statistics of one iteration: a rollout and its updates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Iteration {
     /// Mean reward of the shots played, exploration included.
     pub mean_reward: f64,
-    /// Mean value that the agent gives its own choices, in the units in which it learns: the critic's mean of the
+    /// Mean value that the agent assigns to its own choices, in the units in which it learns: the critic's mean over the
     /// actor's actions, or the mean of the largest Q.
     pub q_value: f64,
-    /// Loss of whatever judges actions; 0 where the iteration made no update.
+    /// Loss of the critic or of the Q-function; 0 if the iteration made no update.
     pub critic_loss: f64,
     /// Loss of the actor, for agents that have one.
     pub actor_loss: Option<f64>,
 }
 
-/// What one update reports.
+/// Statistics of one update.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct UpdateStats {
     /// Loss of the critic or the Q-function before the step: mean cross entropy, nats, for `ddpg`; squared error for the thesis' agents.
@@ -178,40 +178,40 @@ pub struct UpdateStats {
     pub value: f64,
 }
 
-/// How far an agent's learning has come.
+/// Progress of an agent's learning.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Updates made so far.
     pub updates: u64,
-    /// Learning rate now, of whatever judges actions.
+    /// Current learning rate of the critic or of the Q-function.
     pub learning_rate: f64,
-    /// How strongly it explores now: the probability of a shot that is drawn uniformly from all actions (`ddpg` adds noise to most of
-    /// its other shots, too), or, for `thesis-ddpg`, the standard deviation of its noise in units of half an action's range.
+    /// Current strength of exploration: the probability of a shot drawn uniformly from all actions (`ddpg` also adds noise to most of
+    /// its other shots), or, for `thesis-ddpg`, the standard deviation of its noise in units of half an action's range.
     pub exploration: f64,
-    /// Share of its replay buffer that is filled, where it has one.
+    /// Filled share of the replay buffer; `None` for agents without one.
     pub replay_fill: Option<f64>,
 }
 
-/// An agent that trains. It can be saved between any two iterations and goes on bit for bit as if it had not been: what it
-/// does depends on nothing but its own state. Errors are candle's, safetensors' and serde's.
-#[expect(clippy::missing_errors_doc, reason = "said of all of them at once")]
+/// An agent in training. Its behaviour depends on nothing but its own state: saved between any two iterations and restored, it
+/// continues bit for bit as if it had not been interrupted. Errors are those of candle, safetensors and serde.
+#[expect(clippy::missing_errors_doc, reason = "the trait's documentation states the errors of all methods")]
 pub trait Learner: Debug + Send {
-    /// Its [`AgentKind::name`].
+    /// The agent's [`AgentKind::name`].
     fn agent(&self) -> &'static str;
 
-    /// What it learns.
+    /// Goal and length of the training.
     fn plan(&self) -> TrainingPlan;
 
-    /// Where it plays.
+    /// The table on which the agent plays.
     fn table(&self) -> &Table;
 
-    /// All its settings, as [`AgentKind::settings`] gives them.
+    /// All settings, in the form of [`AgentKind::settings`].
     fn settings(&self) -> Value;
 
     /// Shots played so far.
     fn shots(&self) -> u64;
 
-    /// How far its learning has come.
+    /// Progress of the learning.
     fn progress(&self) -> Progress;
 
     /// Whether all shots of the plan have been played.
@@ -219,19 +219,19 @@ pub trait Learner: Debug + Send {
         self.shots() >= self.plan().shots
     }
 
-    /// Plays at least one shot and learns. Fails where the networks no longer give finite numbers.
+    /// Plays at least one shot and learns. Fails if the networks no longer return finite numbers.
     fn iterate(&mut self) -> candle_core::Result<Iteration>;
 
-    /// Plays one shot on every layout as well as it can, without exploration. Its own state, the random numbers to come
-    /// included, stays as it is.
+    /// Plays one shot on every layout without exploration and returns the score. Does not change the agent's state, its random
+    /// number generator included.
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score>;
 
-    /// Its shots on the layouts, as [`Learner::score`] plays them.
+    /// Returns the shots that [`Learner::score`] plays on the layouts.
     fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>>;
 
-    /// The bytes of a policy file, for agents whose policy the coach can use. `held_out_reward` is what it has been
-    /// measured to earn, `date` the day on which the run was started. That of a finished run may take minutes of calibration: meanwhile
-    /// `go_on` is asked again and again, and once it says no there are no bytes either.
+    /// Returns the bytes of a policy file; `None` for agents whose policy the coach cannot use. `held_out_reward` is the measured mean
+    /// reward on held-out layouts, `date` the day on which the run started. For a finished run the calibration may take minutes:
+    /// `go_on` is called repeatedly meanwhile, and the result is `None` once it returns `false`.
     fn policy(
         &self,
         _held_out_reward: f64,
@@ -241,15 +241,15 @@ pub trait Learner: Debug + Send {
         Ok(None)
     }
 
-    /// Adds the arrays of its whole state to a file and returns everything else (`note_of`).
+    /// Adds the arrays of the whole state to a file and returns the rest of the state as a note (`note_of`).
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError>;
 
-    /// Takes the weights, and nothing but the weights, from a file that [`Learner::save`] filled, or a policy file, of
-    /// the same kind of agent. Where the file has no such weights, or some of other sizes, it stays as it is.
+    /// Loads only the weights, from a file that [`Learner::save`] filled or from a policy file, of the same kind of agent. If the
+    /// weights are missing or of other sizes, the agent stays unchanged.
     fn load_weights(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError>;
 }
 
-/// What serde makes of `note`, its numbers written as shortly as they are in a file (`f32` as well as `f64`).
+/// Serializes `note`, with its numbers as short as in a file (`f32` as well as `f64`).
 pub(crate) fn note_of(note: &impl Serialize) -> Result<Value, WeightsError> {
     let text = serde_json::to_string(note).map_err(safetensors::SafeTensorError::from)?;
     Ok(serde_json::from_str(&text).map_err(safetensors::SafeTensorError::from)?)
@@ -260,7 +260,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_of_a_setting_are_laid_over_the_others_for_every_agent() {
+    fn parts_of_a_setting_are_merged_for_every_agent() {
         for (agent, changes, part, other) in [
             ("ddpg", json!({"exploration": {"uniform": 0.05}}), "/exploration/uniform", "/exploration/noise"),
             ("q-learning", json!({"epsilon": {"first": 0.5}}), "/epsilon/first", "/epsilon/over"),
@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_one_word_or_another_is_replaced_as_a_whole() {
+    fn a_setting_that_is_no_object_by_default_is_replaced_as_a_whole() {
         let defaults = json!({"episode": "one-shot", "noise": {"theta": 1, "sigma": 2}});
         let mut settings = json!({"episode": {"shots": 20}, "noise": {"theta": 3}});
         lay_over(&mut settings, &json!({"episode": {"until-miss": 5}, "noise": {"sigma": 4}}), &defaults);

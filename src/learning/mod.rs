@@ -1,8 +1,8 @@
-//! Agents that learn to play: what they see, what they do, and how they get better.
+//! Reinforcement learning: the agents, their networks, training runs on disk, and evaluation.
 //!
-//! `ddpg` is the agent that coaches, with its way of seeing the table; [`thesis`] holds the thesis' own three; both learn
-//! with what `nn` has. A [`run`] on disk drives any [`learner`] of the [`agents`]. What comes out is a [`policy`]; how
-//! good it is [`evaluation`] tells.
+//! `ddpg` is the agent that the coach uses, with its own observations and actions; [`thesis`] holds the three agents of the thesis.
+//! Both use the networks of `nn`. A [`run`] on disk trains the [`learner`] of any of the [`agents`]. The result is a [`policy`];
+//! [`evaluation`] measures how good it is.
 
 pub mod agents;
 mod checksum;

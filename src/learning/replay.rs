@@ -1,64 +1,64 @@
-//! The replay buffer: shots that were played, the oldest making room for the newest.
+//! The replay buffer: a ring of past shots, in which a new shot replaces the oldest.
 
 use rand::{Rng, RngExt};
 
-/// A ring of the last shots.
+/// A ring buffer of the most recent shots.
 #[derive(Clone, Debug)]
 pub struct ReplayBuffer<T> {
-    held: Vec<T>,
+    stored: Vec<T>,
     capacity: usize,
-    /// Where the next shot goes once the buffer is full.
+    /// Index of the slot that the next shot overwrites once the buffer is full.
     next: usize,
 }
 
 impl<T: Copy> ReplayBuffer<T> {
-    /// An empty buffer for `capacity` shots, at least one.
+    /// Creates an empty buffer for `capacity` shots, at least one.
     pub fn new(capacity: usize) -> Self {
         Self::restore(capacity, Vec::new(), 0)
     }
 
-    /// A buffer with the content that [`ReplayBuffer::held`] and [`ReplayBuffer::next`] gave.
-    pub fn restore(capacity: usize, mut held: Vec<T>, next: usize) -> Self {
+    /// Restores a buffer from the values of [`ReplayBuffer::stored`] and [`ReplayBuffer::next`].
+    pub fn restore(capacity: usize, mut stored: Vec<T>, next: usize) -> Self {
         let capacity = capacity.max(1);
-        held.truncate(capacity);
-        Self { held, capacity, next: next % capacity }
+        stored.truncate(capacity);
+        Self { stored, capacity, next: next % capacity }
     }
 
-    /// What is held, in the order of the ring.
-    pub fn held(&self) -> &[T] {
-        &self.held
+    /// The stored shots, in the order of the ring.
+    pub fn stored(&self) -> &[T] {
+        &self.stored
     }
 
-    /// Where the next shot goes once the buffer is full.
+    /// Index of the slot that the next shot overwrites once the buffer is full.
     pub const fn next(&self) -> usize {
         self.next
     }
 
-    /// Number of shots held.
+    /// Number of stored shots.
     pub const fn len(&self) -> usize {
-        self.held.len()
+        self.stored.len()
     }
 
     /// Share of the buffer that is filled.
     pub fn fill(&self) -> f64 {
-        self.held.len() as f64 / self.capacity as f64
+        self.stored.len() as f64 / self.capacity as f64
     }
 
     pub fn push(&mut self, shot: T) {
-        if self.held.len() < self.capacity {
-            self.held.push(shot);
+        if self.stored.len() < self.capacity {
+            self.stored.push(shot);
         } else {
-            self.held[self.next] = shot;
+            self.stored[self.next] = shot;
             self.next = (self.next + 1) % self.capacity;
         }
     }
 
-    /// `count` shots drawn uniformly, the same one possibly twice; none from an empty buffer.
+    /// Draws `count` shots uniformly with replacement; none from an empty buffer.
     pub fn sample(&self, count: usize, rng: &mut (impl Rng + ?Sized)) -> Vec<T> {
-        if self.held.is_empty() {
+        if self.stored.is_empty() {
             return Vec::new();
         }
-        (0..count).map(|_| self.held[rng.random_range(0..self.held.len())]).collect()
+        (0..count).map(|_| self.stored[rng.random_range(0..self.stored.len())]).collect()
     }
 }
 

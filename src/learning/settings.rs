@@ -1,4 +1,4 @@
-//! What the agents' settings are checked by.
+//! Range checks for the agents' settings.
 
 use std::fmt::Display;
 
@@ -12,7 +12,7 @@ pub struct SettingError {
 }
 
 impl SettingError {
-    /// What is accepted for the setting of this name, if the error is about it.
+    /// Returns the accepted range if this error is about the setting `name`.
     pub fn accepted_for(&self, name: &str) -> Option<&'static str> {
         (self.name == name).then_some(self.accepted)
     }
@@ -40,7 +40,7 @@ pub fn check_count(name: &'static str, value: usize) -> Result<(), SettingError>
     check(name, value as f64, (1..=1 << 24).contains(&value), "1 to 16777216")
 }
 
-/// Checks how many rows are worked on at once: more would ask for more memory than most machines have.
+/// Checks a number of rows that are processed at once. The limit keeps the memory within that of most machines.
 pub fn check_batch(name: &'static str, value: usize) -> Result<(), SettingError> {
     check(name, value as f64, (1..=1 << 16).contains(&value), "1 to 65536")
 }

@@ -1,21 +1,21 @@
-//! What an agent can do: where to pass the first ball, how fast, and with which spin; and the cue inputs that do it.
+//! The agent's actions: offset at the first ball, speed, spin and elevation, and their meaning on a table.
 
 use serde::{Deserialize, Serialize};
 
-use super::dual::{ALONG, Dual};
+use super::dual::{Dual, VARIABLES};
 use crate::table::Table;
 
-/// Most numbers in an action.
-pub const ACTIONS: usize = ALONG;
+/// Numbers in an action.
+pub const ACTIONS: usize = VARIABLES;
 
-/// An action as a network gives it: aim, speed, tip to the left and up, elevation; each from -1 to 1. All noughts but the
-/// first two are the thesis' fixed choice a = b = 0, theta = 10°.
+/// An action as a network outputs it: aim, speed, tip to the left and up, elevation; each from -1 to 1. Zeros from the third number on
+/// are the thesis' fixed choice a = b = 0, theta = 10°.
 pub type Action = [f32; ACTIONS];
 
-/// Which of the cue inputs an agent chooses.
+/// The cue inputs that an agent chooses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ActionSpace {
-    /// The thesis' choice (its 4.1.3): phi and V. The tip meets the ball's centre, the cue is raised by 10°.
+    /// The thesis' choice (its 4.1.3): phi and V. The tip hits the ball's centre; the elevation is 10°.
     #[default]
     #[serde(rename = "phi-v")]
     PhiV,
@@ -25,7 +25,7 @@ pub enum ActionSpace {
 }
 
 impl ActionSpace {
-    /// How many numbers of an [`Action`] it uses; the others stay nought.
+    /// Number of leading entries of an [`Action`] that are in use; the others stay zero.
     pub const fn actions(self) -> usize {
         match self {
             Self::PhiV => 2,
@@ -33,7 +33,7 @@ impl ActionSpace {
         }
     }
 
-    /// What its actions mean, for the note in a policy's file: weights fit one meaning only.
+    /// Returns the meaning of the actions, for the note in a policy's file: weights are valid for one meaning only.
     pub const fn meaning(self) -> &'static str {
         match self {
             Self::PhiV => "phi from offset -0.1 to 1 diameters, V 0.3 to 6 m/s, a = b = 0, theta = 10 degrees",
@@ -45,52 +45,52 @@ impl ActionSpace {
     }
 }
 
-/// What -1 and 1 stand for in the first action: the cue ball's course passes the first ball's centre on the left at this
-/// many ball diameters. 0 is a full hit, 1 a hair's breadth. A little beyond 0, so that a full hit is no edge.
+/// Range of the first action's offset, in ball diameters: distance at which the cue ball's course passes the first ball's centre on the
+/// left. 0 is a full hit, 1 the thinnest one. The range starts below 0, so that a full hit is not at its edge.
 const OFFSETS: [f64; 2] = [-0.1, 1.0];
 
-/// What -1 and 1 stand for in the second action: cue speed, m/s. The upper end is the thesis' (chapter 4.1); below the
-/// lower one a ball hardly reaches another.
+/// Range of the second action's cue speed, m/s. The upper end is the thesis' (chapter 4.1); below the lower end a ball hardly reaches
+/// another.
 pub const SPEEDS: [f64; 2] = [0.3, 6.0];
 
-/// What -1 and 1 stand for in the fifth action: elevation of the cue, rad. The middle is the thesis' 10°.
+/// Range of the fifth action's elevation of the cue, rad. The middle is the thesis' 10°.
 const ELEVATIONS: [f64; 2] = [0.0, 20.0 * std::f64::consts::PI / 180.0];
 
-/// The tip stays within this share of the miscue limit's radius, so that rounding never oversteps it.
+/// Largest tip offset as a share of the miscue limit's radius; below 1, so that rounding never exceeds the limit.
 const TIP_SHARE: f64 = 0.98;
 
-/// The first action that gives `offset`.
+/// Returns the first action for an `offset`.
 pub fn aim_at(offset: f64) -> f32 {
     (2.0 * (offset - OFFSETS[0]) / (OFFSETS[1] - OFFSETS[0]) - 1.0) as f32
 }
 
-/// The second action that gives a cue speed, m/s.
+/// Returns the second action for a cue speed, m/s.
 pub fn speed_of(speed: f64) -> f32 {
     (2.0 * (speed - SPEEDS[0]) / (SPEEDS[1] - SPEEDS[0]) - 1.0) as f32
 }
 
-/// What an action means on a table, with slopes along its numbers.
+/// The physical meaning of an action on a table, with its slopes along the action's numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Meaning {
     /// Ball diameters between the cue ball's course and the first ball's centre.
     pub offset: Dual,
     /// Cue speed, m/s.
     pub speed: Dual,
-    /// Tip to the left and up, in units of R; in the observation's frame, which may be a mirror's.
+    /// Tip to the left and up, in units of R; in the observation's frame, which may be mirrored.
     pub tip: [Dual; 2],
     /// Elevation, rad.
     pub theta: Dual,
 }
 
 impl Meaning {
-    /// The meaning of `action`. What is not a number becomes the middle, so that a broken network still gives cue inputs.
+    /// Returns the meaning of `action`. NaN becomes the middle of the range, so that a broken network still yields cue inputs.
     pub fn of(table: &Table, action: Action) -> Self {
         let input = |index: usize| {
             let value = if action[index].is_nan() { 0.0 } else { f64::from(action[index].clamp(-1.0, 1.0)) };
             Dual::action(index, value)
         };
         let scaled = |[low, high]: [f64; 2], value: Dual| (value + 1.0) * (0.5 * (high - low)) + low;
-        // The square of the two actions is mapped onto the disc of the tip.
+        // Maps the square of the two actions onto the disc of tip positions.
         let (left, up) = (input(2), input(3));
         let radius = TIP_SHARE * table.miscue_limit.sqrt();
         let tip = [left * (-(up * up) * 0.5 + 1.0).sqrt() * radius, up * (-(left * left) * 0.5 + 1.0).sqrt() * radius];
@@ -103,9 +103,9 @@ impl Meaning {
         if table.flight.is_some() { meaning.levelled(table) } else { meaning }
     }
 
-    /// The stroke with a level cue that gives the cue ball the same speed, roll and side: where a raised cue makes a ball hop,
-    /// networks strike level. What the raised cue would have made it swerve is left out, and where the tip would have to be
-    /// beyond its limit, so is the rest of the roll. See `physics::level_stroke`.
+    /// Returns the stroke with a level cue that gives the cue ball the same speed, roll and side. Networks strike level on tables on
+    /// which a raised cue makes a ball hop. The swerve of the raised cue is lost, and so is the part of the roll for which the tip would
+    /// exceed its limit. See `physics::level_stroke`.
     fn levelled(self, table: &Table) -> Self {
         let [a, b] = self.tip;
         let (sin, cos) = self.theta.sin_cos();
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn where_balls_fly_a_raised_stroke_becomes_the_level_one_of_the_same_speed_roll_and_side() {
+    fn on_tables_with_flight_a_raised_stroke_becomes_a_level_one_of_equal_speed_roll_and_side() {
         let frozen = Table { flight: None, ..Table::default() };
         let table = Table::default();
         for action in [[0.2, 0.3, 0.4, 0.5, 0.3], [0.2, -0.3, -0.6, 0.2, 1.0], [0.2, 0.9, 0.0, 0.0, 0.0]] {
@@ -147,11 +147,12 @@ mod tests {
             assert!(raised.0 > 0.1 && level.0 == 0.0 && level.1.lift == 0.0);
             let speeds = [raised.1, level.1].map(|impulse| impulse.velocity.length());
             assert!((speeds[0] - speeds[1]).abs() < 1e-12, "{speeds:?}");
-            let ways = [raised.1, level.1].map(|impulse| impulse.velocity.normalize());
-            let rolls = [raised.1.spin.truncate().dot(ways[0].perp()), level.1.spin.truncate().dot(ways[1].perp())];
+            let directions = [raised.1, level.1].map(|impulse| impulse.velocity.normalize());
+            let rolls =
+                [raised.1.spin.truncate().dot(directions[0].perp()), level.1.spin.truncate().dot(directions[1].perp())];
             assert!((rolls[0] - rolls[1]).abs() < 1e-9 && (raised.1.spin.z - level.1.spin.z).abs() < 1e-9, "{rolls:?}");
         }
-        // Low and raised by 20 degrees, the tip would have to be below where it slips.
+        // For a low stroke raised by 20 degrees, the level tip would be below the miscue limit.
         let low = Meaning::of(&table, [0.2, 0.3, 0.0, -1.0, 1.0]);
         assert!((low.tip[1].value + 0.98 * table.miscue_limit.sqrt()).abs() < 1e-12, "{low:?}");
     }

@@ -1,8 +1,8 @@
 //! Deep deterministic policy gradient (Lillicrap et al. 2016; thesis 4.4) with several actor heads.
 //!
-//! What differs from the thesis' agent, and why, stands at the fields of [`Hyperparameters`]. The target networks take
-//! no part in the critic's target, for a shot is a whole episode and nothing follows it; they are the averaged weights
-//! that play, are evaluated and are shipped.
+//! The fields of [`Hyperparameters`] document the differences from the thesis' agent and their reasons. A shot is a whole episode, so
+//! the critic's target has no bootstrap term and does not use the target networks. These are the averaged weights that play, are
+//! evaluated and are shipped.
 
 use candle_core::{DType, Device, Result, Tensor};
 use candle_nn::{Module, Optimizer, ops::sigmoid};
@@ -21,34 +21,34 @@ use crate::learning::{
     nn::adam::{Adam, soft_update},
 };
 
-/// Outputs of the actor beyond which the hyperbolic tangent, 0.96 here, hardly has a slope.
+/// Absolute output of the actor above which the hyperbolic tangent (0.96 here) has hardly any slope.
 const SATURATED: f64 = 2.0;
 
-/// Weights of the squared differences in [`Ddpg::imitation_loss`]: a small error of the aim loses the point, the same share of the
+/// Weights of the squared differences in [`Ddpg::imitation_loss`]: a small error of the aim loses the point, an equal error of the
 /// speed seldom does.
-const WAY_WEIGHTS: [f32; ACTIONS] = [4.0, 1.0, 1.0, 1.0, 1.0];
+const IMITATION_WEIGHTS: [f32; ACTIONS] = [4.0, 1.0, 1.0, 1.0, 1.0];
 
-/// One shot as the replay buffer holds it: what was seen, what was done, what it earned. A shot is a whole episode, so there is no next state.
+/// One shot in the replay buffer: observation, conditions, action and success. A shot is a whole episode, so there is no next state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transition {
     pub observation: Observation,
     pub conditions: Conditions,
     pub action: Action,
-    /// What that earned, as a share of the most that there is to earn.
+    /// Reward of the action as a share of the highest possible reward.
     pub success: f32,
 }
 
-/// Shots to learn from: as many observations as actions and successes.
+/// A minibatch of shots, with as many observations as actions and successes.
 #[derive(Clone, Debug)]
 pub struct ShotBatch {
     pub observed: ObservationBatch,
-    /// The action that was taken in each observation.
+    /// The action played in each observation.
     pub actions: Vec<Action>,
-    /// The success, 0 to 1, that each had.
+    /// Success of each action, 0 to 1.
     pub successes: Vec<f32>,
 }
 
-/// The agent: networks, their averaged copies, and the optimisers' state.
+/// The agent: online networks, target networks (their moving averages) and optimiser states.
 #[derive(Debug)]
 pub struct Ddpg {
     pub(super) hyper: Hyperparameters,
@@ -59,12 +59,12 @@ pub struct Ddpg {
 }
 
 impl Ddpg {
-    /// An agent that has learnt nothing.
+    /// Creates an untrained agent.
     pub fn new(hyper: Hyperparameters, rng: &mut (impl Rng + ?Sized)) -> Result<Self> {
         Self::starting_from(Networks::random(&hyper, rng)?, hyper)
     }
 
-    /// An agent that begins to learn with these networks.
+    /// Creates an agent that starts learning with these networks.
     pub fn starting_from(online: Networks, hyper: Hyperparameters) -> Result<Self> {
         let [actor, critic] = hyper.adam();
         Ok(Self {
@@ -76,23 +76,23 @@ impl Ddpg {
         })
     }
 
-    /// Learns from a batch of shots that were played, and the actor besides from the best strokes that searches have found.
+    /// Makes one update from a minibatch of `played` shots. The actor also imitates `searched`, the best strokes found by search.
     /// `lr_factor` scales both learning rates. Returns the critic's mean cross entropy, nats, and its mean probability of success over
     /// all heads.
     ///
     /// # Errors
-    /// Where sizes differ, or where the networks no longer give finite numbers.
+    /// Fails if sizes differ or the networks no longer return finite numbers.
     pub fn update(&mut self, played: &ShotBatch, searched: Option<&ShotBatch>, lr_factor: f64) -> Result<UpdateStats> {
         let loss = self.critic_loss(played)?;
         self.critic_optimiser.set_learning_rate(lr_factor * self.hyper.critic_learning_rate);
         self.critic_optimiser.backward_step(&loss)?;
 
-        let (mut climbed, probability) = self.actor_goal(&played.observed.first(self.hyper.actor_batch)?)?;
+        let (mut goal, probability) = self.actor_goal(&played.observed.first(self.hyper.actor_batch)?)?;
         if let Some(searched) = searched {
-            climbed = (climbed - (self.imitation_loss(searched)? * self.hyper.imitation)?)?;
+            goal = (goal - (self.imitation_loss(searched)? * self.hyper.imitation)?)?;
         }
         self.actor_optimiser.set_learning_rate(lr_factor * self.hyper.actor_learning_rate);
-        self.actor_optimiser.backward_step(&climbed.neg()?)?;
+        self.actor_optimiser.backward_step(&goal.neg()?)?;
 
         soft_update(self.target.critic.parameters(), self.online.critic.parameters(), self.hyper.target_rate)?;
         soft_update(self.target.actor.parameters(), self.online.actor.parameters(), self.hyper.target_rate)?;
@@ -100,37 +100,37 @@ impl Ddpg {
         Ok(UpdateStats { loss: number(&loss)?, value: number(&probability)? })
     }
 
-    /// The mean cross entropy between the critic's probabilities and what happened.
+    /// Returns the mean cross entropy between the critic's probabilities and the observed successes.
     fn critic_loss(&self, ShotBatch { observed, actions, successes }: &ShotBatch) -> Result<Tensor> {
-        let taken = action_rows(observed.space(), actions)?;
+        let rows = action_rows(observed.space(), actions)?;
         let successes = Tensor::from_slice(successes, (actions.len(), 1), &Device::Cpu)?;
-        let logits = self.online.critic.forward(&observed.with_actions(&taken)?)?;
+        let logits = self.online.critic.forward(&observed.with_actions(&rows)?)?;
         mean_cross_entropy(&logits, &successes)
     }
 
-    /// The mean square of the way from searched strokes to the nearest head's, where the critic does not think the head's to be better
-    /// (the filter of Nair et al. 2018).
+    /// Returns the mean weighted squared distance from each searched stroke to the nearest head's action. It counts only strokes whose
+    /// success is at least the critic's probability of that action (the Q-filter of Nair et al. 2018).
     fn imitation_loss(&self, ShotBatch { observed, actions, successes }: &ShotBatch) -> Result<Tensor> {
         let (space, rows) = (observed.space(), actions.len());
         let used = space.actions();
         let proposed = self.online.squash(&self.online.actor.forward(&observed.states)?)?;
-        let wanted = action_rows(space, actions)?.reshape((rows, 1, used))?;
-        let weights = Tensor::new(&WAY_WEIGHTS[..used], &Device::Cpu)?;
-        let apart =
-            proposed.reshape((rows, (), used))?.broadcast_sub(&wanted)?.sqr()?.broadcast_mul(&weights)?.sum(2)?;
-        let nearest = apart.argmin_keepdim(1)?;
-        let heads = apart.dim(1)?;
+        let searched = action_rows(space, actions)?.reshape((rows, 1, used))?;
+        let weights = Tensor::new(&IMITATION_WEIGHTS[..used], &Device::Cpu)?;
+        let distances =
+            proposed.reshape((rows, (), used))?.broadcast_sub(&searched)?.sqr()?.broadcast_mul(&weights)?.sum(2)?;
+        let nearest = distances.argmin_keepdim(1)?;
+        let heads = distances.dim(1)?;
         let first: Vec<u32> = (0..rows).map(|row| (row * heads) as u32).collect();
         let own = (Tensor::from_vec(first, rows, &Device::Cpu)? + nearest.flatten_all()?)?;
-        let thought =
+        let logits =
             self.online.critic.forward_frozen(&observed.with_actions(&proposed.detach().index_select(&own, 0)?)?)?;
-        let made = Tensor::from_slice(successes, (rows, 1), &Device::Cpu)?;
-        let is_worse = sigmoid(&thought)?.le(&made)?.to_dtype(DType::F32)?;
-        (apart.gather(&nearest, 1)? * is_worse)?.mean_all()
+        let successes = Tensor::from_slice(successes, (rows, 1), &Device::Cpu)?;
+        let is_worse = sigmoid(&logits)?.le(&successes)?.to_dtype(DType::F32)?;
+        (distances.gather(&nearest, 1)? * is_worse)?.mean_all()
     }
 
-    /// What the actor climbs, from every head's own action (the deterministic policy gradient): the mean of the critic's
-    /// probability and of a share of its logit, less what saturated outputs cost; beside it the mean probability.
+    /// Returns the actor's objective over every head's action (the deterministic policy gradient), and the critic's mean probability.
+    /// The objective is the mean probability plus a share of the mean logit, less the penalty of saturated outputs.
     fn actor_goal(&self, observed: &ObservationBatch) -> Result<(Tensor, Tensor)> {
         let outputs = self.online.actor.forward(&observed.states)?;
         let actions = self.online.squash(&outputs)?;
@@ -140,13 +140,13 @@ impl Ddpg {
         if self.hyper.saturation_penalty == 0.0 {
             return Ok((goal, probability));
         }
-        let beyond = (outputs.abs()? - SATURATED)?.relu()?.sqr()?.mean_all()?;
-        Ok(((goal - (beyond * self.hyper.saturation_penalty)?)?, probability))
+        let excess = (outputs.abs()? - SATURATED)?.relu()?.sqr()?.mean_all()?;
+        Ok(((goal - (excess * self.hyper.saturation_penalty)?)?, probability))
     }
 }
 
-/// Mean cross entropy of success probabilities, given as logits, against what happened. candle-nn's own gives NaN once
-/// a probability rounds to 0 or 1.
+/// Returns the mean cross entropy of success probabilities, given as logits, against the observed successes. candle-nn's own returns
+/// NaN once a probability rounds to 0 or 1.
 fn mean_cross_entropy(logits: &Tensor, successes: &Tensor) -> Result<Tensor> {
     let softplus = (logits.relu()? + (logits.abs()?.neg()?.exp()? + 1.0)?.log()?)?;
     (softplus - (logits * successes)?)?.mean_all()
@@ -170,7 +170,7 @@ mod tests {
     use std::sync::Arc;
 
     #[test]
-    fn a_saturated_actor_comes_back_where_that_costs_something() {
+    fn the_saturation_penalty_brings_a_saturated_actor_back() {
         let outputs = |penalty: f64| {
             let (mut agent, batch) = agent_and_batch(ActionSpace::Full, 21);
             agent.hyper.saturation_penalty = penalty;
@@ -183,11 +183,11 @@ mod tests {
             let outputs = agent.online.actor.forward(&batch.observed.states).unwrap();
             outputs.mean_all().unwrap().to_scalar::<f32>().unwrap()
         };
-        let [free, held] = [0.0, 0.1].map(outputs);
-        assert!(held < free - 0.1, "{held} against {free}");
+        let [free, penalised] = [0.0, 0.1].map(outputs);
+        assert!(penalised < free - 0.1, "{penalised} against {free}");
     }
 
-    /// An agent with an opinion, and a batch for it.
+    /// An agent with random weights that are large enough for clear preferences, and a batch for it.
     fn agent_and_batch(space: ActionSpace, seed: u64) -> (Ddpg, ShotBatch) {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let layers = vec![24, 24];
@@ -203,7 +203,7 @@ mod tests {
             let values: Vec<f32> = (0..parameters.elem_count()).map(|_| rng.random_range(-0.3..0.3)).collect();
             parameters.set(&Tensor::from_vec(values, parameters.shape(), &Device::Cpu).unwrap()).unwrap();
         }
-        // The critic is blind to what its own slopes leave out.
+        // The critic ignores the features that have no slopes.
         let critic = &agent.online.critic;
         let mut values = critic.parameters().to_vec1::<f32>().unwrap();
         for feature in FREE_PATHS {
@@ -220,7 +220,7 @@ mod tests {
         (agent, ShotBatch { observed, actions, successes })
     }
 
-    /// How far the slope of `goal` along its own gradient, by moving the parameters, is from the gradient's length; as a share.
+    /// Relative difference between the finite-difference slope of `goal` along its own gradient and the gradient's length.
     fn error_of_gradient(network: &Mlp, goal: impl Fn() -> Tensor) -> f64 {
         let gradients = goal().backward().unwrap();
         let gradient = gradients.get(network.parameters()).unwrap();
@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn both_gradients_are_slopes_of_what_is_learnt() {
+    fn all_gradients_agree_with_finite_differences() {
         for space in [ActionSpace::PhiV, ActionSpace::Full] {
             let errors = (21..26).map(|seed| {
                 let (agent, batch) = agent_and_batch(space, seed);
@@ -251,7 +251,7 @@ mod tests {
             });
             let errors: Vec<_> = errors.collect();
             for which in 0..3 {
-                // Where a rectified unit happens to be at its kink, the slope is the mean of two.
+                // If a rectified unit is just at its kink, the finite difference is the mean of two slopes.
                 let close = errors.iter().filter(|errors| errors[which] < 0.005).count();
                 assert!(close >= 3 && errors.iter().all(|errors| errors[which] < 0.05), "{space:?}: {errors:?}");
             }
@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn the_actor_leaves_the_critic_as_it_is() {
+    fn the_losses_of_the_actor_have_no_gradient_for_the_critic() {
         let (agent, batch) = agent_and_batch(ActionSpace::Full, 21);
         for goal in [agent.actor_goal(&batch.observed).unwrap().0, agent.imitation_loss(&batch).unwrap()] {
             let gradients = goal.backward().unwrap();
@@ -277,7 +277,7 @@ mod tests {
 
     #[test]
     fn a_task_with_a_known_optimum_is_solved() {
-        // Success is certain at one action, whatever the layout, and fades with the distance from there.
+        // Success is certain at one action, independent of the layout, and falls with the distance from this action.
         const BEST: [f32; 2] = [0.3, -0.4];
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(22);
         let layers = vec![32, 32];
@@ -307,29 +307,32 @@ mod tests {
         }
         let observed = observed(&mut rng);
         let (actions, logits) = agent.target.judge(&observed).unwrap();
-        let heads = actions.len() / observed.seen.len();
+        let heads = actions.len() / observed.situations.len();
         for (actions, logits) in actions.chunks(heads).zip(logits.chunks(heads)) {
             let best = (0..heads).max_by(|a, b| logits[*a].total_cmp(&logits[*b])).unwrap();
-            let apart = [0, 1].map(|k| (actions[best][k] - BEST[k]).abs());
-            assert!(apart[0] < 0.2 && apart[1] < 0.2, "{:?}", actions[best]);
+            let errors = [0, 1].map(|k| (actions[best][k] - BEST[k]).abs());
+            assert!(errors[0] < 0.2 && errors[1] < 0.2, "{:?}", actions[best]);
         }
     }
 
     #[test]
-    fn the_nearest_head_goes_to_where_a_search_has_been_unless_it_is_better_already() {
+    fn the_nearest_head_moves_to_a_searched_stroke_unless_it_is_better_already() {
         let (start, batch) = agent_and_batch(ActionSpace::Full, 21);
-        let way = |agent: &Ddpg, batch: &ShotBatch| agent.imitation_loss(batch).unwrap().to_scalar::<f32>().unwrap();
+        let loss = |agent: &Ddpg, batch: &ShotBatch| agent.imitation_loss(batch).unwrap().to_scalar::<f32>().unwrap();
         let sure = ShotBatch { successes: vec![1.0; batch.actions.len()], ..batch.clone() };
-        assert_eq!(way(&start, &ShotBatch { successes: vec![0.0; batch.actions.len()], ..batch.clone() }), 0.0);
+        assert_eq!(loss(&start, &ShotBatch { successes: vec![0.0; batch.actions.len()], ..batch.clone() }), 0.0);
         let after = |imitation| {
             let hyper = Hyperparameters { imitation, ..start.hyper.clone() };
             let mut agent = Ddpg::starting_from(start.online.duplicate().unwrap(), hyper).unwrap();
             for _ in 0..100 {
                 agent.update(&batch, Some(&sure), 1.0).unwrap();
             }
-            way(&agent, &sure)
+            loss(&agent, &sure)
         };
-        let [before, alone, drawn] = [way(&start, &sure), after(0.0), after(1.0)];
-        assert!(drawn < 0.5 * before && drawn < 0.5 * alone, "{before} before, {alone} alone, {drawn} drawn");
+        let [before, without, with] = [loss(&start, &sure), after(0.0), after(1.0)];
+        assert!(
+            with < 0.5 * before && with < 0.5 * without,
+            "{before} before, {without} without, {with} with imitation"
+        );
     }
 }

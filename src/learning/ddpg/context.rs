@@ -1,4 +1,4 @@
-//! What networks may be told besides the layout: the table's constants and the player's errors.
+//! The context, an optional input of the networks: the table's constants and the player's errors.
 
 use glam::DVec2;
 
@@ -9,53 +9,53 @@ use super::{
 };
 use crate::table::{Rail, RailModel, Rails, Table};
 
-/// Constants of a table that networks are told.
+/// Number of the table's constants in the context.
 const CONSTANTS: usize = 12;
 
-/// What errors are divided by before networks are told the logarithm, in multiples of an expert's: about a club player's errors. Networks
-/// were trained with this number, so it stays when the levels of players change.
-const USUAL_ERRORS: f64 = 3.7;
+/// Errors, in multiples of an expert's, that are the unit of the errors in the context (their logarithm is the feature). About a club
+/// player's errors. Networks were trained with this value, so it must stay even if the levels of players change.
+const REFERENCE_ERRORS: f64 = 3.7;
 
-/// Numbers about a table and a player: the constants, which laws the table follows, the way it leans, and the errors.
+/// Numbers in the context: the constants, the table's laws, its tilt, and the player's errors.
 pub const CONTEXT_FEATURES: usize = CONSTANTS + 2 + 2 + 2;
 
-/// The lean that counts as one unit, m/s².
-const LEAN: f64 = 0.003;
+/// Tilt that counts as one unit, m/s².
+const TILT_UNIT: f64 = 0.003;
 
-/// The furthest from `match` that networks have practised, in units: `textbook` is 2 away in its rolling friction.
-const FURTHEST: f64 = 2.5;
+/// Largest deviation from `match` in training, in units: `textbook` deviates by 2 in its rolling friction.
+const MAX_DEVIATION: f64 = 2.5;
 
-/// What a network's input is made of.
+/// Selection of the networks' inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Inputs {
     pub space: ActionSpace,
-    /// Whether the context is among it.
+    /// Whether the inputs include the context.
     pub context: bool,
-    /// Whether of a stroke it has what follows in closed form up to the first ball, besides what is chosen.
+    /// Whether the inputs include the consequences of an action up to the first ball, in closed form, in addition to the action itself.
     pub closed_form: bool,
-    /// Whether ways to the first ball by a cushion are seen, too.
+    /// Whether the observations include paths to the first ball by a cushion.
     pub rails_first: bool,
 }
 
 impl Inputs {
-    /// Numbers about what is seen: inputs of the actor.
+    /// Number of the actor's inputs: the features of an observation.
     pub const fn actor(self) -> usize {
         STATE_FEATURES
             + if self.context { CONTEXT_FEATURES } else { 0 }
             + if self.rails_first { Rail::ALL.len() } else { 0 }
     }
 
-    /// Numbers about a stroke.
+    /// Number of the features of a stroke.
     pub const fn action(self) -> usize {
         ACTION_FEATURES + if self.rails_first { RAIL_FEATURES } else { 0 }
     }
 
-    /// The same and those of a stroke: inputs of the critic.
+    /// Number of the critic's inputs: the features of an observation and of a stroke.
     pub const fn critic(self) -> usize {
         self.actor() + self.action()
     }
 
-    /// Changes whenever the features change: weights fit one version only.
+    /// Returns the version of the features, which changes whenever they change: weights are valid for one version only.
     pub fn version(self) -> String {
         let Self { context, closed_form, rails_first, .. } = self;
         let further = [(context, "context-1"), (rails_first, "rails-1"), (!closed_form, "actions alone")];
@@ -64,19 +64,19 @@ impl Inputs {
     }
 }
 
-/// Appends [`CONTEXT_FEATURES`] numbers of the order of one, for a table that is looked at in this mirror and a player whose
-/// errors are so many times an expert's ([`scale`](crate::player::Skill::scale)), 0 for one who has none.
+/// Appends the context: [`CONTEXT_FEATURES`] numbers of the order of one. `mirror` is that of the observation; `errors` are the player's
+/// as a multiple of an expert's ([`scale`](crate::player::Skill::scale)), 0 for a player without errors.
 pub fn push_context(table: &Table, mirror: DVec2, errors: f64, out: &mut Vec<f32>) {
-    let lean = mirror * table.tilt / LEAN;
+    let tilt = mirror * table.tilt / TILT_UNIT;
     let laws = [table.rail.model == RailModel::Equator, table.flight.is_some()].map(|law| f64::from(u8::from(law)));
-    let hand = if errors > 0.0 { [1.0, (errors / USUAL_ERRORS).ln()] } else { [0.0; 2] };
-    let numbers = told(table).into_iter().chain(laws).chain([lean.x, lean.y]).chain(hand);
+    let player = if errors > 0.0 { [1.0, (errors / REFERENCE_ERRORS).ln()] } else { [0.0; 2] };
+    let numbers = scaled_constants(table).into_iter().chain(laws).chain([tilt.x, tilt.y]).chain(player);
     out.extend(numbers.map(|number| number as f32));
 }
 
-/// The table's constants in units; 0 for one that its laws do not have. Beside each stands what it is on `match`, and by how much it
-/// differs by one unit: twice what it differs by between tables of which nothing is known (`unknown_doubt.toml`).
-fn told(table: &Table) -> [f64; CONSTANTS] {
+/// Returns the table's constants as deviations from `match` in units; 0 for a constant that the table's laws do not use. Each row
+/// contains the value, that of `match`, and the unit: twice the standard deviation among unknown tables (`unknown_doubt.toml`).
+fn scaled_constants(table: &Table) -> [f64; CONSTANTS] {
     let rails = |own: fn(&Table, Rail) -> f64| Rail::ALL.into_iter().map(|rail| own(table, rail)).sum::<f64>() / 4.0;
     let constants = [
         (Some(rails(|table, rail| table.rail.own(rail).e.unwrap_or(table.rail_restitution))), 0.8505, 0.07),
@@ -95,10 +95,13 @@ fn told(table: &Table) -> [f64; CONSTANTS] {
     constants.map(|(value, usual, unit)| value.map_or(0.0, |value| (value - usual) / unit))
 }
 
-/// Whether networks with a context know tables like this one: `match` or `textbook` but for what they are told, and that not
-/// further from `match` than what they have practised.
+/// Whether networks with a context are trained for tables like this one: it differs from `match` or `textbook` only in what the context
+/// describes, and by no more than in training.
 pub fn knows(table: &Table) -> bool {
-    let is_near = told(table).into_iter().chain((table.tilt / LEAN).to_array()).all(|number| number.abs() <= FURTHEST);
+    let is_near = scaled_constants(table)
+        .into_iter()
+        .chain((table.tilt / TILT_UNIT).to_array())
+        .all(|number| number.abs() <= MAX_DEVIATION);
     is_near
         && ["match", "textbook"]
             .into_iter()
@@ -106,9 +109,9 @@ pub fn knows(table: &Table) -> bool {
             .any(|base| is_like(table, &base))
 }
 
-/// Whether a table differs from `base` in nothing but what networks are told.
+/// Whether a table differs from `base` only in what the context describes.
 fn is_like(table: &Table, base: &Table) -> bool {
-    let untold = Table {
+    let without_context = Table {
         name: base.name.clone(),
         sliding_friction: base.sliding_friction,
         rolling_friction: base.rolling_friction,
@@ -128,7 +131,7 @@ fn is_like(table: &Table, base: &Table) -> bool {
         doubt: None,
         ..table.clone()
     };
-    untold == *base
+    without_context == *base
 }
 
 #[cfg(test)]
@@ -144,18 +147,18 @@ mod tests {
         let mine = Table { name: "mine".into(), doubt: None, ..table.clone() };
         let sampler = TableSampler::new(&mine, &TableDoubt::of(&mine), 1.0).unwrap();
         for step in 0..20 {
-            // Up to two standard deviations off in every constant at once.
+            // Every constant is off by up to two standard deviations at the same time.
             let drawn = sampler.draw(|| 0.2 * f64::from(step) - 2.0);
             assert!(knows(&drawn), "{drawn:?}");
         }
-        assert!(knows(&Table { flight: None, ..mine.clone() }), "a table from before balls flew");
+        assert!(knows(&Table { flight: None, ..mine.clone() }), "a table that was saved before balls could fly");
         assert!(!knows(&Table { length: 2.54, width: 1.27, ..mine.clone() }));
         assert!(!knows(&Table { rail_restitution: 0.6, ..mine.clone() }));
         assert!(!knows(&Table { rail: Rails { model: RailModel::Nose, ..mine.rail }, ..mine }));
     }
 
     #[test]
-    fn what_is_told_of_match_is_nought_and_a_lean_turns_with_the_mirror() {
+    fn the_context_of_match_is_zero_and_a_tilt_is_mirrored() {
         let numbers = |table: &Table, mirror, errors| {
             let mut out = Vec::new();
             push_context(table, mirror, errors, &mut out);
@@ -163,10 +166,10 @@ mod tests {
             out
         };
         let table = Table::default();
-        let told = numbers(&table, DVec2::ONE, 0.0);
-        assert!(told[..CONSTANTS].iter().all(|number| number.abs() < 0.05), "{told:?}");
-        let leaning = Table { tilt: DVec2::new(0.003, -0.0015), ..table };
-        let [one, other] = [DVec2::ONE, DVec2::new(-1.0, 1.0)].map(|mirror| numbers(&leaning, mirror, 3.7));
+        let context = numbers(&table, DVec2::ONE, 0.0);
+        assert!(context[..CONSTANTS].iter().all(|number| number.abs() < 0.05), "{context:?}");
+        let tilted = Table { tilt: DVec2::new(0.003, -0.0015), ..table };
+        let [one, other] = [DVec2::ONE, DVec2::new(-1.0, 1.0)].map(|mirror| numbers(&tilted, mirror, 3.7));
         assert_eq!((one[14], one[15]), (1.0, -0.5));
         assert_eq!((other[14], other[15]), (-1.0, -0.5));
         assert!(one[16] == 1.0 && one[17].abs() < 1e-6, "a club player: {one:?}");

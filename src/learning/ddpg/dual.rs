@@ -1,32 +1,32 @@
-//! Numbers that carry their slopes along the numbers of an action (forward-mode differentiation).
+//! Dual numbers: values with their slopes along the numbers of an action (forward-mode differentiation).
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 use glam::DVec2;
 
-/// Numbers along which slopes are kept: as many as an action has.
-pub const ALONG: usize = 5;
+/// Variables with respect to which slopes are computed: as many as an action has numbers.
+pub const VARIABLES: usize = 5;
 
 /// A value and its partial derivatives with respect to the numbers of an action.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual {
     pub value: f64,
-    /// Its slope along each action.
-    pub slope: [f64; ALONG],
+    /// Partial derivative with respect to each number of the action.
+    pub slope: [f64; VARIABLES],
 }
 
 impl Dual {
-    /// A number that does not depend on the actions.
+    /// Creates a number that does not depend on the action.
     pub const fn constant(value: f64) -> Self {
-        Self { value, slope: [0.0; ALONG] }
+        Self { value, slope: [0.0; VARIABLES] }
     }
 
-    /// The action number `index` itself.
+    /// Creates the action's number `index`, whose slope along itself is 1.
     pub fn action(index: usize, value: f64) -> Self {
         Self { value, slope: std::array::from_fn(|other| f64::from(u8::from(other == index))) }
     }
 
-    /// A function of this number, given its value and derivative here.
+    /// Applies a function by the chain rule, given its value and derivative at this number.
     fn chain(self, value: f64, derivative: f64) -> Self {
         Self { value, slope: self.slope.map(|slope| derivative * slope) }
     }
@@ -41,7 +41,7 @@ impl Dual {
         self.chain(inverse, -inverse * inverse)
     }
 
-    /// The cosine that belongs to this sine, kept off zero where its slope is infinite.
+    /// Returns the cosine for this sine, limited away from zero, where its slope would be infinite.
     pub fn cosine(self) -> Self {
         (-(self * self).at_most(0.998) + 1.0).sqrt()
     }
@@ -111,7 +111,7 @@ impl Mul<f64> for Dual {
     }
 }
 
-/// A vector in the plane of such numbers.
+/// A plane vector of dual numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DualVector {
     pub x: Dual,
@@ -119,17 +119,17 @@ pub struct DualVector {
 }
 
 impl DualVector {
-    /// A vector that does not depend on the actions.
+    /// Creates a vector that does not depend on the action.
     pub const fn constant(vector: DVec2) -> Self {
         Self { x: Dual::constant(vector.x), y: Dual::constant(vector.y) }
     }
 
-    /// Turned by the angle of the unit vector `by`.
+    /// Returns this vector rotated by the angle of the unit vector `by`.
     pub fn rotated(self, by: DVec2) -> Self {
         Self { x: self.x * by.x - self.y * by.y, y: self.x * by.y + self.y * by.x }
     }
 
-    /// The unit vector of this direction.
+    /// Returns the unit vector of the same direction.
     pub fn normalised(self) -> Self {
         let inverse = self.dot(self).sqrt().recip();
         Self { x: self.x * inverse, y: self.y * inverse }
@@ -139,7 +139,7 @@ impl DualVector {
         self.x * other.x + self.y * other.y
     }
 
-    /// Component of `other` to the left of this vector, times its length.
+    /// Returns the component of `other` to the left of this vector, times this vector's length.
     pub fn perp_dot(self, other: Self) -> Dual {
         self.x * other.y - self.y * other.x
     }

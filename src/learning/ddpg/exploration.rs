@@ -1,4 +1,4 @@
-//! Behaviour while learning: the actor's action with noise, so that the critic sees what lies around it.
+//! Exploration in training: the actor's action plus noise, so that the critic learns its surroundings.
 
 use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
@@ -6,12 +6,12 @@ use serde::{Deserialize, Serialize};
 use super::action::{Action, ActionSpace};
 use crate::statistics::normal_pair;
 
-/// How far the agent strays from its own choice.
+/// Settings of the exploration noise.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, expecting = "noise and uniform, or one of them, like { uniform = 0.1 }")]
 pub struct Exploration {
     /// Standard deviations of the noise, in units of half an action's range; each shot draws one of them. Small ones
-    /// show the critic the edges of a success window, large ones other windows.
+    /// sample the edges of a success window for the critic, large ones other windows.
     pub noise: Vec<f32>,
     /// Share of shots that are drawn uniformly from all actions.
     pub uniform: f64,
@@ -24,7 +24,7 @@ impl Default for Exploration {
 }
 
 impl Exploration {
-    /// What the agent does in place of `choice`.
+    /// Returns the action to play instead of `choice`.
     pub fn perturb(&self, space: ActionSpace, choice: Action, rng: &mut (impl Rng + ?Sized)) -> Action {
         let mut action = choice;
         let used = &mut action[..space.actions()];

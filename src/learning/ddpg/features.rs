@@ -1,4 +1,4 @@
-//! Input features of the networks: of an observation for both, and of an observation and an action for the critic.
+//! Input features of the networks: those of an observation for both networks, and those of an action for the critic.
 
 use std::{f64::consts::PI, ops::Range};
 
@@ -9,25 +9,25 @@ use super::{
     dual::{Dual, DualVector},
     first_contact::{Approach, FirstContact, TYPICAL_SPEED},
     observation::{Line, Observation, free_path},
-    ways::Ways,
+    paths::Paths,
 };
 use crate::table::Table;
 
-/// Numbers about an observation.
+/// Number of features of an observation.
 pub const STATE_FEATURES: usize = 38;
 
-/// Numbers about an observation and an action.
+/// Number of features of an action in an observation.
 pub const ACTION_FEATURES: usize = 58;
 
-/// Those among them whose slopes are left out: how far the cue ball can go jumps in the corners.
+/// Indices of the action features without slopes: the cue ball's free path, which jumps in the corners.
 #[cfg(test)]
 pub const FREE_PATHS: [usize; 2] = [29, 57];
 
-/// Those among them that tell the action and nothing that follows from it.
-const CHOSEN: [Range<usize>; 2] = [0..8, 30..37];
+/// Indices of the action features that describe only the action and none of its consequences.
+const ACTION_ONLY: [Range<usize>; 2] = [0..8, 30..37];
 
-/// Appends [`STATE_FEATURES`] numbers of the order of one: where the balls lie, how they lie to each other, the cushions
-/// behind the first ball, and the second ball's images in the cushions as seen from the first.
+/// Appends [`STATE_FEATURES`] numbers of the order of one: the positions of the balls, their relative positions, the distances from the
+/// first ball to the cushions, and the second ball's images in the cushions as seen from the first.
 pub fn push_state_features(table: &Table, observation: &Observation, out: &mut Vec<f32>) {
     let mut push = |value: f64| out.push(value as f32);
     let (reach, length, diameter) = (table.reach(), table.length, 2.0 * table.radius);
@@ -47,9 +47,9 @@ pub fn push_state_features(table: &Table, observation: &Observation, out: &mut V
         push(aim.dot(direction));
         push(aim.perp_dot(direction));
     }
-    // How far beside the line through the first two balls the third one lies, in diameters, squashed.
-    let beside = aim.perp_dot(lines.onward.direction) * lines.onward.distance / diameter;
-    push(beside / (1.0 + beside.abs()));
+    // Distance of the second object ball from the line through cue ball and first ball, in diameters, squashed to -1 to 1.
+    let side_distance = aim.perp_dot(lines.onward.direction) * lines.onward.distance / diameter;
+    push(side_distance / (1.0 + side_distance.abs()));
     for direction in [aim, aim.perp(), -aim.perp()] {
         push(free_path(table, observation.first, direction) / length);
     }
@@ -62,17 +62,18 @@ pub fn push_state_features(table: &Table, observation: &Observation, out: &mut V
     }
 }
 
-/// Numbers about a shot: [`ACTION_FEATURES`] of them, and then [`RAIL_FEATURES`](super::first_contact::RAIL_FEATURES) about a way by a
-/// cushion, with their slopes along the action. Those of a way by a cushion are found only where `slopes` are asked for.
+/// Appends the features of a shot with their slopes along the action: [`ACTION_FEATURES`] numbers, then
+/// [`RAIL_FEATURES`](super::first_contact::RAIL_FEATURES) about a path by a cushion. The slopes of a path by a cushion are computed only
+/// if `slopes`.
 ///
-/// At the moment of contact the line of centres and the tangent at the first ball decide where the cue ball goes. So
-/// the second ball and its images are given in that frame, as seen from where the cue ball then stands: a network
-/// would need many units to find this rotation by itself, and points are missed by a degree. Where the spin takes the
-/// cue ball from there in the end, its final direction, is the second such frame.
-pub fn push_action_features(ways: &Ways<'_>, action: Action, slopes: bool, out: &mut Vec<Dual>) {
-    let Ways { table, observation, lines, .. } = *ways;
+/// At the impact, the line of centres and the tangent at the first ball determine the cue ball's further course. So the features describe
+/// the second ball and its images in that frame, from the cue ball's position at the impact: a network would need many units to learn this
+/// rotation, and an error of a degree misses the point. The second such frame is the final direction, into which the spin finally turns
+/// the cue ball.
+pub fn push_action_features(paths: &Paths<'_>, action: Action, slopes: bool, out: &mut Vec<Dual>) {
+    let Paths { table, observation, lines, .. } = *paths;
     let meaning = Meaning::of(table, action);
-    let Approach { contact: stroke, course, by_rail } = ways.approach(&meaning, slopes);
+    let Approach { contact: stroke, course, by_rail } = paths.approach(&meaning, slopes);
     let offset = meaning.offset;
     let speed = Dual::action(1, f64::from(action[1]));
     out.extend([offset, offset * offset]);
@@ -83,28 +84,28 @@ pub fn push_action_features(ways: &Ways<'_>, action: Action, slopes: bool, out: 
     out.extend([speed, speed * speed]);
 
     let diameter = 2.0 * table.radius;
-    // The line of centres lies right of the course by the cut angle.
+    // The line of centres is turned to the right of the course by the cut angle.
     let cos_cut = offset.cosine();
     let normal = DualVector { x: course.x * cos_cut + course.y * offset, y: course.y * cos_cut - course.x * offset };
     out.extend([cos_cut, normal.x, normal.y]);
-    // Where the first ball goes, against where the second one lies: a kiss spoils the shot.
+    // Direction of the first ball relative to the second one: a kiss spoils the shot.
     let onward = DualVector::constant(lines.onward.direction);
     out.extend([normal.dot(onward), normal.perp_dot(onward)]);
     let contact = DualVector::constant(observation.first) - normal * diameter;
     let mut targets = [DualVector::constant(DVec2::ZERO); 5];
-    for (place, target) in std::iter::once(observation.second).chain(observation.images(table)).enumerate() {
+    for (index, target) in std::iter::once(observation.second).chain(observation.images(table)).enumerate() {
         let span = DualVector::constant(target) - contact;
-        // A tenth of a millimetre keeps the slopes finite where the balls touch.
+        // A tenth of a millimetre keeps the slopes finite if the balls touch.
         let distance = (span.dot(span) + 1e-8).sqrt();
         let nearness = distance.recip();
         let towards = DualVector { x: span.x * nearness, y: span.y * nearness };
         out.extend([normal.dot(towards), normal.perp_dot(towards), distance * (1.0 / table.length)]);
-        if place == 0 {
+        if index == 0 {
             out.push((distance * (1.0 / diameter) + 1.0).recip());
         }
-        targets[place] = towards;
+        targets[index] = towards;
     }
-    // How far the cue ball can go along the tangent, without its slope.
+    // The cue ball's free path along the tangent, without its slope.
     let tangent = DVec2::new(-normal.y.value, normal.x.value);
     out.push(Dual::constant(free_path(table, observation.first, tangent) / table.length));
     let [left, up, elevation] = [2, 3, 4].map(|index| Dual::action(index, f64::from(action[index])));
@@ -123,18 +124,18 @@ pub fn push_action_features(ways: &Ways<'_>, action: Action, slopes: bool, out: 
     out.extend(by_rail);
 }
 
-/// Leaves of the action features those that tell the action itself; the others become nought.
-pub fn leave_chosen(features: &mut [Dual]) {
-    let follows = |index: &usize| !CHOSEN.iter().any(|chosen| chosen.contains(index));
-    for index in (0..features.len()).filter(follows) {
+/// Keeps the action features that describe the action itself and sets the others to zero.
+pub fn keep_action_only(features: &mut [Dual]) {
+    let is_consequence = |index: &usize| !ACTION_ONLY.iter().any(|indices| indices.contains(index));
+    for index in (0..features.len()).filter(is_consequence) {
         features[index] = Dual::constant(0.0);
     }
 }
 
-/// Velocity of the cue ball once it rolls after meeting the first ball, as a share of its speed on arrival: the collision
-/// (17 to 20) leaves part of it along the line of centres and most of it along the tangent; then five sevenths of that
-/// and two sevenths of the roll that it brought along remain (25). Sidespin, which drags the tangential part of the impulse, is
-/// left out; the network knows the sidespin itself.
+/// Returns the velocity of the cue ball once it rolls after the impact with the first ball, as a share of its speed on arrival. The
+/// collision (equations 17 to 20) leaves a part along the line of centres and most of it along the tangent. Then five sevenths of that
+/// and two sevenths of the roll before the impact remain (25). The effect of sidespin on the tangential impulse is neglected; the network
+/// has the sidespin as an input.
 fn final_course(
     table: &Table,
     stroke: &FirstContact,
@@ -143,20 +144,20 @@ fn final_course(
     offset: Dual,
     cos_cut: Dual,
 ) -> DualVector {
-    let along = cos_cut * (0.5 * (1.0 - table.ball_restitution));
+    let normal_speed = cos_cut * (0.5 * (1.0 - table.ball_restitution));
     let friction = match table.ball_friction {
         None => Dual::constant(1.0 / 7.0),
         Some(friction) => {
-            let rubbing =
+            let slip =
                 (offset * offset + stroke.roll_on_arrival * stroke.roll_on_arrival * cos_cut * cos_cut + 1e-3).sqrt();
-            (cos_cut * rubbing.recip() * (0.5 * friction * (1.0 + table.ball_restitution))).at_most(1.0 / 7.0)
+            (cos_cut * slip.recip() * (0.5 * friction * (1.0 + table.ball_restitution))).at_most(1.0 / 7.0)
         }
     };
-    let aside = offset * (-friction + 1.0);
+    let tangential_speed = offset * (-friction + 1.0);
     let roll = stroke.roll_on_arrival * (2.0 / 7.0);
     DualVector {
-        x: (normal.x * along - normal.y * aside) * (5.0 / 7.0) + course.x * roll,
-        y: (normal.y * along + normal.x * aside) * (5.0 / 7.0) + course.y * roll,
+        x: (normal.x * normal_speed - normal.y * tangential_speed) * (5.0 / 7.0) + course.x * roll,
+        y: (normal.y * normal_speed + normal.x * tangential_speed) * (5.0 / 7.0) + course.y * roll,
     }
 }
 
@@ -172,12 +173,12 @@ mod tests {
 
     fn features(table: &Table, observation: &Observation, action: Action) -> Vec<Dual> {
         let mut out = Vec::new();
-        push_action_features(&Ways::of(table, observation), action, true, &mut out);
+        push_action_features(&Paths::of(table, observation), action, true, &mut out);
         assert_eq!(out.len(), ACTION_FEATURES + RAIL_FEATURES);
         out
     }
 
-    /// A straight one, and one by a cushion, in turn.
+    /// An observation with a straight path for even cases, and one by a cushion for odd cases.
     fn observation(table: &Table, case: usize, rng: &mut Xoshiro256PlusPlus) -> Observation {
         let straight = Observation::new(&Layout::random(table, rng), case % 4);
         let rail = (case % 2 == 1).then_some(Rail::ALL[case / 2 % 4]);
@@ -215,15 +216,15 @@ mod tests {
         let mut chosen = |name, action| {
             let table = Table::preset(name).unwrap();
             let mut features = features(&table, &Observation::new(&Layout::random(&table, &mut rng), 0), action);
-            leave_chosen(&mut features);
+            keep_action_only(&mut features);
             features.iter().map(|feature| (feature.value, feature.slope)).collect::<Vec<_>>()
         };
-        let told = chosen("match", action);
-        assert_eq!(told, chosen("thesis", action));
+        let features = chosen("match", action);
+        assert_eq!(features, chosen("thesis", action));
         for number in 0..ACTIONS {
             let mut other = action;
             other[number] += 0.01;
-            assert_ne!(told, chosen("match", other), "number {number} of the action is not told");
+            assert_ne!(features, chosen("match", other), "no feature depends on number {number} of the action");
         }
     }
 
@@ -256,7 +257,7 @@ mod tests {
                     (features(&table, &observation, action), f64::from(action[along]))
                 };
                 let ((after, x1), (before, x0)) = (moved(1e-3), moved(-1e-3));
-                // Where one of the directions by a cushion is not found, there is nothing to compare.
+                // If one of the paths by a cushion is not found, there is nothing to compare.
                 if [&before, &after]
                     .into_iter()
                     .any(|there| there[ACTION_FEATURES].value != here[ACTION_FEATURES].value)
@@ -268,7 +269,7 @@ mod tests {
                     let difference = (after[index].value - before[index].value) / (x1 - x0);
                     let slope = here[index].slope[along];
                     let close = (difference - slope).abs() < 4e-3 * (1.0 + slope.abs());
-                    // Where the cue ball begins to roll just on arrival the slope jumps.
+                    // The slope jumps if the cue ball starts to roll just on arrival.
                     let kink =
                         (before[index].slope[along] - after[index].slope[along]).abs() > 1e-2 * (1.0 + slope.abs());
                     assert!(close || kink, "{case} {index} along {along}: {difference} {slope}");

@@ -1,4 +1,4 @@
-//! How the cue ball arrives at the first ball after a stroke: on a straight way in closed form, with slopes.
+//! The cue ball's state on arrival at the first ball on a straight path, in closed form and with slopes.
 
 use super::{
     action::Meaning,
@@ -6,27 +6,27 @@ use super::{
 };
 use crate::table::Table;
 
-/// Numbers about a way to the first ball by a cushion; all are nought where the way is straight.
+/// Number of features of a path to the first ball by a cushion; all are zero if the path is straight.
 pub const RAIL_FEATURES: usize = 8;
 
-/// A speed of the order of those in play, m/s: features are of the order of one.
+/// Typical speed in play, m/s: speeds divided by it are features of the order of one.
 pub const TYPICAL_SPEED: f64 = 6.0;
 
-/// The cue ball on its way to a ball at a known distance. Speeds along the line of aim, sideways to its left.
+/// The cue ball between the stroke and a ball at a known distance. Speeds are along the line of aim; sideways is to its left.
 #[derive(Clone, Copy, Debug)]
 pub struct FirstContact {
     /// Speed just after the stroke, m/s.
     pub speed: Dual,
-    /// Rolling speed of the spin about the axis across the line of aim, as a share of the speed: 1 is natural roll, less
-    /// than 0 is draw. Just after the stroke.
+    /// Surface speed of the spin about the axis across the line of aim, just after the stroke, as a share of the speed: 1 is natural
+    /// roll, less than 0 is draw.
     pub roll: Dual,
-    /// The same when the ball arrives.
+    /// The same on arrival.
     pub roll_on_arrival: Dual,
     /// Sidespin about the vertical as a surface speed, as a share of the speed.
     pub side: Dual,
-    /// Spin about the line of aim as a surface speed, as a share of the speed: it swerves the ball.
+    /// Spin about the line of aim as a surface speed, as a share of the speed: it makes the ball swerve.
     pub masse: Dual,
-    /// How far the ball has swerved to the left on arrival, m.
+    /// Swerve to the left on arrival, m.
     pub swerve: Dual,
     /// Sideways speed on arrival as a share of the speed: the angle by which its course has turned, rad.
     pub turn: Dual,
@@ -34,20 +34,20 @@ pub struct FirstContact {
     pub speed_on_arrival: Dual,
 }
 
-/// How the cue ball comes to the first ball.
+/// The cue ball's arrival at the first ball.
 #[derive(Clone, Copy, Debug)]
 pub struct Approach {
-    /// What it does since the stroke, or since the cushion.
+    /// Motion since the stroke, or since the cushion.
     pub contact: FirstContact,
-    /// Direction of its course on arrival, a unit vector of the observation's frame.
+    /// Direction of the course on arrival, a unit vector in the observation's frame.
     pub course: DualVector,
-    /// What is told of a way by a cushion.
+    /// Features of a path by a cushion.
     pub by_rail: [Dual; RAIL_FEATURES],
 }
 
 impl FirstContact {
-    /// The stroke of an action over `distance`, m. The ball's speed is taken as that of the stroke until it arrives, and the
-    /// friction's direction as that of the first slip: good to a few percent for the shots that matter.
+    /// Computes the arrival after the stroke of an action over `distance`, m. The travel time is that at the initial speed, and the
+    /// friction keeps the direction of the initial slip: accurate to a few percent for the shots that matter.
     pub fn of(table: &Table, action: &Meaning, distance: f64) -> Self {
         let Meaning { speed, tip: [a, b], theta, .. } = *action;
         // Thesis equations 9, 15 and 16, as in `physics::strike`.
@@ -59,20 +59,20 @@ impl FirstContact {
         let per_speed = (cos).recip() * 2.5;
         let (roll, side, masse) = (lever * per_speed, -a * 2.5, -(a * sin) * per_speed);
 
-        // The slip at the cloth (5), as shares of the speed: along the aim 1 - roll, and sideways the spin about the aim.
+        // The slip velocity at the cloth (5), as a share of the speed: along the aim 1 - roll, sideways the spin about the aim.
         let (along, across) = (-roll + 1.0, masse);
         let slip = (along * along + across * across + 1e-9).sqrt();
         let friction = table.sliding_friction * table.gravity;
         let sliding = start * slip * (2.0 / (7.0 * friction));
-        let way = start.recip() * distance;
-        let time = way.min(sliding);
+        let travel = start.recip() * distance;
+        let time = travel.min(sliding);
         let share = slip.recip();
         let push = -(across * share) * friction;
         let sideways = push * time;
-        // Friction turns slip into roll: the slip falls at 7/2 of the friction, 5/2 of it by the spin.
+        // Friction turns slip into roll: the slip falls at 7/2 of the friction, of which 5/2 are due to the spin.
         let slowed = start - along * share * friction * time;
         let rolled = roll * start + along * share * time * (2.5 * friction);
-        let swerve = push * time * time * 0.5 + sideways * (way - time);
+        let swerve = push * time * time * 0.5 + sideways * (travel - time);
         let arrival = slowed.at_least(0.05);
         Self {
             speed: start,
@@ -91,7 +91,7 @@ impl FirstContact {
 mod tests {
     use super::*;
     use crate::{
-        learning::ddpg::{observation::Observation, ways::cue_inputs},
+        learning::ddpg::{observation::Observation, paths::cue_inputs},
         physics::strike,
         simulation::Recording,
         table::Layout,
@@ -100,7 +100,7 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 
-    /// How far the closed form is from the simulator on arrival: place in ball diameters, speed and roll as shares of the
+    /// Errors of the closed form against the simulator on arrival: position in ball diameters, speed and roll as shares of the
     /// speed.
     fn errors(table: &Table, case: usize, rng: &mut Xoshiro256PlusPlus) -> Option<[f64; 3]> {
         let cue_ball = DVec2::new(-0.2, 0.1);
@@ -113,7 +113,7 @@ mod tests {
         let cue = cue_inputs(table, &observation, action);
         assert!((strike(table, &cue).velocity.length() - stroke.speed.value).abs() < 1e-9);
 
-        // The cue ball runs on where the first ball would lie.
+        // The first ball is elsewhere, so that the cue ball runs on through its position.
         let alone = Layout::new([cue_ball, DVec2::new(-1.0, 0.6), DVec2::new(-1.0, -0.6)]);
         let recording = Recording::new(table, &alone, &cue).unwrap();
         let line = (first - cue_ball).normalize();
@@ -139,7 +139,7 @@ mod tests {
             let table = Table::preset(name).unwrap();
             let mut all: Vec<_> = (0..400).filter_map(|case| errors(&table, case, &mut rng)).collect();
             assert!(all.len() > 300);
-            for (index, (what, limit)) in [("place", 0.02), ("speed", 0.1), ("roll", 0.1)].into_iter().enumerate() {
+            for (index, (what, limit)) in [("position", 0.02), ("speed", 0.1), ("roll", 0.1)].into_iter().enumerate() {
                 all.sort_by(|a, b| a[index].total_cmp(&b[index]));
                 let typical = all[all.len() / 2][index];
                 assert!(typical < limit, "{name}: the {what} is typically {typical} off");

@@ -1,4 +1,4 @@
-//! What can be tuned in the agent, with the reason for every choice.
+//! The hyperparameters of the agent, with the reason for every choice.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,82 +12,82 @@ use crate::learning::{
     settings::{SettingError, check, check_batch, check_count, check_layers, check_positive, check_share},
 };
 
-/// What can be tuned. The defaults trained the bundled policies, but for what the model card says.
+/// The hyperparameters. The bundled policies were trained with the defaults, except for the differences listed in the model card.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-#[expect(clippy::struct_excessive_bools, reason = "each is a setting of its own")]
+#[expect(clippy::struct_excessive_bools, reason = "each is an independent setting")]
 pub struct Hyperparameters {
-    /// What the agent chooses: the thesis' phi and V, or all five cue inputs.
+    /// The cue inputs that the agent chooses: the thesis' phi and V, or all five.
     pub actions: ActionSpace,
-    /// Whether it is told the table's constants and the player's errors, and practises on drawn tables with drawn errors. Its
-    /// critic then tells how often this player makes a stroke on this table.
+    /// Whether the networks have the table's constants and the player's errors as inputs, and train on random tables with random
+    /// errors. The critic then predicts how often this player makes a stroke on this table.
     pub context: bool,
-    /// Share of the shots by players without errors, where it is told who plays: a third, so that the same networks serve them too.
+    /// Share of the shots by players without errors, used with `context`: a third, so that the same networks serve such players, too.
     pub perfect: f64,
-    /// Whether the critic is told what follows from an action in closed form, up to the first ball; without it, only the action.
+    /// Whether the critic's inputs include the closed-form consequences of an action up to the first ball, and not only the action.
     pub closed_form: bool,
-    /// Whether it also looks at ways to the first ball by a cushion.
+    /// Whether the observations include paths to the first ball by a cushion.
     pub rails_first: bool,
-    /// Actions that the actor proposes for an observation. One alone averages between success windows and misses all; several,
-    /// started apart, each climb their own window, and the critic chooses.
+    /// Actions that the actor proposes for an observation. A single head averages between success windows and misses all of them.
+    /// Several heads that start apart each climb into their own window, and the critic chooses among them.
     pub heads: usize,
-    /// Between which cue speeds the strokes of the heads lie, m/s, one after the other and again from the first; empty: every
-    /// head may use 0.3 to 6 m/s.
-    /// Left to themselves all climb to where they strike with all force: there a bad aim makes most points by luck.
+    /// Ranges of the heads' cue speeds, m/s, assigned to the heads in turn and repeated from the first; if empty, every head may use 0.3
+    /// to 6 m/s.
+    /// Without ranges all heads move to the highest speed, because there a bad aim makes most points by luck.
     pub head_speeds: Vec<[f64; 2]>,
     /// Units of the actor's hidden layers.
     pub actor_layers: Vec<usize>,
     /// Units of the critic's hidden layers.
     pub critic_layers: Vec<usize>,
-    /// Adam's step for the critic at the start; it falls to nothing over the run along half a cosine.
+    /// Learning rate of the critic at the start; it falls to zero over the run along half a cosine.
     pub critic_learning_rate: f64,
-    /// The same for the actor: slower, so that it follows a critic that has settled.
+    /// Learning rate of the actor at the start, with the same schedule: lower, so that the actor follows a critic that has settled.
     pub actor_learning_rate: f64,
-    /// Largest norm of a gradient.
+    /// Largest norm of a gradient; longer ones are scaled down to it.
     pub gradient_clip: f64,
-    /// Part of the way that the target networks go at every update. The thesis' 0.001.
+    /// Rate of the target networks' soft update. The thesis' 0.001.
     pub target_rate: f64,
-    /// Experiences in a critic update.
+    /// Shots in the minibatch of a critic update.
     pub batch: usize,
-    /// Observations of the batch on which the actor is updated; each costs one row of the critic per head.
+    /// Observations of the minibatch that update the actor; each costs one row of the critic per head.
     pub actor_batch: usize,
     /// New shots before every update.
     pub shots_per_update: usize,
-    /// Share of those that are not ranked (`ranking`) that are played near the critic's favourite among all heads in all observations
-    /// of a layout; the others near any head's action in any observation.
+    /// Share of the unranked shots (see `ranking`) that are played near the critic's favourite among all heads in all observations
+    /// of a layout. The others are played near a random head's action in a random observation.
     pub critic_chooses: f64,
-    /// Share of shots that are the eight best proposals, played without noise, so that the critic learns to rank them.
+    /// Share of the shots that are the eight best proposals for a layout, played without noise, so that the critic learns to rank them.
     pub ranking: f64,
-    /// Attempts of whose success a remembered shot is the mean, where the player errs: one attempt tells little of a stroke that is
-    /// made one time in six.
+    /// Attempts over which the success of a stored shot is averaged if the player has errors: a single attempt contains little
+    /// information about a stroke that succeeds one time in six.
     pub attempts: usize,
-    /// Shots that are remembered. A shot's outcome never changes, but old shots are about actions that the actor has
-    /// left behind.
+    /// Capacity of the replay buffer, in shots. A shot's outcome never changes, but old shots are about actions that the actor no longer
+    /// proposes.
     pub replay: usize,
-    /// Layouts before every update on which a search finds strokes that a player who errs makes often (expert iteration). Each takes
+    /// Layouts before every update on which a search finds strokes that a player with errors makes often (expert iteration). Each takes
     /// about as long as an update and its shots (1.2 times on one core).
     pub searched: usize,
     /// Weight of behaviour cloning with a Q-filter (Nair et al. 2018): of the squared distance from a searched stroke to the nearest
-    /// head's, as long as the critic does not think the head's to be better. Heads that climb from where they began reach few of the
-    /// strokes that a search finds.
+    /// head's action, unless the critic predicts more success for that action. By gradient ascent from their starting points alone, heads
+    /// reach few of the strokes that a search finds.
     pub imitation: f64,
-    /// Weight of the logit beside the probability in what the actor climbs: without it there is no slope where the
-    /// critic is certain of a miss.
+    /// Weight of the logit, next to the probability, in the actor's objective: without it the slope vanishes where the critic is certain
+    /// of a miss.
     pub logit_weight: f64,
-    /// Weight of the mean square by which the actor's outputs lie beyond 2, where the squashing is flat: an actor that has always
-    /// struck as hard as it could never learns that another player must not.
+    /// Weight of the mean squared excess of the actor's outputs beyond ±2, where the squashing is flat. An actor that has always struck
+    /// at full speed could otherwise never learn that another player must not.
     pub saturation_penalty: f64,
-    /// Whether a run that starts from other weights takes the critic alone, and its actor begins anew: one whose outputs lie where
-    /// the squashing is flat can no longer be turned.
+    /// Whether a run that starts from other weights loads only the critic and starts with a new actor: an actor whose outputs lie where
+    /// the squashing is flat can no longer learn.
     pub new_actor: bool,
-    /// Layouts on which a finished run plays its own choice, to calibrate what its critic says of it; none to take it at its word.
+    /// Layouts on which a finished run plays its own choice to calibrate its critic's probabilities; 0 for no calibration.
     pub calibrated: usize,
-    /// How far the behaviour strays from the actor's proposals.
+    /// Exploration noise around the actor's proposals.
     pub exploration: Exploration,
-    /// A setting of earlier versions that their files name: accepted where it is 0, and written no more.
+    /// A setting in files of earlier versions: accepted if it is 0, and no longer written.
     #[serde(skip_serializing)]
     pub hindsight: f64,
-    /// Another one.
+    /// Another setting in files of earlier versions, treated the same.
     #[serde(skip_serializing)]
     pub demonstrations: f64,
 }
@@ -134,9 +134,9 @@ impl Hyperparameters {
         Inputs { space, context, closed_form, rails_first }
     }
 
-    /// Layer sizes of the actor and of the critic, inputs first.
+    /// Returns the layer sizes of the actor and of the critic, inputs first.
     pub fn sizes(&self) -> [Vec<usize>; 2] {
-        // A file may say anything.
+        // Saturates, because a file may contain any number of heads.
         let outputs = self.heads.saturating_mul(self.actions.actions());
         [
             [&[self.inputs().actor()], self.actor_layers.as_slice(), &[outputs]].concat(),
@@ -144,7 +144,7 @@ impl Hyperparameters {
         ]
     }
 
-    /// The optimisers of the actor and of the critic at the start of a run.
+    /// Returns the optimiser settings of the actor and of the critic at the start of a run.
     pub fn adam(&self) -> [AdamConfig; 2] {
         [self.actor_learning_rate, self.critic_learning_rate]
             .map(|learning_rate| AdamConfig { learning_rate, gradient_clip: self.gradient_clip })
@@ -196,7 +196,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_no_number_is_outside_every_range() {
+    fn nan_is_outside_every_range() {
         let good = Hyperparameters::default();
         for (hyper, named) in [
             (Hyperparameters { critic_learning_rate: f64::NAN, ..good.clone() }, "critic_learning_rate = NaN is"),

@@ -1,4 +1,4 @@
-//! The agent with several actor heads, [`Trainer`], as a run drives it.
+//! The implementation of [`Learner`] by [`Trainer`], the agent with several actor heads.
 
 use serde_json::Value;
 
@@ -26,14 +26,14 @@ use crate::{
     table::{Layout, Rail, Table},
 };
 
-/// An actor with a lower learning rate stays as it is.
+/// Learning rate of the actor below which it practically does not learn.
 pub const STANDING_STILL: f64 = 1e-6;
 
-/// Places of the networks among sizes.
+/// Indices of the networks in [`Hyperparameters::sizes`].
 const ACTOR: usize = 0;
 const CRITIC: usize = 1;
 
-/// The line in the list of agents.
+/// The entry in the list of agents.
 pub const AGENT: AgentKind = AgentKind {
     name: "ddpg",
     title: "deep deterministic policy gradient with several actor heads",
@@ -46,17 +46,17 @@ pub const AGENT: AgentKind = AgentKind {
     must_match: &["actions", "closed_form"],
 };
 
-/// What a run is started with.
+/// Parses the settings with which a run starts.
 fn hyperparameters(settings: &Value) -> Result<Hyperparameters, StartError> {
     let hyperparameters: Hyperparameters = settings_from(settings, Hyperparameters::validate)?;
     if hyperparameters.searched > 0 && !hyperparameters.context {
-        return Err(StartError::settings("searches are for players who err: use searched with context = true"));
+        return Err(StartError::settings("searches need players with errors: use searched with context = true"));
     }
     let Hyperparameters { imitation, actor_learning_rate, .. } = hyperparameters;
     if imitation > 0.0 && actor_learning_rate < STANDING_STILL {
         let reason = format!(
-            "an actor_learning_rate of {actor_learning_rate:e}, as --from may bring along, leaves nothing to imitation = {imitation}: \
-             accepted is {STANDING_STILL:e} and more, or no imitation"
+            "imitation = {imitation} has no effect with an actor_learning_rate of {actor_learning_rate:e} (perhaps set by --from): \
+             accepted is {STANDING_STILL:e} and more, or imitation = 0"
         );
         return Err(StartError::settings(reason));
     }
@@ -93,19 +93,19 @@ impl Learner for Trainer {
         }
     }
 
-    /// Plays some shots, then learns from a batch of those that are remembered.
+    /// Plays some shots, then makes an update with minibatches from the replay buffers.
     fn iterate(&mut self) -> candle_core::Result<Iteration> {
         let lr_factor = self.lr_factor();
         let mean_reward = self.play()?;
         let hyper = &self.task.hyperparameters;
-        let (batch, imitated) = (hyper.batch, if hyper.imitation > 0.0 { hyper.actor_batch } else { 0 });
+        let (batch, imitation_batch) = (hyper.batch, if hyper.imitation > 0.0 { hyper.actor_batch } else { 0 });
         let played = self.replay.sample(batch, &mut self.rng);
-        let searched = self.searched.sample(imitated, &mut self.rng);
+        let searched = self.searched.sample(imitation_batch, &mut self.rng);
         let (played, searched) =
             (self.batch(&played)?, if searched.is_empty() { None } else { Some(self.batch(&searched)?) });
         let UpdateStats { loss, value } = self.agent.update(&played, searched.as_ref(), lr_factor)?;
         self.updates += 1;
-        // What the actor climbs has further terms.
+        // The reported actor loss omits the further terms of the objective.
         Ok(Iteration { mean_reward, q_value: value, critic_loss: loss, actor_loss: Some(-value) })
     }
 
@@ -136,26 +136,27 @@ impl Learner for Trainer {
         snapshot::write(self, writer)
     }
 
-    /// The networks that play, from a checkpoint or a policy, become both the learning and the averaged ones.
+    /// Loads the networks that play, from a checkpoint or a policy, as both online and target networks.
     fn load_weights(&mut self, weights: &Reader<'_>) -> Result<(), WeightsError> {
         let prefix = if weights.has("target.actor.0.weight") { "target." } else { "" };
         let hyper = self.agent.hyper.clone();
-        let told = hyper.inputs();
+        let inputs = hyper.inputs();
         let network = |name: &str, which: usize| {
             let name = format!("{prefix}{name}");
             weights.network(&name, &hyper.sizes()[which]).or_else(|error| {
-                // What it has learnt without being told so much holds, until it learns better.
-                let less = [(told.context, false), (false, told.rails_first), (false, false)];
-                let less = less.map(|(context, rails_first)| Hyperparameters { context, rails_first, ..hyper.clone() });
-                let known = |less: &Hyperparameters| {
-                    weights.network(&name, &less.sizes()[which]).ok().map(|network| (network, less.inputs()))
+                // Weights with fewer inputs are loaded, too: the new inputs have no effect until the network learns to use them.
+                let fewer = [(inputs.context, false), (false, inputs.rails_first), (false, false)];
+                let fewer =
+                    fewer.map(|(context, rails_first)| Hyperparameters { context, rails_first, ..hyper.clone() });
+                let load = |fewer: &Hyperparameters| {
+                    weights.network(&name, &fewer.sizes()[which]).ok().map(|network| (network, fewer.inputs()))
                 };
-                let Some((mut network, less)) = less.iter().find_map(known) else { return Err(error) };
-                if told.context && !less.context {
+                let Some((mut network, loaded)) = fewer.iter().find_map(load) else { return Err(error) };
+                if inputs.context && !loaded.context {
                     network = network.with_more_inputs(STATE_FEATURES, CONTEXT_FEATURES)?;
                 }
-                if told.rails_first && !less.rails_first {
-                    network = network.with_more_inputs(told.actor() - Rail::ALL.len(), Rail::ALL.len())?;
+                if inputs.rails_first && !loaded.rails_first {
+                    network = network.with_more_inputs(inputs.actor() - Rail::ALL.len(), Rail::ALL.len())?;
                     let end = network.sizes()[0];
                     network = network.with_more_inputs(end, if which == CRITIC { RAIL_FEATURES } else { 0 })?;
                 }
@@ -193,8 +194,8 @@ mod tests {
             let Networks { actor, critic, .. } = &trainer.agent.target;
             [actor, critic].map(|network| network.parameters().to_vec1::<f32>().unwrap())
         };
-        // A policy has half the digits of a weight, a checkpoint has all.
-        for (file, digits) in [(checkpoint.as_slice(), 0.0), (&policy, 5e-4)] {
+        // A policy stores weights in half precision, a checkpoint in full precision.
+        for (file, tolerance) in [(checkpoint.as_slice(), 0.0), (&policy, 5e-4)] {
             let mut task = small_task();
             task.plan.seed = 6;
             let mut pupil = Trainer::new(task, Table::default()).unwrap();
@@ -202,52 +203,54 @@ mod tests {
             pupil.load_weights(&Reader::new(file).unwrap()).unwrap();
             let [own, given] = [&pupil, &teacher].map(|trainer| weights(trainer).concat());
             assert!(
-                own.iter().zip(&given).all(|(own, given)| (own - given).abs() <= digits * given.abs() + digits * 1e-3)
+                own.iter()
+                    .zip(&given)
+                    .all(|(own, given)| (own - given).abs() <= tolerance * given.abs() + tolerance * 1e-3)
             );
             assert_eq!(pupil.shots(), 0);
         }
     }
 
     #[test]
-    fn with_a_context_an_agent_begins_with_what_was_learnt_without() {
+    fn an_agent_with_a_context_can_start_from_weights_without_one() {
         let table = Table::default();
         let old = Policy::bundled(&table, Rule::OneCushion).unwrap().unwrap();
         let file = Learner::policy(&old_trainer(&old), 0.5, "2026-11-22", &mut || true).unwrap().unwrap();
         let mut task = old_trainer(&old).task;
         task.hyperparameters.context = true;
-        let mut pupil = taught(task, &file);
-        let told = pupil.policy(0.0, "").unwrap();
-        assert!(told.has_context() && !old.has_context());
+        let mut pupil = pretrained(task, &file);
+        let new = pupil.policy(0.0, "").unwrap();
+        assert!(new.has_context() && !old.has_context());
         for layout in held_out_layouts(&table, 5, 1) {
             for skill in [Skill::PERFECT, Skill::CLUB] {
-                let [old, told] = [&old, &told].map(|policy| policy.proposals(&table, &layout, &skill)[0]);
-                assert!((old.cue.phi - told.cue.phi).abs() < 1e-4 && (old.success - told.success).abs() < 1e-4);
+                let [old, new] = [&old, &new].map(|policy| policy.proposals(&table, &layout, &skill)[0]);
+                assert!((old.cue.phi - new.cue.phi).abs() < 1e-4 && (old.success - new.success).abs() < 1e-4);
             }
         }
-        // Asked to, it takes the critic alone.
+        // With `new_actor` it loads the critic alone.
         let mut task = pupil.task.clone();
         task.hyperparameters.new_actor = true;
-        let fresh = taught(task.clone(), &file);
+        let fresh = pretrained(task.clone(), &file);
         let parameters = |network: &Mlp| network.parameters().to_vec1::<f32>().unwrap();
         let begun = Trainer::new(task, table.clone()).unwrap();
         assert_eq!(parameters(&fresh.agent.target.actor), parameters(&begun.agent.target.actor));
         assert_eq!(parameters(&fresh.agent.target.critic), parameters(&pupil.agent.target.critic));
-        // Once it has learnt, it makes a difference who plays.
+        // After some updates the proposals depend on the player.
         for _ in 0..30 {
             pupil.iterate().unwrap();
         }
-        let told = pupil.policy(0.0, "").unwrap();
+        let trained = pupil.policy(0.0, "").unwrap();
         let layout = held_out_layouts(&table, 1, 1)[0];
         let [perfect, beginner] =
-            [Skill::PERFECT, Skill::BEGINNER].map(|skill| told.proposals(&table, &layout, &skill));
+            [Skill::PERFECT, Skill::BEGINNER].map(|skill| trained.proposals(&table, &layout, &skill));
         assert_ne!(perfect, beginner);
     }
 
     #[test]
-    fn an_agent_that_sees_ways_by_cushions_begins_with_what_was_learnt_of_straight_ones() {
+    fn an_agent_with_paths_by_cushions_can_start_from_weights_without_them() {
         let (table, skill) = (Table::default(), Skill::CLUB);
         let mut with_context = Policy::bundled_for(&table, Rule::StraightRail, true).unwrap().unwrap();
-        // The runs below have not ended, and are not calibrated yet.
+        // The runs below are not finished, so they are not calibrated.
         with_context.origin.calibration = Calibration::default();
         let blind = Policy::bundled(&table, Rule::OneCushion).unwrap().unwrap();
         assert!(with_context.has_context() && !blind.has_context());
@@ -255,7 +258,7 @@ mod tests {
             let file = Learner::policy(&old_trainer(&old), 0.5, "2026-11-25", &mut || true).unwrap().unwrap();
             let mut task = old_trainer(&old).task;
             (task.hyperparameters.rails_first, task.hyperparameters.context) = (true, true);
-            let seeing = taught(task, &file).policy(0.0, "").unwrap();
+            let seeing = pretrained(task, &file).policy(0.0, "").unwrap();
             for layout in held_out_layouts(&table, 5, 1) {
                 let [old, seeing] = [&old, &seeing].map(|policy| policy.proposals(&table, &layout, &skill));
                 let best = old[0];
@@ -272,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_finished_run_says_of_its_choice_is_what_it_makes_of_it() {
+    fn a_finished_run_is_calibrated_to_its_actual_success() {
         let mut task = small_task();
         (task.plan.shots, task.hyperparameters.calibrated) = (16, 1_000);
         let mut trainer = Trainer::new(task, Table::default()).unwrap();
@@ -280,27 +283,30 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("policy.safetensors");
         let policy = |go_on: bool| Learner::policy(&trainer, 0.0, "2026-11-26", &mut || go_on).unwrap();
-        assert!(policy(false).is_none(), "calibration is broken off");
+        assert!(policy(false).is_none(), "calibration must stop when go_on returns false");
         std::fs::write(&path, policy(true).unwrap()).unwrap();
         let (calibrated, critic) = (Policy::load(&path).unwrap(), trainer.policy(0.0, "").unwrap());
         let layouts = held_out_layouts(&trainer.table, 500, 1);
-        let [told, promised] = [&calibrated, &critic].map(|policy| {
+        let [calibrated, uncalibrated] = [&calibrated, &critic].map(|policy| {
             let best = |layout| policy.proposals(&trainer.table, layout, &Skill::PERFECT)[0].success;
             layouts.iter().map(best).sum::<f64>() / layouts.len() as f64
         });
-        let made = trainer.score(&layouts).unwrap().mean_reward;
-        // After one update the critic still says a half of everything.
-        assert!((promised - made).abs() > 0.2 && (told - made).abs() < 0.05, "{promised} {told} {made}");
+        let actual = trainer.score(&layouts).unwrap().mean_reward;
+        // After one update the critic still predicts one half for everything.
+        assert!(
+            (uncalibrated - actual).abs() > 0.2 && (calibrated - actual).abs() < 0.05,
+            "{uncalibrated} {calibrated} {actual}"
+        );
     }
 
-    /// A trainer for `task` that begins with the weights in `file`.
-    fn taught(task: Task, file: &[u8]) -> Trainer {
+    /// Creates a trainer for `task` that starts with the weights in `file`.
+    fn pretrained(task: Task, file: &[u8]) -> Trainer {
         let mut trainer = Trainer::new(task, Table::default()).unwrap();
         trainer.load_weights(&Reader::new(file).unwrap()).unwrap();
         trainer
     }
 
-    /// A trainer that has the networks of `policy`.
+    /// Creates a trainer with the networks of `policy`.
     fn old_trainer(policy: &Policy) -> Trainer {
         let hyperparameters = policy.origin().hyperparameters.clone();
         let plan = TrainingPlan { reward: policy.origin().reward, seed: 1, shots: 1000 };

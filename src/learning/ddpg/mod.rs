@@ -1,8 +1,8 @@
-//! The agent that coaches: deep deterministic policy gradient with several actor heads, and its way of seeing the table.
+//! The agent that the coach uses: deep deterministic policy gradient with several actor heads, its observations and actions.
 //!
-//! The way of a shot: a [`observation`] of the layout, its [`features`], the actor's [`action`], the cue inputs, the
-//! [reward](crate::game::Reward), the [replay buffer](super::replay). The way of a gradient: the [`agent`] and its [`networks`]. The
-//! [`trainer`] iterates over both, rollout and update. What comes out is a [`policy`].
+//! A shot passes through these steps: an [`observation`] of the layout, its [`features`], the actor's [`action`], the cue inputs, the
+//! [reward](crate::game::Reward) and the [replay buffer](super::replay). The [`agent`] and its [`networks`] compute the gradients. The
+//! [`trainer`] alternates rollout and update. The result is a [`policy`].
 
 pub mod action;
 pub mod agent;
@@ -17,10 +17,10 @@ pub mod learner;
 pub mod networks;
 pub mod observation;
 pub mod observation_batch;
+mod paths;
 pub mod policy;
 mod rail_first;
 pub mod randomized_tables;
 mod rollout;
 pub mod snapshot;
 pub mod trainer;
-mod ways;

@@ -1,4 +1,4 @@
-//! The actor and the critic, and what they say about a batch of observations.
+//! The actor and the critic: their creation, and their outputs for a batch of observations.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use super::{
     context::Inputs,
     hyperparameters::Hyperparameters,
     observation::Observation,
-    observation_batch::{ObservationBatch, Seen, actions_in},
+    observation_batch::{ObservationBatch, Situation, actions_in},
 };
 use crate::{
     learning::nn::{
@@ -20,26 +20,26 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Steps of a sequence that fills the square evenly (powers of the inverse of the plastic number, Roberts 2018).
+/// Steps of a low-discrepancy sequence in the square (powers of the inverse of the plastic number, Roberts 2018).
 const TIP_STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 
-/// Place of the speed among the numbers of an action.
+/// Index of the speed in an action.
 const SPEED: usize = 1;
 
 #[derive(Clone, Debug)]
 pub struct Networks {
-    /// From an observation to the heads' actions, before the squashing.
+    /// Maps an observation to the heads' actions, before the squashing.
     pub actor: Mlp,
-    /// From an observation and an action to the logit of success.
+    /// Maps an observation and an action to the logit of success.
     pub critic: Mlp,
-    /// Numbers of an action.
+    /// Numbers in an action.
     numbers: usize,
-    /// Half the width and the middle of what each output of the actor may become, where heads have speeds of their own.
+    /// Half width and middle of the range of each actor output, if heads have their own speed ranges.
     ranges: Option<[Tensor; 2]>,
 }
 
 impl Networks {
-    /// Networks that were made with these settings.
+    /// Combines an actor and a critic that were created with these settings.
     pub fn new(hyper: &Hyperparameters, actor: Mlp, critic: Mlp) -> Result<Self> {
         let (numbers, outputs) = (hyper.actions.actions(), actor.sizes().last().copied().unwrap_or(0));
         let (mut half, mut middle) = (vec![1.0_f32; outputs], vec![0.0_f32; outputs]);
@@ -53,8 +53,8 @@ impl Networks {
         Ok(Self { actor, critic, numbers, ranges })
     }
 
-    /// New networks: the heads start at offsets spread over the ball, at the middle of their speeds, at middle elevation and with
-    /// tips here and there; the critic starts at one half.
+    /// Creates untrained networks. The heads start at offsets spread over the ball, at the middle of their speed ranges, at middle
+    /// elevation and with tip positions spread evenly; the critic starts at a probability of one half.
     pub fn random(hyper: &Hyperparameters, rng: &mut (impl Rng + ?Sized)) -> Result<Self> {
         let outputs = hyper.actions.actions();
         let mut start = Vec::with_capacity(hyper.heads * outputs);
@@ -68,7 +68,7 @@ impl Networks {
         Self::new(hyper, actor, Mlp::random(&critic, rng)?)
     }
 
-    /// The networks in a file whose names there begin with `prefix`.
+    /// Reads the networks from a file in which their names begin with `prefix`.
     pub fn read(reader: &Reader<'_>, prefix: &str, hyper: &Hyperparameters) -> std::result::Result<Self, WeightsError> {
         let [actor, critic] = hyper.sizes();
         let actor = reader.network(&format!("{prefix}actor"), &actor)?;
@@ -76,7 +76,7 @@ impl Networks {
         Ok(Self::new(hyper, actor, critic)?)
     }
 
-    /// A copy with its own parameters.
+    /// Returns a copy with its own parameters.
     pub fn duplicate(&self) -> Result<Self> {
         Ok(Self { actor: self.actor.duplicate()?, critic: self.critic.duplicate()?, ..self.clone() })
     }
@@ -86,20 +86,20 @@ impl Networks {
         Self { actor: self.actor.with(operations), critic: self.critic.with(operations), ..self }
     }
 
-    /// The heads' actions, the heads of an observation one after the other.
+    /// Returns the heads' actions, observation by observation.
     pub fn actions(&self, observed: &ObservationBatch) -> Result<Vec<Action>> {
         actions_in(observed.space(), &self.propose(observed)?)
     }
 
-    /// The heads' actions and the critic's logit of success for each.
+    /// Returns the heads' actions, observation by observation, and the critic's logit of success for each.
     pub fn judge(&self, observed: &ObservationBatch) -> Result<(Vec<Action>, Vec<f32>)> {
         let actions = self.propose(observed)?;
         let logits = self.critic.forward_frozen(&observed.with_actions(&actions)?)?;
         Ok((actions_in(observed.space(), &actions)?, logits.flatten_all()?.to_vec1()?))
     }
 
-    /// What all heads propose from every side on each of the layouts, on their tables and for players with such errors: the observation,
-    /// the action and the critic's logit, an observation's heads one after the other.
+    /// Returns, for each layout with its table and the player's errors, the proposals of all heads in all observations: the observation,
+    /// the action and the critic's logit, observation by observation.
     pub fn proposals<'a>(
         &self,
         inputs: Inputs,
@@ -109,27 +109,27 @@ impl Networks {
         if layouts == 0 {
             return Ok(Vec::new());
         }
-        let seen = scenes.flat_map(|(table, layout, errors)| {
+        let situations = scenes.flat_map(|(table, layout, errors)| {
             let all = Observation::every(table, layout, inputs.rails_first).into_iter();
-            all.map(move |observation| Seen { observation, table: Arc::clone(table), errors })
+            all.map(move |observation| Situation { observation, table: Arc::clone(table), errors })
         });
-        let observed = ObservationBatch::new(inputs, seen.collect())?;
+        let observed = ObservationBatch::new(inputs, situations.collect())?;
         let (actions, logits) = self.judge(&observed)?;
-        let (heads, each) = (actions.len() / observed.seen.len(), actions.len() / layouts);
+        let (heads, each) = (actions.len() / observed.situations.len(), actions.len() / layouts);
         let all = actions.into_iter().zip(logits).enumerate();
-        let all = all.map(|(row, (action, logit))| (observed.seen[row / heads].observation, action, logit));
+        let all = all.map(|(row, (action, logit))| (observed.situations[row / heads].observation, action, logit));
         Ok(all.collect::<Vec<_>>().chunks(each).map(<[_]>::to_vec).collect())
     }
 
-    /// The heads' actions, between -1 and 1 and with every head's speed within its range, for the actor's outputs (observations x
-    /// outputs): a row each, the heads of an observation one after the other. Gradients flow to the outputs.
+    /// Squashes the actor's outputs (observations x outputs) to the heads' actions: between -1 and 1, with every head's speed within its
+    /// range, one row per action, observation by observation. Gradients flow to the outputs.
     pub fn squash(&self, outputs: &Tensor) -> Result<Tensor> {
         let squashed = outputs.tanh()?;
-        let placed = match &self.ranges {
+        let actions = match &self.ranges {
             Some([half, middle]) => squashed.broadcast_mul(half)?.broadcast_add(middle)?,
             None => squashed,
         };
-        placed.reshape(((), self.numbers))
+        actions.reshape(((), self.numbers))
     }
 
     fn propose(&self, observed: &ObservationBatch) -> Result<Tensor> {
@@ -155,7 +155,7 @@ mod tests {
             let outputs = Tensor::full(output, (1, outputs), &Device::Cpu).unwrap();
             let actions = actions_in(space, &networks.squash(&outputs).unwrap()).unwrap();
             assert!(actions.iter().all(|action| (action[0] - output.tanh()).abs() < 1e-6), "{actions:?}");
-            // Under a level cue an action's speed is the stroke's.
+            // With a level cue, the action's speed is that of the stroke.
             let level = |action: &[f32; 5]| Meaning::of(&Table::default(), [action[0], action[1], 0.0, 0.0, -1.0]);
             actions.iter().map(|action| level(action).speed.value).collect::<Vec<_>>()
         };

@@ -1,4 +1,4 @@
-//! A batch of observations as the networks take it, and the step from an action to the critic's input as a candle operation.
+//! A batch of observations as input of the networks, and the conversion of actions to the critic's input as a candle operation.
 
 use std::sync::{Arc, OnceLock};
 
@@ -8,33 +8,33 @@ use super::{
     action::{ACTIONS, Action, ActionSpace},
     context::{Inputs, push_context},
     dual::Dual,
-    features::{ACTION_FEATURES, leave_chosen, push_action_features, push_state_features},
+    features::{ACTION_FEATURES, keep_action_only, push_action_features, push_state_features},
     first_contact::RAIL_FEATURES,
     observation::Observation,
-    ways::Ways,
+    paths::Paths,
 };
 use crate::{
     learning::nn::tensors::{stored_values, values},
     table::{Rail, Table},
 };
 
-/// An observation, and what the agent is told besides.
+/// An observation with its context.
 #[derive(Clone, Debug)]
-pub struct Seen {
+pub struct Situation {
     pub observation: Observation,
     pub table: Arc<Table>,
-    /// The player's errors as a multiple of an expert's; they count for networks with a context.
+    /// The player's errors as a multiple of an expert's; only networks with a context use them.
     pub errors: f64,
 }
 
-/// Actions as the rows of a tensor, the unused numbers left out.
+/// Converts actions to the rows of a tensor, without the unused numbers.
 pub fn action_rows(space: ActionSpace, actions: &[Action]) -> Result<Tensor> {
     let used = space.actions();
     let values: Vec<f32> = actions.iter().flat_map(|action| action[..used].iter().copied()).collect();
     Tensor::from_vec(values, (actions.len(), used), &Device::Cpu)
 }
 
-/// The actions in the rows of a tensor, the unused numbers nought.
+/// Converts the rows of a tensor to actions; the unused numbers are zero.
 pub fn actions_in(space: ActionSpace, rows: &Tensor) -> Result<Vec<Action>> {
     let values: Vec<f32> = rows.flatten_all()?.to_vec1()?;
     Ok(values.chunks_exact(space.actions()).map(padded).collect())
@@ -46,20 +46,20 @@ fn padded(used: &[f32]) -> Action {
     action
 }
 
-/// Observations with what the actor is told of them.
+/// A batch of observations with their features.
 #[derive(Clone, Debug)]
 pub struct ObservationBatch {
     inputs: Inputs,
-    pub seen: Arc<[Seen]>,
-    /// The actor's input, a row for each observation.
+    pub situations: Arc<[Situation]>,
+    /// The actor's input, one row per observation.
     pub states: Tensor,
 }
 
 impl ObservationBatch {
-    /// A batch for networks with these inputs.
-    pub fn new(inputs: Inputs, seen: Vec<Seen>) -> Result<Self> {
-        let mut features = Vec::with_capacity(seen.len() * inputs.actor());
-        for Seen { observation, table, errors } in &seen {
+    /// Creates a batch for networks with these inputs.
+    pub fn new(inputs: Inputs, situations: Vec<Situation>) -> Result<Self> {
+        let mut features = Vec::with_capacity(situations.len() * inputs.actor());
+        for Situation { observation, table, errors } in &situations {
             push_state_features(table, observation, &mut features);
             if inputs.context {
                 push_context(table, observation.mirror, *errors, &mut features);
@@ -68,41 +68,45 @@ impl ObservationBatch {
                 features.extend(Rail::ALL.map(|rail| f32::from(u8::from(observation.rail == Some(rail)))));
             }
         }
-        let states = Tensor::from_vec(features, (seen.len(), inputs.actor()), &Device::Cpu)?;
-        Ok(Self { inputs, seen: seen.into(), states })
+        let states = Tensor::from_vec(features, (situations.len(), inputs.actor()), &Device::Cpu)?;
+        Ok(Self { inputs, situations: situations.into(), states })
     }
 
-    /// A batch of observations on one table for networks without a context and actions in `space`.
+    /// Creates a batch of observations on one table for networks without a context and actions in `space`.
     pub fn on(table: &Arc<Table>, space: ActionSpace, observations: Vec<Observation>) -> Result<Self> {
-        let seen = |observation| Seen { observation, table: Arc::clone(table), errors: 0.0 };
+        let situation = |observation| Situation { observation, table: Arc::clone(table), errors: 0.0 };
         let inputs = Inputs { space, context: false, closed_form: true, rails_first: false };
-        Self::new(inputs, observations.into_iter().map(seen).collect())
+        Self::new(inputs, observations.into_iter().map(situation).collect())
     }
 
     pub const fn space(&self) -> ActionSpace {
         self.inputs.space
     }
 
-    /// The first `count` observations, or all if there are fewer.
+    /// Returns the first `count` observations, or all if there are fewer.
     pub fn first(&self, count: usize) -> Result<Self> {
-        let count = count.min(self.seen.len());
-        Ok(Self { inputs: self.inputs, seen: self.seen[..count].into(), states: self.states.narrow(0, 0, count)? })
+        let count = count.min(self.situations.len());
+        Ok(Self {
+            inputs: self.inputs,
+            situations: self.situations[..count].into(),
+            states: self.states.narrow(0, 0, count)?,
+        })
     }
 
-    /// The critic's input for `actions`, a row for each action (rows x actions of the space); each observation takes the same number of
+    /// Returns the critic's input for `actions` (rows x actions of the space), one row per action. Each observation has the same number of
     /// consecutive rows. Gradients flow to the actions.
     ///
     /// # Errors
-    /// Where the number of actions is no multiple of the number of observations.
+    /// Fails if the number of actions is not a multiple of the number of observations.
     pub fn with_actions(&self, actions: &Tensor) -> Result<Tensor> {
         actions.apply_op1(Join { observed: self.clone(), slopes: OnceLock::new(), differentiate: actions.track_op() })
     }
 }
 
-/// The operation that appends actions to observations.
+/// The operation that appends the features of actions to those of observations.
 struct Join {
     observed: ObservationBatch,
-    /// Slopes of the action features along the actions, row after row, kept by the forward pass for the backward pass.
+    /// Slopes of the action features along the actions, row by row, stored by the forward pass for the backward pass.
     slopes: OnceLock<Vec<Action>>,
     differentiate: bool,
 }
@@ -114,7 +118,7 @@ impl CustomOp1 for Join {
 
     fn cpu_fwd(&self, storage: &CpuStorage, layout: &Layout) -> Result<(CpuStorage, Shape)> {
         let (rows, columns) = layout.shape().dims2()?;
-        let (observations, inputs) = (self.observed.seen.len(), self.observed.inputs);
+        let (observations, inputs) = (self.observed.situations.len(), self.observed.inputs);
         let (space, state) = (inputs.space, inputs.actor());
         if columns != space.actions() || observations == 0 || rows % observations != 0 {
             bail!(
@@ -128,16 +132,16 @@ impl CustomOp1 for Join {
         let mut slopes = Vec::with_capacity(if self.differentiate { rows * inputs.action() } else { 0 });
         let mut features: Vec<Dual> = Vec::with_capacity(ACTION_FEATURES + RAIL_FEATURES);
         let each = (rows / observations * columns).max(1);
-        let seen = self.observed.seen.iter().zip(states.chunks_exact(state));
-        for ((seen, state), actions) in seen.zip(values(storage, layout)?.chunks_exact(each)) {
-            let ways = Ways::of(&seen.table, &seen.observation);
+        let situations = self.observed.situations.iter().zip(states.chunks_exact(state));
+        for ((situation, state), actions) in situations.zip(values(storage, layout)?.chunks_exact(each)) {
+            let paths = Paths::of(&situation.table, &situation.observation);
             for action in actions.chunks_exact(columns) {
                 features.clear();
-                push_action_features(&ways, padded(action), self.differentiate, &mut features);
-                // Those about a way by a cushion stand last.
+                push_action_features(&paths, padded(action), self.differentiate, &mut features);
+                // The features of a path by a cushion are last; this cuts them off if they are not among the inputs.
                 features.truncate(inputs.action());
                 if !inputs.closed_form {
-                    leave_chosen(&mut features);
+                    keep_action_only(&mut features);
                 }
                 out.extend_from_slice(state);
                 out.extend(features.iter().map(|feature| feature.value as f32));
@@ -178,7 +182,7 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
-    fn each_view_meets_its_own_actions_and_gradients_reach_them() {
+    fn each_observation_is_paired_with_its_own_actions_and_gradients_reach_them() {
         let table = Arc::new(Table::default());
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(10);
         let layout = crate::table::Layout::random(&table, &mut rng);
@@ -198,7 +202,12 @@ mod tests {
             let gradients = inputs.sum_all().unwrap().backward().unwrap();
             let gradient: Vec<Vec<f32>> = gradients.get(&actions).unwrap().to_vec2().unwrap();
             let mut features = Vec::new();
-            push_action_features(&Ways::of(&table, &observed.seen[1].observation), values[2], true, &mut features);
+            push_action_features(
+                &Paths::of(&table, &observed.situations[1].observation),
+                values[2],
+                true,
+                &mut features,
+            );
             let expected = features.iter().map(|feature| feature.slope[0] as f32).sum::<f32>();
             assert!((gradient[2][0] - expected).abs() < 1e-4);
             assert!(observed.with_actions(&actions.narrow(0, 0, 3).unwrap()).is_err());

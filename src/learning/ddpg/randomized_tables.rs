@@ -1,12 +1,12 @@
-//! Domain randomization (Tobin et al. 2017) for training with a context: tables that are not quite what the agent is told, and hands
-//! that err.
+//! Domain randomization (Tobin et al. 2017) for training with a context: random tables, whose actual constants differ from those in the
+//! context, and players with random errors.
 
 use std::sync::Arc;
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{action::Action, context::Inputs, observation::Observation, observation_batch::Seen, ways::playable};
+use super::{action::Action, context::Inputs, observation::Observation, observation_batch::Situation, paths::playable};
 use crate::{
     game::Reward,
     learning::evaluation::CONTACT_STEPS,
@@ -15,27 +15,27 @@ use crate::{
     table::{Layout, Table, TableDoubt, TableSampler},
 };
 
-/// Tables that are drawn for a run, and how many each of them may really be.
+/// Tables drawn for a run, and actual tables drawn for each of them.
 const TABLES: usize = 4096;
-const REAL: usize = 4;
+const ACTUAL: usize = 4;
 
-/// One in so many is the run's own table, and one in so many is like `textbook`; the others are drawn around the run's own.
+/// One in `OWN` tables is the run's own, and one in `TEXTBOOK` is drawn around `textbook`; the others are drawn around the run's own.
 const OWN: usize = 8;
 const TEXTBOOK: usize = 8;
 
-/// On one in so many tables, but for the run's own, balls stay on the cloth, as on tables that were calibrated before balls could fly.
+/// On one in `ON_CLOTH` tables, except the run's own, balls cannot fly, as on tables that were calibrated before balls could.
 const ON_CLOTH: usize = 8;
 
-/// Between which multiples of an expert's the errors of players who err lie, the logarithms alike. World-class is 1.55, a beginner 8.8.
+/// Range of the errors of players with errors, in multiples of an expert's; uniform in the logarithm. World-class is 1.55, a beginner 8.8.
 const ERRORS: [f64; 2] = [0.5, 15.0];
 
-/// Standard deviation of each coordinate of each ball for players who err, m: as the coach takes it to be.
+/// Standard deviation of each coordinate of each ball for players with errors, m; the same as in the coach.
 const PLACING: f64 = 3e-3;
 
-/// Tells the random numbers of these tables from all others that are drawn from a run's seed.
+/// Makes the random numbers of these tables independent of all others drawn from a run's seed.
 const STREAM: u64 = 0x7665_6e75_6573;
 
-/// Under which conditions a shot is played: what an agent with a context is told.
+/// Conditions of a shot: the table and the player's errors, from which the context is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Conditions {
     pub table: u32,
@@ -44,19 +44,19 @@ pub struct Conditions {
 }
 
 impl Conditions {
-    /// The same on the run's own table.
+    /// Returns the same conditions on the run's own table.
     #[must_use]
     pub const fn at_home(self) -> Self {
         Self { table: self.table - self.table % OWN as u32, ..self }
     }
 }
 
-/// A table as it is told, and as it may really be.
+/// A nominal table, as in the context, and actual tables that it may stand for.
 #[derive(Clone, Debug)]
 struct RandomizedTable {
-    told: Arc<Table>,
-    /// Where players who err play; a player without errors has no doubts either.
-    real: Vec<Table>,
+    nominal: Arc<Table>,
+    /// Tables on which players with errors play. A player without errors plays on the nominal table.
+    actual: Vec<Table>,
 }
 
 /// All tables of a run.
@@ -64,10 +64,10 @@ struct RandomizedTable {
 pub struct RandomizedTables(Vec<RandomizedTable>);
 
 impl RandomizedTables {
-    /// Those for a run on `table`: it alone, or with a context many, which depend on nothing but the seed.
+    /// Creates the tables for a run on `table`: only `table`, or with a context many tables, which depend on `table` and the seed alone.
     pub fn new(table: &Arc<Table>, inputs: Inputs, seed: u64) -> Self {
         if !inputs.context {
-            return Self(vec![RandomizedTable { told: Arc::clone(table), real: Vec::new() }]);
+            return Self(vec![RandomizedTable { nominal: Arc::clone(table), actual: Vec::new() }]);
         }
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ STREAM);
         let textbook = Table::preset("textbook").unwrap_or_default();
@@ -77,27 +77,28 @@ impl RandomizedTables {
             TableSampler::new(&table, &TableDoubt::of(&table), 1.0)
         });
         let own = TableDoubt::of(table);
-        // Under other laws of the rails its constants would be those of this very table.
+        // Without alternative rail laws: their constants are those of the run's own table and do not fit a drawn one.
         let near = TableDoubt { laws: Vec::new(), ..own.clone() };
         let mut all = Vec::with_capacity(TABLES);
         for number in 0..TABLES {
             let mut normal = || normal_pair(&mut rng)[0];
             let is_like_textbook = number % TEXTBOOK == 1;
-            let told = match &around[usize::from(is_like_textbook)] {
+            let nominal = match &around[usize::from(is_like_textbook)] {
                 Some(sampler) if number % OWN != 0 => sampler.draw(&mut normal),
                 _ => Table::clone(table),
             };
             let on_cloth = number % OWN != 0 && (number / OWN).is_multiple_of(ON_CLOTH);
-            let told = Table { flight: told.flight.filter(|_| !on_cloth), ..told };
+            let nominal = Table { flight: nominal.flight.filter(|_| !on_cloth), ..nominal };
             let doubt = if number % OWN == 0 { &own } else { &near };
-            let sampler = TableSampler::new(&told, doubt, 1.0);
-            let real = sampler.map_or_else(Vec::new, |sampler| (0..REAL).map(|_| sampler.draw(&mut normal)).collect());
-            all.push(RandomizedTable { told: Arc::new(told), real });
+            let sampler = TableSampler::new(&nominal, doubt, 1.0);
+            let actual =
+                sampler.map_or_else(Vec::new, |sampler| (0..ACTUAL).map(|_| sampler.draw(&mut normal)).collect());
+            all.push(RandomizedTable { nominal: Arc::new(nominal), actual });
         }
         Self(all)
     }
 
-    /// Conditions of a shot to come; the player has no errors with the probability `perfect`. Where there is one table, nothing is drawn.
+    /// Draws the conditions of a shot; the player has no errors with the probability `perfect`. Draws nothing if there is only one table.
     pub fn draw(&self, perfect: f64, rng: &mut (impl Rng + ?Sized)) -> Conditions {
         if self.0.len() < 2 {
             return Conditions::default();
@@ -107,23 +108,23 @@ impl RandomizedTables {
         Conditions { table, errors }
     }
 
-    /// The errors of a player who errs, as a multiple of an expert's.
+    /// Draws the errors of a player with errors, as a multiple of an expert's.
     pub fn errors(rng: &mut (impl Rng + ?Sized)) -> f32 {
         let [least, most] = ERRORS.map(f64::ln);
         rng.random_range(least..most).exp() as f32
     }
 
-    /// The table that is told under these conditions.
+    /// Returns the nominal table of these conditions.
     pub fn table(&self, conditions: Conditions) -> &Arc<Table> {
-        &self.0[conditions.table as usize % self.0.len()].told
+        &self.0[conditions.table as usize % self.0.len()].nominal
     }
 
-    /// What an agent sees of a layout under these conditions.
-    pub fn seen(&self, observation: Observation, conditions: Conditions) -> Seen {
-        Seen { observation, table: Arc::clone(self.table(conditions)), errors: f64::from(conditions.errors) }
+    /// Combines an observation with the context of these conditions.
+    pub fn situation(&self, observation: Observation, conditions: Conditions) -> Situation {
+        Situation { observation, table: Arc::clone(self.table(conditions)), errors: f64::from(conditions.errors) }
     }
 
-    /// What the stroke of `action` earns in one attempt. Where the cue has no room there is no stroke, and nothing is earned.
+    /// Simulates one attempt at the stroke of `action` and returns its reward; 0 if the cue has no room.
     pub fn attempt(
         &self,
         reward: Reward,
@@ -132,15 +133,15 @@ impl RandomizedTables {
         conditions: Conditions,
         rng: &mut (impl Rng + ?Sized),
     ) -> f64 {
-        let RandomizedTable { told, real } = &self.0[conditions.table as usize % self.0.len()];
-        let Ok(cue) = playable(told, layout, observation, action) else { return 0.0 };
+        let RandomizedTable { nominal, actual } = &self.0[conditions.table as usize % self.0.len()];
+        let Ok(cue) = playable(nominal, layout, observation, action) else { return 0.0 };
         if conditions.errors == 0.0 {
-            return reward.within(told, layout, &cue, CONTACT_STEPS);
+            return reward.within(nominal, layout, &cue, CONTACT_STEPS);
         }
-        let table = if real.is_empty() { told } else { &real[rng.random_range(0..real.len())] };
+        let table = if actual.is_empty() { nominal } else { &actual[rng.random_range(0..actual.len())] };
         let mut normal = || normal_pair(rng)[0];
-        let there = misplaced(told, layout, PLACING, &mut normal);
-        let cue = aimed(told, layout, &there, &cue);
+        let there = misplaced(nominal, layout, PLACING, &mut normal);
+        let cue = aimed(nominal, layout, &there, &cue);
         let errors = std::array::from_fn(|_| normal());
         let stroke = Skill::level(f64::from(conditions.errors)).stroke(table.radius, &cue, &errors);
         if stroke.is_miscue(table) { 0.0 } else { reward.within(table, &there, &stroke, CONTACT_STEPS) }
@@ -157,25 +158,25 @@ mod tests {
     }
 
     #[test]
-    fn with_a_context_there_are_many_tables_that_depend_on_the_seed_alone_and_without_there_is_one() {
+    fn with_a_context_many_tables_follow_from_the_seed_and_without_there_is_one() {
         let table = Arc::new(Table::default());
         let alone = RandomizedTables::new(&table, inputs(false), 1);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
         assert_eq!((alone.0.len(), alone.draw(0.35, &mut rng)), (1, Conditions::default()));
         let [one, same, other] = [1, 1, 2].map(|seed| RandomizedTables::new(&table, inputs(true), seed));
-        let told =
-            |tables: &RandomizedTables| tables.0.iter().map(|table| Table::clone(&table.told)).collect::<Vec<_>>();
-        assert_eq!(told(&one), told(&same));
-        assert_ne!(told(&one), told(&other));
-        let known = one.0.iter().filter(|table| knows(&table.told)).count();
+        let nominal =
+            |tables: &RandomizedTables| tables.0.iter().map(|table| Table::clone(&table.nominal)).collect::<Vec<_>>();
+        assert_eq!(nominal(&one), nominal(&same));
+        assert_ne!(nominal(&one), nominal(&other));
+        let known = one.0.iter().filter(|table| knows(&table.nominal)).count();
         assert!(known > TABLES * 9 / 10, "{known} of {TABLES}");
-        assert!(one.0.iter().all(|table| table.real.len() == REAL));
+        assert!(one.0.iter().all(|table| table.actual.len() == ACTUAL));
         let perfect = (0..1000).filter(|_| one.draw(0.35, &mut rng).errors == 0.0).count();
         assert!((300..400).contains(&perfect), "{perfect}");
     }
 
     #[test]
-    fn who_errs_more_makes_fewer_points() {
+    fn larger_errors_make_fewer_points() {
         let table = Arc::new(Table::default());
         let tables = RandomizedTables::new(&table, inputs(true), 1);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
@@ -183,7 +184,7 @@ mod tests {
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
             let points = (0..400).map(|_| {
                 let layout = Layout::random(&table, &mut rng);
-                // At the first ball, rather full, at middle speed: met by everybody whose hand is steady.
+                // A rather full hit of the first ball at middle speed, which every steady player makes.
                 let (observation, action) = (Observation::new(&layout, 0), [-0.2, -0.2, 0.0, 0.0, -1.0]);
                 let conditions = Conditions { table: 0, errors };
                 tables.attempt(Reward::R1, &layout, (&observation, action), conditions, &mut rng)

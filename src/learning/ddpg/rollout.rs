@@ -1,5 +1,5 @@
-//! Rollouts: exploratory shots, ranked proposals without noise, and strokes found by search; and the shots by which a finished run's
-//! critic is calibrated.
+//! Rollouts: exploratory shots, ranked proposals without noise and strokes found by search; also the shots that calibrate a finished
+//! run's critic.
 
 use candle_core::Result;
 use rand::{RngExt, SeedableRng};
@@ -8,59 +8,59 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     action::Action,
     agent::Transition,
-    expert::{Expert, Found},
+    expert::{Expert, SearchResult},
     hyperparameters::Hyperparameters,
     networks::Networks,
     observation::Observation,
     observation_batch::ObservationBatch,
+    paths::playable,
     policy::calibration::{Calibration, Trial},
     randomized_tables::{Conditions, RandomizedTables},
     trainer::Trainer,
-    ways::playable,
 };
 use crate::{platform, table::Layout};
 
-/// Proposals of a layout that are played where the critic learns to rank them, the best ones: among the others it hardly ever
-/// chooses wrongly. (Six heads make 24 for straight ways.)
+/// Best proposals of a layout that are played so that the critic learns to rank them; it hardly ever ranks the others wrongly. (Six heads
+/// make 24 proposals for straight paths.)
 const RANKED: usize = 8;
 
-/// How often a player who errs strikes each of his choices where the critic is calibrated.
-const ATTEMPTS_AT_CHOICE: usize = 16;
+/// Attempts at each choice of a player with errors in the calibration.
+const CALIBRATION_ATTEMPTS: usize = 16;
 
-/// Layouts that are judged in one pass there: their numbers stay in the processor's cache.
-const AT_ONCE: usize = 64;
+/// Layouts per network pass in the calibration: their numbers stay in the processor's cache.
+const LAYOUTS_PER_PASS: usize = 64;
 
-/// Tells those layouts from all else that is drawn from a run's seed.
+/// Makes the layouts of the calibration independent of all other random numbers drawn from a run's seed.
 const STREAM: u64 = 0x0070_6c61_7474;
 
 /// A layout, and the conditions under which it is played.
 pub(super) type Scene = (Layout, Conditions);
 
 impl Trainer {
-    /// Plays the shots of one iteration, each on a fresh layout but for those that are ranked, and returns their mean reward.
+    /// Plays the shots of one iteration and returns their mean reward. Each shot has a fresh layout, except the ranked ones.
     pub(super) fn play(&mut self) -> Result<f64> {
         let Hyperparameters { shots_per_update, critic_chooses, ranking, .. } = self.task.hyperparameters;
         let part = |share: f64, of: usize| ((of as f64 * share).round() as usize).min(of);
         let ranked = part(ranking, shots_per_update) / RANKED;
-        // A layout whose proposals are ranked takes so many shots; every other takes one.
+        // A layout with ranked proposals takes `RANKED` shots; every other takes one.
         let layouts = ranked + (shots_per_update - ranked * RANKED);
         let scenes: Vec<Scene> = (0..layouts).map(|_| self.scene()).collect();
         let (ranked, scenes) = scenes.split_at(ranked);
         let (chosen, any) = scenes.split_at(part(critic_chooses, scenes.len()));
         self.search()?;
-        let total = self.play_ranked(ranked)? + self.play_near_best(chosen)? + self.play_any(any)?;
+        let total = self.play_ranked(ranked)? + self.play_near_best(chosen)? + self.play_near_random(any)?;
         self.shots += shots_per_update as u64;
         Ok(total / shots_per_update as f64)
     }
 
-    /// A fresh layout and its conditions.
+    /// Draws a fresh layout and its conditions.
     fn scene(&mut self) -> Scene {
         let conditions = self.tables.draw(self.task.hyperparameters.perfect, &mut self.rng);
         (Layout::random(self.tables.table(conditions), &mut self.rng), conditions)
     }
 
-    /// Looks for the best strokes of a player who errs, on some layouts. It remembers the strokes that went far, and the best among those
-    /// that the actor imitates.
+    /// Searches some layouts for the best strokes of a player with errors. All strokes of the result enter the replay buffer; the best
+    /// also enter the buffer that the actor imitates.
     fn search(&mut self) -> Result<()> {
         let scenes: Vec<Scene> = (0..self.task.hyperparameters.searched)
             .map(|_| {
@@ -68,7 +68,7 @@ impl Trainer {
                 (layout, Conditions { errors: RandomizedTables::errors(&mut self.rng), ..conditions })
             })
             .collect();
-        let proposals = self.judged(&self.agent.target, &scenes)?;
+        let proposals = self.proposals_on(&self.agent.target, &scenes)?;
         let tasks: Vec<_> = scenes.into_iter().zip(proposals).map(|task| (task, self.rng.random())).collect();
         let (reward, inputs) = (self.task.plan.reward, self.task.hyperparameters.inputs());
         let (tables, networks) = (&self.tables, &self.agent.target);
@@ -79,7 +79,7 @@ impl Trainer {
                 let expert = Expert { tables, reward, inputs, networks, layout, conditions: *conditions };
                 expert.search(&proposals, &mut Xoshiro256PlusPlus::seed_from_u64(*seed))
             })?;
-        for Found { best, others } in found {
+        for SearchResult { best, others } in found {
             for stroke in &best {
                 self.searched.push(*stroke);
             }
@@ -90,8 +90,12 @@ impl Trainer {
         Ok(())
     }
 
-    /// What networks propose on each of the layouts from every side ([`Networks::proposals`]).
-    pub(super) fn judged(&self, networks: &Networks, scenes: &[Scene]) -> Result<Vec<Vec<(Observation, Action, f32)>>> {
+    /// Returns the networks' proposals on each of the layouts in all observations ([`Networks::proposals`]).
+    pub(super) fn proposals_on(
+        &self,
+        networks: &Networks,
+        scenes: &[Scene],
+    ) -> Result<Vec<Vec<(Observation, Action, f32)>>> {
         let inputs = self.task.hyperparameters.inputs();
         let scenes = scenes
             .iter()
@@ -99,10 +103,10 @@ impl Trainer {
         networks.proposals(inputs, scenes)
     }
 
-    /// Plays the averaged networks' best proposals on every layout, as they are. Returns the rewards' sum.
+    /// Plays the target networks' best proposals on every layout without noise. Returns the sum of the rewards.
     fn play_ranked(&mut self, scenes: &[Scene]) -> Result<f64> {
         let mut total = 0.0;
-        for (scene, mut proposals) in scenes.iter().zip(self.judged(&self.agent.target, scenes)?) {
+        for (scene, mut proposals) in scenes.iter().zip(self.proposals_on(&self.agent.target, scenes)?) {
             proposals.sort_by(|(.., a), (.., b)| b.total_cmp(a));
             for (observation, action, _) in proposals.into_iter().cycle().take(RANKED) {
                 total += self.rollout(scene, observation, action);
@@ -111,11 +115,10 @@ impl Trainer {
         Ok(total)
     }
 
-    /// Plays near the critic's favourite on every layout: there it must learn where it is wrong. Returns the rewards'
-    /// sum.
+    /// Plays near the critic's favourite on every layout, where its errors matter most. Returns the sum of the rewards.
     fn play_near_best(&mut self, scenes: &[Scene]) -> Result<f64> {
         let mut total = 0.0;
-        for (scene, proposals) in scenes.iter().zip(self.judged(&self.agent.online, scenes)?) {
+        for (scene, proposals) in scenes.iter().zip(self.proposals_on(&self.agent.online, scenes)?) {
             if let Some((observation, choice, _)) = proposals.into_iter().max_by(|(.., a), (.., b)| a.total_cmp(b)) {
                 total += self.explore(scene, observation, choice);
             }
@@ -123,34 +126,34 @@ impl Trainer {
         Ok(total)
     }
 
-    /// Plays near any head's choice in any observation of every layout. Returns the rewards' sum.
-    fn play_any(&mut self, scenes: &[Scene]) -> Result<f64> {
+    /// Plays near a random head's choice in a random observation of every layout. Returns the sum of the rewards.
+    fn play_near_random(&mut self, scenes: &[Scene]) -> Result<f64> {
         if scenes.is_empty() {
             return Ok(0.0);
         }
-        let seen = scenes.iter().map(|(layout, conditions)| {
+        let situations = scenes.iter().map(|(layout, conditions)| {
             let (table, rails_first) = (self.tables.table(*conditions), self.task.hyperparameters.rails_first);
-            self.tables.seen(Observation::random(table, layout, rails_first, &mut self.rng), *conditions)
+            self.tables.situation(Observation::random(table, layout, rails_first, &mut self.rng), *conditions)
         });
-        let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), seen.collect())?;
+        let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), situations.collect())?;
         let actions = self.agent.online.actions(&observed)?;
         let heads = actions.len() / scenes.len();
         let mut total = 0.0;
         for (index, scene) in scenes.iter().enumerate() {
             let choice = actions[index * heads + self.rng.random_range(0..heads)];
-            total += self.explore(scene, observed.seen[index].observation, choice);
+            total += self.explore(scene, observed.situations[index].observation, choice);
         }
         Ok(total)
     }
 
-    /// Plays and remembers one shot near `choice`; returns its reward.
+    /// Plays and stores one shot with exploration noise around `choice`; returns its reward.
     fn explore(&mut self, scene: &Scene, observation: Observation, choice: Action) -> f64 {
         let hyper = &self.task.hyperparameters;
         let action = hyper.exploration.perturb(hyper.actions, choice, &mut self.rng);
         self.rollout(scene, observation, action)
     }
 
-    /// Plays and remembers one shot; returns its reward.
+    /// Plays and stores one shot; returns its reward, the mean over the attempts.
     fn rollout(&mut self, (layout, conditions): &Scene, observation: Observation, action: Action) -> f64 {
         let (reward, conditions) = (self.task.plan.reward, *conditions);
         let attempts = if conditions.errors == 0.0 { 1 } else { self.task.hyperparameters.attempts };
@@ -161,8 +164,8 @@ impl Trainer {
         earned
     }
 
-    /// Fits the calibration: the averaged networks' own choice is played on fresh layouts, half of them on the run's own table, with
-    /// errors drawn as in practice. Nothing where `go_on` says no.
+    /// Fits the calibration by playing the target networks' choice on fresh layouts, half of them on the run's own table, with
+    /// errors drawn as in training. Returns `None` once `go_on` returns `false`.
     pub(super) fn calibration(&self, go_on: &mut dyn FnMut() -> bool) -> Result<Option<Calibration>> {
         let Hyperparameters { perfect, calibrated, .. } = self.task.hyperparameters;
         let reward = self.task.plan.reward;
@@ -175,18 +178,20 @@ impl Trainer {
             })
             .collect();
         let mut trials = Vec::with_capacity(calibrated);
-        for scenes in scenes.chunks(AT_ONCE) {
+        for scenes in scenes.chunks(LAYOUTS_PER_PASS) {
             if !go_on() {
                 return Ok(None);
             }
-            for ((layout, conditions), mut proposals) in scenes.iter().zip(self.judged(&self.agent.target, scenes)?) {
+            for ((layout, conditions), mut proposals) in
+                scenes.iter().zip(self.proposals_on(&self.agent.target, scenes)?)
+            {
                 let table = self.tables.table(*conditions);
                 let has_room = |(observation, action, _): &(Observation, Action, f32)| {
                     playable(table, layout, observation, *action).is_ok()
                 };
                 proposals.sort_by(|(.., a), (.., b)| a.total_cmp(b));
                 let Some((observation, action, logit)) = proposals.into_iter().rfind(has_room) else { continue };
-                let attempts = if conditions.errors == 0.0 { 1 } else { ATTEMPTS_AT_CHOICE };
+                let attempts = if conditions.errors == 0.0 { 1 } else { CALIBRATION_ATTEMPTS };
                 let attempt = |_| self.tables.attempt(reward, layout, (&observation, action), *conditions, &mut rng);
                 trials.push(Trial {
                     logit: f64::from(logit),

@@ -1,5 +1,5 @@
-//! A trainer as a file: everything that the next iteration depends on, so that a run that goes on is the run that never
-//! stopped.
+//! The trainer's part of a checkpoint: everything on which the next iteration depends, so that a resumed run equals an uninterrupted
+//! one.
 
 use std::sync::Arc;
 
@@ -26,7 +26,7 @@ use crate::{
     table::{Rail, Table},
 };
 
-/// What a snapshot holds beside arrays.
+/// The JSON note of a snapshot, next to its arrays.
 #[derive(Debug, Serialize, Deserialize)]
 struct TrainerState {
     task: Task,
@@ -43,13 +43,13 @@ struct TrainerState {
     searched_next: usize,
 }
 
-/// Numbers of an observation in a snapshot.
+/// Numbers per observation in a snapshot.
 const OBSERVATION_NUMBERS: usize = 8;
 
-/// The number of a straight way among those of cushions in a snapshot.
+/// Number that encodes a straight path, instead of a cushion, in a snapshot.
 const STRAIGHT: f32 = -1.0;
 
-/// Adds the arrays of the trainer's state to a file and returns the rest, its note.
+/// Adds the arrays of the trainer's state to a file and returns the rest of the state as the note.
 pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsError> {
     let agent = &trainer.agent;
     for (name, networks) in [("online", &agent.online), ("target", &agent.target)] {
@@ -78,10 +78,10 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
     })
 }
 
-/// The trainer that [`write()`] was given, from the file's arrays and its note.
+/// Restores the trainer that [`write()`] wrote, from the file's arrays and the note.
 ///
 /// # Errors
-/// Where they do not fit or are from a version with other features or actions.
+/// Fails if they do not fit together or are from a version with other features or actions.
 pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
     let note: TrainerState = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
     let hyper = &note.task.hyperparameters;
@@ -108,30 +108,30 @@ pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
     Ok(Trainer { task, table, tables, agent, replay, searched, rng, shots, updates })
 }
 
-/// The number that stands for a cushion in a snapshot.
+/// Returns the number that encodes a cushion, or a straight path, in a snapshot.
 fn number_of(rail: Option<Rail>) -> f32 {
     rail.and_then(|rail| Rail::ALL.iter().position(|own| *own == rail)).map_or(STRAIGHT, |index| index as f32)
 }
 
 fn add_shots(writer: &mut Writer, name: &str, shots: &ReplayBuffer<Transition>, inputs: Inputs) {
-    let held = shots.held();
+    let shots = shots.stored();
     let views =
-        held.iter().flat_map(|Transition { observation: Observation { cue, first, second, mirror, .. }, .. }| {
+        shots.iter().flat_map(|Transition { observation: Observation { cue, first, second, mirror, .. }, .. }| {
             [cue.x, cue.y, first.x, first.y, second.x, second.y, mirror.x, mirror.y]
         });
-    let actions: Vec<f32> = held.iter().flat_map(|held| held.action).collect();
-    let successes: Vec<f32> = held.iter().map(|held| held.success).collect();
-    writer.add_f64(format!("{name}.views"), &[held.len(), OBSERVATION_NUMBERS], &views.collect::<Vec<_>>());
-    writer.add(format!("{name}.actions"), &[held.len(), ACTIONS], &actions);
-    writer.add(format!("{name}.successes"), &[held.len()], &successes);
+    let actions: Vec<f32> = shots.iter().flat_map(|shot| shot.action).collect();
+    let successes: Vec<f32> = shots.iter().map(|shot| shot.success).collect();
+    writer.add_f64(format!("{name}.views"), &[shots.len(), OBSERVATION_NUMBERS], &views.collect::<Vec<_>>());
+    writer.add(format!("{name}.actions"), &[shots.len(), ACTIONS], &actions);
+    writer.add(format!("{name}.successes"), &[shots.len()], &successes);
     if inputs.rails_first {
-        let rails: Vec<f32> = held.iter().map(|held| number_of(held.observation.rail)).collect();
-        writer.add(format!("{name}.rails"), &[held.len()], &rails);
+        let rails: Vec<f32> = shots.iter().map(|shot| number_of(shot.observation.rail)).collect();
+        writer.add(format!("{name}.rails"), &[shots.len()], &rails);
     }
     if inputs.context {
         let conditions: Vec<f32> =
-            held.iter().flat_map(|held| [held.conditions.table as f32, held.conditions.errors]).collect();
-        writer.add(format!("{name}.conditions"), &[held.len(), 2], &conditions);
+            shots.iter().flat_map(|shot| [shot.conditions.table as f32, shot.conditions.errors]).collect();
+        writer.add(format!("{name}.conditions"), &[shots.len(), 2], &conditions);
     }
 }
 
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_goes_on_is_bit_for_bit_the_run_that_never_stopped() {
+    fn a_resumed_run_is_bit_for_bit_the_uninterrupted_run() {
         let mut with_context = small_task();
         with_context.hyperparameters.context = true;
         with_context.hyperparameters.ranking = 0.5;
@@ -205,7 +205,7 @@ mod tests {
         let empty = Writer::default().finish(&note).unwrap();
         let whole = writer.finish(&note).unwrap();
         let task: Vec<_> = note["task"].as_object().unwrap().keys().collect();
-        assert_eq!(task, ["hyperparameters", "reward", "seed", "shots"], "as they have been in all checkpoints");
+        assert_eq!(task, ["hyperparameters", "reward", "seed", "shots"], "the keys of all earlier checkpoints");
         assert!(read(&Reader::new(&empty).unwrap(), note.clone()).unwrap_err().to_string().contains("online.actor"));
         let reader = Reader::new(&whole).unwrap();
         let mut other = note;
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn settings_of_earlier_versions_are_read_where_they_changed_nothing() {
+    fn settings_of_earlier_versions_are_accepted_if_they_had_no_effect() {
         let trainer = Trainer::new(small_task(), Table::default()).unwrap();
         let bytes = bytes(&trainer);
         let reader = Reader::new(&bytes).unwrap();
@@ -223,7 +223,7 @@ mod tests {
             let with = |value: f64| {
                 let mut old = reader.note::<Value>().unwrap();
                 let settings = old["task"]["hyperparameters"].as_object_mut().unwrap();
-                assert_eq!(settings.insert(name.to_owned(), value.into()), None, "it is written no more");
+                assert_eq!(settings.insert(name.to_owned(), value.into()), None, "it is no longer written");
                 read(&reader, old)
             };
             assert_eq!(with(0.0).unwrap().task, trainer.task);

@@ -1,4 +1,4 @@
-//! The training loop: play, remember, learn.
+//! The state of a training: agent, replay buffers, random numbers and progress. `rollout` and `learner` contain its loop.
 
 use std::sync::Arc;
 
@@ -20,16 +20,16 @@ use crate::{
     table::Table,
 };
 
-/// What is to be learnt, and how long.
+/// Goal, length and settings of a training.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Task {
-    /// What earns a reward, the seed and the number of shots. The same task gives the same weights on the same machine.
+    /// The reward, the seed and the number of shots. Equal tasks give equal weights on the same machine.
     #[serde(flatten)]
     pub plan: TrainingPlan,
     pub hyperparameters: Hyperparameters,
 }
 
-/// An agent that trains on a table.
+/// An agent in training on a table.
 #[derive(Debug)]
 pub struct Trainer {
     pub(super) task: Task,
@@ -37,7 +37,7 @@ pub struct Trainer {
     pub(super) tables: RandomizedTables,
     pub(super) agent: Ddpg,
     pub(super) replay: ReplayBuffer<Transition>,
-    /// The best strokes that searches have found.
+    /// Replay buffer of the best strokes found by search.
     pub(super) searched: ReplayBuffer<Transition>,
     pub(super) rng: Xoshiro256PlusPlus,
     pub(super) shots: u64,
@@ -54,8 +54,7 @@ impl Trainer {
         Ok(Self { task, table, tables, agent, replay, searched, rng, shots: 0, updates: 0 })
     }
 
-    /// A policy that plays with the averaged networks as they are now. `held_out_reward` is what they have been
-    /// measured to earn.
+    /// Creates a policy from the current target networks. `held_out_reward` is their measured mean reward on held-out layouts.
     pub fn policy(&self, held_out_reward: f64, date: &str) -> Result<Policy> {
         let origin = Origin {
             table: self.table.name.clone(),
@@ -73,17 +72,17 @@ impl Trainer {
         Ok(Policy { networks: self.agent.target.duplicate()?, origin })
     }
 
-    /// Shots as the agent learns from them.
+    /// Converts stored shots to a minibatch.
     pub(super) fn batch(&self, shots: &[Transition]) -> Result<ShotBatch> {
-        let seen = shots.iter().map(|shot| self.tables.seen(shot.observation, shot.conditions)).collect();
+        let situations = shots.iter().map(|shot| self.tables.situation(shot.observation, shot.conditions)).collect();
         Ok(ShotBatch {
-            observed: ObservationBatch::new(self.task.hyperparameters.inputs(), seen)?,
+            observed: ObservationBatch::new(self.task.hyperparameters.inputs(), situations)?,
             actions: shots.iter().map(|shot| shot.action).collect(),
             successes: shots.iter().map(|shot| shot.success).collect(),
         })
     }
 
-    /// Part of the first learning rates that is left: half a cosine from 1 at the first shot to 0 at the last.
+    /// Factor of the initial learning rates: half a cosine from 1 at the first shot to 0 at the last.
     pub fn lr_factor(&self) -> f64 {
         let done = (self.shots as f64 / self.task.plan.shots as f64).min(1.0);
         0.5 * (1.0 + (std::f64::consts::PI * done).cos())
@@ -101,7 +100,7 @@ pub(in crate::learning) mod tests {
         },
     };
 
-    /// A task that is learnt in an instant, or not at all.
+    /// A task with tiny networks, for tests of the mechanics; the agent may learn nothing.
     pub fn small_task() -> Task {
         let hyperparameters = Hyperparameters {
             actor_layers: vec![16],
@@ -128,7 +127,7 @@ pub(in crate::learning) mod tests {
     }
 
     #[test]
-    fn shots_count_alike_however_they_are_chosen() {
+    fn every_kind_of_shot_counts_as_one_shot() {
         for (ranking, critic_chooses) in [(0.0, 0.3), (0.5, 0.5), (1.0, 0.0), (0.4, 1.0)] {
             let mut task = small_task();
             task.hyperparameters = Hyperparameters { critic_chooses, ranking, ..task.hyperparameters };
@@ -152,7 +151,7 @@ pub(in crate::learning) mod tests {
     }
 
     #[test]
-    fn points_come_more_often_after_seconds_of_practice() {
+    fn seconds_of_training_raise_the_reward() {
         let hyperparameters = Hyperparameters {
             actor_layers: vec![64, 64],
             critic_layers: vec![64, 64],

@@ -1,4 +1,4 @@
-//! The Adam optimiser with a state that can be read, and the soft update of target networks; both in place.
+//! The Adam optimiser with a readable state, and the soft update of target networks; both work in place.
 
 use candle_core::{CpuStorage, InplaceOp2, InplaceOp3, Layout, Result, Tensor, Var, backprop::GradStore, bail};
 use candle_nn::Optimizer;
@@ -8,15 +8,14 @@ use super::tensors::{stored_values, values};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdamConfig {
-    /// Size of a step.
     pub learning_rate: f64,
-    /// Longest gradient, over all variables, that is not shortened.
+    /// Largest norm of the gradient over all variables; a longer gradient is scaled down to it.
     pub gradient_clip: f64,
 }
 
 /// Adam (Kingma and Ba 2015).
 ///
-/// candle's own `AdamW` keeps its moments private, so that a run could not be resumed exactly, and does not clip.
+/// candle's own `AdamW` does not clip and keeps its moments private, so a run could not be resumed exactly.
 #[derive(Debug)]
 pub struct Adam {
     variables: Vec<Var>,
@@ -31,7 +30,7 @@ const BETA: [f32; 2] = [0.9, 0.999];
 const EPSILON: f32 = 1e-8;
 
 impl Adam {
-    /// An optimiser that continues from what [`Adam::moments`] and [`Adam::steps`] gave.
+    /// Creates an optimiser that continues from the values of [`Adam::moments`] and [`Adam::steps`].
     pub const fn resume(variables: Vec<Var>, config: AdamConfig, moments: Vec<[Tensor; 2]>, steps: u32) -> Self {
         Self { variables, moments, config, steps }
     }
@@ -55,7 +54,7 @@ impl Optimizer for Adam {
         Ok(Self { variables, moments, config, steps: 0 })
     }
 
-    /// Moves the variables one step down their gradients; those without one stay.
+    /// Moves the variables one step down their gradients. Variables without a gradient stay unchanged.
     fn step(&mut self, gradients: &GradStore) -> Result<()> {
         let found: Vec<_> = self
             .variables
@@ -66,7 +65,7 @@ impl Optimizer for Adam {
         let squares: Vec<f64> = found.iter().map(|(.., gradient)| squares(gradient)).collect::<Result<_>>()?;
         let length = squares.iter().sum::<f64>().sqrt();
         let AdamConfig { learning_rate, gradient_clip } = self.config;
-        // Such a step would destroy the network.
+        // A step with such a gradient would destroy the network.
         if !length.is_finite() {
             bail!(
                 "the gradient is not finite: the learning rate {learning_rate} may be too high; start a new run with a lower one"
@@ -102,7 +101,7 @@ pub fn soft_update(target: &Var, online: &Var, rate: f64) -> Result<()> {
 fn squares(tensor: &Tensor) -> Result<f64> {
     let (storage, layout) = tensor.storage_and_layout();
     let (chunks, rest) = stored_values(&storage, layout)?.as_chunks::<16>();
-    // Sixteen sums at a time, which the processor can add side by side in wide registers.
+    // Sixteen partial sums, which the processor can add in parallel in wide registers.
     let mut sums = [0.0f32; 16];
     Arch::new().dispatch(|| {
         for chunk in chunks {
@@ -130,7 +129,7 @@ impl InplaceOp2 for Blend {
         let (to, from) = (values_mut(s1, l1)?, values(s2, l2)?);
         same_length(to, from)?;
         let Self { keep, scale, squared } = *self;
-        // Dispatched so that the loops are compiled for the wide registers of the processor at hand.
+        // Dispatched so that the loops are compiled for the wide registers of the processor in use.
         Arch::new().dispatch(|| {
             if squared {
                 for (x, y) in to.iter_mut().zip(from) {

@@ -1,4 +1,4 @@
-//! A whole network's forward and backward pass as one candle operation.
+//! Forward and backward pass of a whole network as one fused candle operation.
 
 use std::sync::OnceLock;
 
@@ -14,20 +14,20 @@ use super::{
 /// candle's own layers would allocate a dozen intermediate tensors for it.
 pub struct Fused {
     sizes: Vec<usize>,
-    /// Whether gradients will be asked for along the inputs and along the parameters.
+    /// Whether the backward pass computes the gradients with respect to the inputs and to the parameters.
     gradients: [bool; 2],
-    /// Outputs of the hidden layers, kept by the forward pass for the backward pass.
+    /// Outputs of the hidden layers, stored by the forward pass for the backward pass.
     hidden: OnceLock<Vec<Vec<f32>>>,
 }
 
 impl Fused {
-    /// A pass that has not run yet; `gradients` says whether the inputs' and the parameters' will be asked for.
+    /// Creates a pass. `gradients` selects whether its backward pass computes those of the inputs and those of the parameters.
     pub fn new(sizes: &[usize], gradients: [bool; 2]) -> Self {
         Self { sizes: sizes.to_vec(), gradients, hidden: OnceLock::new() }
     }
 }
 
-/// A layer's weights and bias inside the flat parameters.
+/// Iterates over the layers' weights and biases inside the flat parameters.
 fn layers<'a>(sizes: &'a [usize], mut parameters: &'a [f32]) -> impl Iterator<Item = (Matrix<'a>, &'a [f32])> {
     sizes.windows(2).map(move |pair| {
         let (weights, rest) = parameters.split_at(pair[0] * pair[1]);
@@ -45,7 +45,7 @@ impl CustomOp2 for Fused {
     fn cpu_fwd(&self, s1: &CpuStorage, l1: &Layout, s2: &CpuStorage, l2: &Layout) -> Result<(CpuStorage, Shape)> {
         let (rows, inputs) = l1.shape().dims2()?;
         if inputs != self.sizes[0] {
-            bail!("a network of sizes {:?} was given rows of {inputs}", self.sizes);
+            bail!("a network of sizes {:?} cannot take rows of {inputs} inputs", self.sizes);
         }
         let (inputs, parameters) = (values(s1, l1)?, values(s2, l2)?);
         let mut outputs: Vec<Vec<f32>> = Vec::with_capacity(self.sizes.len());
@@ -53,7 +53,7 @@ impl CustomOp2 for Fused {
             let from = outputs.last().map_or(inputs, Vec::as_slice);
             let mut next = product(Matrix::new(from, rows, self.sizes[index]), weights);
             let least = if index + 2 == self.sizes.len() { f32::NEG_INFINITY } else { 0.0 };
-            // Dispatched so that the loops are compiled for the wide registers of the processor at hand.
+            // Dispatched so that the loops are compiled for the wide registers of the processor in use.
             Arch::new().dispatch(|| {
                 for row in next.chunks_exact_mut(bias.len()) {
                     for (x, b) in row.iter_mut().zip(bias) {
@@ -84,7 +84,7 @@ impl CustomOp2 for Fused {
             (stored_values(&input_storage, input_layout)?, stored_values(&parameter_storage, parameter_layout)?);
         let [for_inputs, for_parameters] = self.gradients;
         let (rows, mut end) = (input_layout.dims()[0], parameters.len());
-        // The gradient with respect to the outputs of the layer that is being worked on.
+        // The gradient with respect to the outputs of the current layer.
         let mut errors: Vec<f32> = gradient.flatten_all()?.to_vec1()?;
         let mut parameter_gradient = vec![0.0; if for_parameters { end } else { 0 }];
         let mut input_gradient = None;
@@ -113,7 +113,7 @@ impl CustomOp2 for Fused {
                 }
             } else {
                 let slopes = product(delta, weights.transposed());
-                // Into the other vector: in place these become masked stores, slow on AMD's processors without AVX-512.
+                // Written to the other vector: in place these become masked stores, slow on AMD's processors without AVX-512.
                 errors.clear();
                 Arch::new().dispatch(|| {
                     let passed =

@@ -1,9 +1,9 @@
-//! Products of `f32` matrices on one core, vectorised for the processor that is found at run time.
+//! Products of `f32` matrices on one core, vectorised for the processor that is detected at run time.
 //!
-//! candle's own product asks the operating system for the number of cores at every call (25 µs where
-//! `RAYON_NUM_THREADS` is unset) and starts threads that slow small networks down. This one reaches 94 % of its speed
-//! on large matrices (230 of 245 GFLOP/s, 512 x 256 x 256, AVX-512) without either, and needs no unsafe code: pulp
-//! carries the choice of instructions. Every element is summed over the inner index in ascending order with fused
+//! candle's own product asks the operating system for the number of cores at every call (25 µs if
+//! `RAYON_NUM_THREADS` is unset) and starts threads that slow small networks down. This one has neither cost and reaches 94 % of
+//! candle's speed on large matrices (230 of 245 GFLOP/s, 512 x 256 x 256, AVX-512). It needs no unsafe code: pulp
+//! selects the instructions. Every element is summed over the inner index in ascending order with fused
 //! multiply-adds, so results do not depend on the vector width.
 
 #![expect(
@@ -13,14 +13,14 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-/// Rows of the output that are computed together. With 4 vectors a row this fills 24 of 32 registers.
+/// Rows of the output that are computed together. With 4 vectors per row this fills 24 of 32 registers.
 const ROWS: usize = 6;
 
-/// The same for small matrices with one vector a row, and half as many with two: eight sums at a time hide how long a multiply-add
-/// takes.
+/// Rows that are computed together for small matrices with one vector per row; with two vectors half as many. Eight sums at a time
+/// hide the latency of a multiply-add.
 const SMALL_ROWS: usize = 8;
 
-/// Most values of a right matrix that is read where it is; it fits into the innermost cache.
+/// Largest number of values of a right matrix that is read in place, without packing; it fits into the innermost cache.
 const SMALL: usize = 1 << 12;
 
 /// A matrix inside a slice.
@@ -33,19 +33,18 @@ pub struct Matrix<'a> {
 }
 
 impl<'a> Matrix<'a> {
-    /// A matrix whose rows lie one after the other.
+    /// Creates a matrix in row-major order.
     pub fn new(values: &'a [f32], rows: usize, columns: usize) -> Self {
         assert_eq!(values.len(), rows * columns, "a {rows} x {columns} matrix");
         Self { values, rows, columns, transposed: false }
     }
 
-    /// The transposed matrix; nothing is moved.
+    /// Returns the transposed matrix; no value is moved.
     pub fn transposed(self) -> Self {
         Self { rows: self.columns, columns: self.rows, transposed: !self.transposed, ..self }
     }
 
-    /// Copies the block of `COUNT` rows from `first` on, or as many as there are, so that the elements of one column
-    /// lie together.
+    /// Copies the block of at most `COUNT` rows from `first` on in column-major order.
     #[inline(always)]
     fn pack_rows<const COUNT: usize>(&self, first: usize, out: &mut [f32]) {
         let count = COUNT.min(self.rows - first);
@@ -55,7 +54,7 @@ impl<'a> Matrix<'a> {
                 to[..count].copy_from_slice(&from[first..first + count]);
             }
         } else if count == COUNT {
-            // The common case by itself: reading all rows at once doubles the speed of the copy.
+            // The common case has its own branch: reading all rows at once doubles the speed of the copy.
             let rows: [&[f32]; COUNT] = std::array::from_fn(|row| self.row(first + row));
             for (column, to) in columns.iter_mut().enumerate().take(self.columns) {
                 *to = std::array::from_fn(|row| rows[row][column]);
@@ -69,7 +68,7 @@ impl<'a> Matrix<'a> {
         }
     }
 
-    /// Copies the block of `width` columns from `first` on, or as many as there are, row after row.
+    /// Copies the block of at most `width` columns from `first` on in row-major order.
     #[inline(always)]
     fn pack_columns(&self, first: usize, width: usize, out: &mut [f32]) {
         let count = width.min(self.columns - first);
@@ -93,14 +92,14 @@ impl<'a> Matrix<'a> {
     }
 }
 
-/// `left` times `right`, row after row.
+/// Returns `left` times `right` in row-major order.
 pub fn product(left: Matrix<'_>, right: Matrix<'_>) -> Vec<f32> {
     let mut out = vec![0.0; left.rows * right.columns];
     product_into(left, right, &mut out);
     out
 }
 
-/// The same into values that are zero.
+/// Writes `left` times `right` into `out`, which must contain zeros.
 pub fn product_into(left: Matrix<'_>, right: Matrix<'_>, out: &mut [f32]) {
     assert_eq!(left.columns, right.rows, "the inner sizes of a matrix product");
     assert_eq!(out.len(), left.rows * right.columns, "the size of a matrix product");
@@ -123,7 +122,7 @@ impl WithSimd for Product<'_> {
         let columns = self.right.columns;
         let is_small = self.right.values.len() <= SMALL && self.left.rows >= SMALL_ROWS;
         let whole = |vectors: usize| columns.is_multiple_of(vectors * S::F32_LANES);
-        // As many vectors a row as the registers hold, but no more than the matrix fills.
+        // As many vectors per row as fit into the registers, but no more than the matrix fills.
         match columns.div_ceil(S::F32_LANES) {
             _ if is_small && whole(2) => self.tiles::<S, { SMALL_ROWS / 2 }, 2>(simd),
             vectors if is_small && (vectors == 1 || whole(1)) => self.tiles::<S, SMALL_ROWS, 1>(simd),
@@ -136,7 +135,7 @@ impl WithSimd for Product<'_> {
 }
 
 impl Product<'_> {
-    /// The product of large matrices, through copies in the order in which they are read.
+    /// Computes the product of large matrices from packed copies, in the order in which they are read.
     #[inline(always)]
     fn blocks<S: Simd, const WIDTH: usize>(self, simd: S) {
         let Product { left, right, out } = self;
@@ -164,9 +163,9 @@ impl Product<'_> {
         }
     }
 
-    /// The product of small matrices, read where they are: copying them takes longer than multiplying them. Only a right matrix
-    /// that is transposed or narrower than a vector is copied, and any other must be as wide as some tiles. The last tile of
-    /// rows overlaps the one before.
+    /// Computes the product of small matrices in place, because packing takes longer than multiplying. Only a right matrix
+    /// that is transposed or narrower than a vector is copied. The width of any other must be a multiple of the tile width. The last
+    /// tile of rows overlaps the one before.
     #[inline(always)]
     fn tiles<S: Simd, const ROWS: usize, const WIDTH: usize>(self, simd: S) {
         let Product { left, right, out } = self;
@@ -206,7 +205,8 @@ impl Product<'_> {
     }
 }
 
-/// Sums of products, held in registers: of the left matrix so many rows, of the right one so many vectors, for each inner index.
+/// Computes one tile of the product in registers. `inner` yields `ROWS` values of the left matrix and `WIDTH` vectors of the right one
+/// for each inner index.
 #[inline(always)]
 fn tile<S: Simd, const ROWS: usize, const WIDTH: usize>(
     simd: S,

@@ -6,21 +6,21 @@ use rand::{Rng, RngExt};
 
 use super::fused::Fused;
 
-/// How a network's passes are computed.
+/// Implementation of a network's passes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Operations {
     /// The whole network as one operation, [`Fused`].
     #[default]
     Fused,
-    /// Layer by layer with candle's own operations: the same to rounding, and slower. (Where a number is not
-    /// finite, one operation for all may give another one: a training that has come so far is given up by its loss.)
+    /// Layer by layer with candle's own operations: equal up to rounding, and slower. (Numbers that are not finite may propagate
+    /// differently in the fused operation; a training with such numbers stops anyway because of its loss.)
     Plain,
 }
 
 /// A network of dense layers with rectified linear units between them and a linear output.
 ///
-/// All weights and biases lie in one flat variable, layer after layer: the weight matrix (inputs x outputs, row after
-/// row), then the bias. The optimiser, the target update and a checkpoint then handle one tensor a network.
+/// One flat variable contains all weights and biases, layer by layer: the weight matrix (inputs x outputs, row-major), then the bias.
+/// The optimiser, the target update and a checkpoint then handle one tensor per network.
 #[derive(Clone, Debug)]
 pub struct Mlp {
     sizes: Vec<usize>,
@@ -34,9 +34,9 @@ pub fn parameter_count(sizes: &[usize]) -> usize {
 }
 
 impl Mlp {
-    /// A network with the given layer sizes, inputs first, drawn from `rng`: weights uniform within ±sqrt(6 / inputs)
-    /// (He), those of the last layer a hundredth of that so that training starts from indifferent outputs, biases
-    /// zero. candle's own generator cannot be seeded on a CPU.
+    /// Creates a network with the given layer sizes, inputs first, drawn from `rng`. Weights are uniform within ±sqrt(6 / inputs)
+    /// (He), those of the last layer within a hundredth of that, so that training starts with outputs near zero. Biases
+    /// are zero. candle's own generator cannot be seeded on a CPU.
     pub fn random(sizes: &[usize], rng: &mut (impl Rng + ?Sized)) -> Result<Self> {
         Self::uniform(sizes, rng, |layer, [inputs, _]| {
             let shrink = if layer + 2 == sizes.len() { 0.01 } else { 1.0 };
@@ -44,12 +44,12 @@ impl Mlp {
         })
     }
 
-    /// The same with weights uniform within ±sqrt(6 / (inputs + outputs)) (Glorot and Bengio 2010), as Keras begins.
+    /// Creates a network with weights uniform within ±sqrt(6 / (inputs + outputs)) (Glorot and Bengio 2010), the default of Keras.
     pub fn glorot(sizes: &[usize], rng: &mut (impl Rng + ?Sized)) -> Result<Self> {
         Self::uniform(sizes, rng, |_, [inputs, outputs]| (6.0 / (inputs + outputs)).sqrt())
     }
 
-    /// Weights uniform within the bound of their layer, from its number, inputs and outputs; biases zero.
+    /// Draws weights uniformly within their layer's bound, a function of its index, inputs and outputs. Biases are zero.
     fn uniform(sizes: &[usize], rng: &mut (impl Rng + ?Sized), bound: impl Fn(usize, [f32; 2]) -> f32) -> Result<Self> {
         let mut parameters = Vec::with_capacity(parameter_count(sizes));
         for (layer, pair) in sizes.windows(2).enumerate() {
@@ -60,7 +60,7 @@ impl Mlp {
         Self::from_parameters(sizes, parameters)
     }
 
-    /// A network with the given parameters.
+    /// Creates a network with the given parameters.
     pub fn from_parameters(sizes: &[usize], parameters: Vec<f32>) -> Result<Self> {
         let count = parameter_count(sizes);
         if parameters.len() != count {
@@ -70,36 +70,36 @@ impl Mlp {
         Ok(Self { sizes: sizes.to_vec(), parameters, operations: Operations::default() })
     }
 
-    /// A network with its own copy of the parameters.
+    /// Returns a network with its own copy of the parameters.
     pub fn duplicate(&self) -> Result<Self> {
         Ok(Self::from_parameters(&self.sizes, self.parameters.to_vec1()?)?.with(self.operations))
     }
 
-    /// This network with other operations.
+    /// Returns this network with other operations.
     #[must_use]
     pub fn with(self, operations: Operations) -> Self {
         Self { operations, ..self }
     }
 
-    /// This network with another bias in its last layer.
+    /// Returns this network with another bias in its last layer.
     pub fn with_output_bias(self, bias: &[f32]) -> Result<Self> {
         let mut parameters: Vec<f32> = self.parameters.to_vec1()?;
         let outputs = self.sizes[self.sizes.len() - 1];
         if bias.len() != outputs {
-            bail!("{outputs} outputs have no bias of {} values", bias.len());
+            bail!("a bias of {} values does not fit {outputs} outputs", bias.len());
         }
         let start = parameters.len() - outputs;
         parameters[start..].copy_from_slice(bias);
         Ok(Self::from_parameters(&self.sizes, parameters)?.with(self.operations))
     }
 
-    /// This network with `count` more inputs, which come after its first `after` ones and change nothing: their weights are
-    /// nought.
+    /// Returns this network with `count` more inputs, inserted after the first `after` inputs. Their weights are zero, so the outputs
+    /// do not change.
     pub fn with_more_inputs(self, after: usize, count: usize) -> Result<Self> {
         let mut parameters: Vec<f32> = self.parameters.to_vec1()?;
         let mut sizes = self.sizes;
         if after > sizes[0] {
-            bail!("{} inputs have no place after {after}", sizes[0]);
+            bail!("inputs cannot be inserted after input {after} of {}", sizes[0]);
         }
         let at = after * sizes[1];
         parameters.splice(at..at, std::iter::repeat_n(0.0, count * sizes[1]));
@@ -117,7 +117,7 @@ impl Mlp {
         &self.parameters
     }
 
-    /// As [`Module::forward`], without gradients for the parameters.
+    /// Computes [`Module::forward`] without gradients for the parameters.
     pub fn forward_frozen(&self, inputs: &Tensor) -> Result<Tensor> {
         self.apply(inputs, &self.parameters.as_detached_tensor())
     }

@@ -1,8 +1,8 @@
-//! Looking into candle's tensors on the CPU.
+//! Access to the values of candle's tensors on the CPU.
 
 use candle_core::{CpuStorage, Layout, Result, Storage, bail};
 
-/// The values of a contiguous `f32` tensor, as a custom operation meets it; others are refused.
+/// Returns the values of a contiguous `f32` tensor inside a custom operation; fails for any other tensor.
 pub fn values<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a [f32]> {
     match layout.contiguous_offsets() {
         Some((start, end)) => Ok(&storage.as_slice::<f32>()?[start..end]),
@@ -10,7 +10,7 @@ pub fn values<'a>(storage: &'a CpuStorage, layout: &Layout) -> Result<&'a [f32]>
     }
 }
 
-/// As [`values`], from what `Tensor::storage_and_layout` gives.
+/// Returns the same as [`values`], from the result of `Tensor::storage_and_layout`.
 pub fn stored_values<'a>(storage: &'a Storage, layout: &Layout) -> Result<&'a [f32]> {
     match storage {
         Storage::Cpu(storage) => values(storage, layout),

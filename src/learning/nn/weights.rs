@@ -1,4 +1,4 @@
-//! Named arrays and a JSON note in a safetensors file: what policies and checkpoints are made of.
+//! Named arrays and a JSON note in a safetensors file: the format of policies and checkpoints.
 
 use std::collections::HashMap;
 
@@ -13,11 +13,11 @@ use super::{
 };
 use crate::learning::settings::SettingError;
 
-/// The one metadata key. All notes stand in one JSON text, because the order of several keys in a file is random and
-/// equal runs would give unequal files.
+/// The only metadata key. Its value is one JSON text with the whole note: the order of several keys in a file is random, so
+/// equal runs would produce unequal files.
 const NOTE: &str = "carom";
 
-/// Why the content of a weights file cannot be used.
+/// The content of a weights file cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum WeightsError {
     /// Not a safetensors file, or a damaged one.
@@ -26,28 +26,28 @@ pub enum WeightsError {
     /// A safetensors file with another content.
     #[error("its metadata has no \"carom\" entry of the right kind")]
     Foreign,
-    /// An array is missing or of another type or shape than it must be.
+    /// An array is missing, or its type or shape is not the expected one.
     #[error("its array \"{name}\" is not {expected}")]
     Array {
         /// The array's name.
         name: String,
-        /// What it must be.
+        /// Expected type or shape.
         expected: String,
     },
-    /// A network has other layers than it must have.
+    /// The layers of a network are not the expected ones.
     #[error("its network \"{name}\" has {found}, and the settings ask for {wanted}")]
     Shape {
         /// The network's name.
         name: String,
-        /// Its layers, or the number of its values where nothing else is known.
+        /// Layers in the file, or the number of values if the layers are unknown.
         found: String,
-        /// What it must have.
+        /// Expected layers.
         wanted: String,
     },
-    /// candle refuses.
+    /// candle reports an error.
     #[error("candle refuses its networks ({})", first_line(.0))]
     Network(#[from] candle_core::Error),
-    /// The agent's settings in it are refused.
+    /// A setting of the agent in the file is refused.
     #[error("a setting in it is refused: {0}")]
     Settings(#[from] SettingError),
     /// A weight is NaN or infinite.
@@ -55,7 +55,7 @@ pub enum WeightsError {
     NotFinite(String),
 }
 
-/// Arrays to be written.
+/// Collects arrays for a file.
 #[derive(Debug, Default)]
 pub struct Writer {
     arrays: Vec<(String, Dtype, Vec<usize>, Vec<u8>)>,
@@ -82,7 +82,7 @@ impl Writer {
         Ok(())
     }
 
-    /// The same with half the digits, 16 bits a value, for networks that are done with learning.
+    /// Adds a network in half precision (16 bits per value), for networks whose training is finished.
     pub(crate) fn add_network_half(&mut self, name: &str, network: &Mlp) -> Result<(), WeightsError> {
         for (name, shape, values) in layers(name, network)? {
             let mut bytes = Vec::with_capacity(2 * values.len());
@@ -93,7 +93,7 @@ impl Writer {
         Ok(())
     }
 
-    /// Adds the state of a network's optimiser: `name.moment.0` and `name.moment.1`, without the point where `name` is empty.
+    /// Adds the state of a network's optimiser as `name.moment.0` and `name.moment.1`, or `moment.0` and `moment.1` if `name` is empty.
     pub(crate) fn add_optimiser(&mut self, name: &str, optimiser: &Adam) -> Result<(), WeightsError> {
         for pair in optimiser.moments() {
             for (order, moment) in pair.iter().enumerate() {
@@ -103,10 +103,10 @@ impl Writer {
         Ok(())
     }
 
-    /// The file's bytes, with a note that a [`Reader`] gives back.
+    /// Returns the file's bytes, with a note that [`Reader::note`] returns.
     ///
     /// # Errors
-    /// Whatever safetensors reports.
+    /// The errors of safetensors.
     pub fn finish(&self, note: &impl Serialize) -> Result<Vec<u8>, WeightsError> {
         let note = serde_json::to_string(note).map_err(SafeTensorError::from)?;
         let views = self.arrays.iter().map(|(name, dtype, shape, bytes)| {
@@ -125,7 +125,7 @@ pub struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Reads what a [`Writer`] wrote.
+    /// Parses the file of a [`Writer`].
     ///
     /// # Errors
     /// [`WeightsError::Format`] or [`WeightsError::Foreign`].
@@ -135,10 +135,10 @@ impl<'a> Reader<'a> {
         Ok(Self { arrays: SafeTensors::deserialize(bytes)?, note: note.clone() })
     }
 
-    /// The note.
+    /// Parses the note.
     ///
     /// # Errors
-    /// [`WeightsError::Foreign`] where it does not read as `T`.
+    /// [`WeightsError::Foreign`] if the note is not a `T`.
     pub fn note<T: DeserializeOwned>(&self) -> Result<T, WeightsError> {
         serde_json::from_str(&self.note).map_err(|_| WeightsError::Foreign)
     }
@@ -148,7 +148,7 @@ impl<'a> Reader<'a> {
         self.arrays.tensor(name).is_ok()
     }
 
-    /// An array of `f32`, or of half as many digits, its shape and values.
+    /// Returns the shape and the values of an array of `f32` or of half precision.
     ///
     /// # Errors
     /// [`WeightsError::Array`] or [`WeightsError::NotFinite`].
@@ -166,7 +166,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The values of an array of `f64`.
+    /// Returns the values of an array of `f64`.
     pub(crate) fn array_f64(&self, name: &str) -> Result<Vec<f64>, WeightsError> {
         let array = self.typed(name, Dtype::F64, "an array of 64-bit numbers")?;
         let (values, _) = array.data().as_chunks::<8>();
@@ -180,10 +180,10 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The network that [`Writer::add_network`] wrote, which must have layers of these `sizes`, inputs first.
+    /// Returns the network that [`Writer::add_network`] wrote. Its layers must have these `sizes`, inputs first.
     ///
     /// # Errors
-    /// Where it has others, or an array is missing.
+    /// Fails if the sizes differ or an array is missing.
     pub(crate) fn network(&self, name: &str, sizes: &[usize]) -> Result<Mlp, WeightsError> {
         let weight = |layer: usize| format!("{name}.{layer}.weight");
         let shapes = (0..).map_while(|layer| Some(self.arrays.tensor(&weight(layer)).ok()?.shape().to_vec()));
@@ -207,10 +207,10 @@ impl<'a> Reader<'a> {
         Ok(Mlp::from_parameters(sizes, parameters)?)
     }
 
-    /// The optimiser of `network` that `Writer::add_optimiser` wrote after so many steps.
+    /// Returns the optimiser of `network` that `Writer::add_optimiser` wrote after `steps` steps.
     ///
     /// # Errors
-    /// Where it is missing or does not fit the network.
+    /// Fails if an array is missing or does not fit the network.
     pub fn optimiser(&self, name: &str, network: &Mlp, config: AdamConfig, steps: u32) -> Result<Adam, WeightsError> {
         let moment = |order: usize| -> Result<Tensor, WeightsError> {
             let name = moment_name(name, order);
@@ -229,7 +229,7 @@ impl<'a> Reader<'a> {
 /// Name, shape and values.
 type Array = (String, Vec<usize>, Vec<f32>);
 
-/// The arrays of a network, layer after layer: the weights, then the bias.
+/// Splits a network into arrays, layer by layer: the weights, then the bias.
 fn layers(name: &str, network: &Mlp) -> Result<Vec<Array>, WeightsError> {
     let (mut rest, mut arrays) = (network.parameters().to_vec1::<f32>()?, Vec::new());
     for (layer, pair) in network.sizes().windows(2).enumerate() {
@@ -242,7 +242,7 @@ fn layers(name: &str, network: &Mlp) -> Result<Vec<Array>, WeightsError> {
     Ok(arrays)
 }
 
-/// Layer sizes in a sentence.
+/// Describes layer sizes in words.
 pub(crate) fn units<'a>(sizes: impl IntoIterator<Item = &'a usize>) -> String {
     let sizes: Vec<_> = sizes.into_iter().map(usize::to_string).collect();
     format!("layers of {} units", sizes.join("-"))
@@ -260,7 +260,7 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
-    fn half_the_digits_take_half_the_room_and_come_back_to_three_places() {
+    fn half_precision_halves_the_file_and_keeps_three_digits() {
         let mlp = Mlp::random(&[30, 40, 2], &mut Xoshiro256PlusPlus::seed_from_u64(1)).unwrap();
         let file = |mlp: &Mlp| {
             let mut writer = Writer::default();
@@ -274,7 +274,7 @@ mod tests {
         assert!(
             values(&read).iter().zip(values(&mlp)).all(|(read, own)| (read - own).abs() <= 5e-4 * own.abs() + 1e-7)
         );
-        assert_eq!(file(&read), bytes, "what has been rounded once is rounded no further");
+        assert_eq!(file(&read), bytes, "rounded values must not change when they are rounded again");
     }
 
     #[test]

@@ -1,5 +1,5 @@
-//! Checkpoints: the last one and the one before, each whole and verified, so that one of them can always be gone on
-//! from. In each are the learner, the run's own state, and a checksum of it all.
+//! Checkpoints: the current and the previous one, each complete and checksummed, so that a run can always be resumed from one of them.
+//! Each contains the learner, the run's own state, and a checksum of both.
 
 use std::{
     io,
@@ -22,13 +22,13 @@ use crate::{
     storage::{self, Staged},
 };
 
-/// The last checkpoint.
+/// File name of the current checkpoint.
 pub const CURRENT: &str = "checkpoint.safetensors";
 
-/// The one before.
+/// File name of the previous checkpoint.
 pub const PREVIOUS: &str = "checkpoint-previous.safetensors";
 
-/// What the checkpoint with these bytes, read from `path`, holds.
+/// Parses a checkpoint's `bytes`, which were read from `path`.
 pub fn load(path: &Path, bytes: Vec<u8>) -> Result<Loaded, RunError> {
     loaded(path, Ok(bytes)).map_err(|damage| RunError::Checkpoints {
         folder: path.parent().unwrap_or(path).display().to_string(),
@@ -46,23 +46,23 @@ fn loaded(path: &Path, bytes: io::Result<Vec<u8>>) -> Result<Loaded, Damage> {
     load().map_err(|reason| Damage { path: path.display().to_string(), reason })
 }
 
-/// Shots that the newer checkpoint in `folder` that says so has played.
+/// Returns the shots played at the current checkpoint in `folder`, or at the previous one if the current one cannot be read.
 pub fn shots_in(folder: &Path) -> Option<u64> {
-    [CURRENT, PREVIOUS].iter().find_map(|name| told(&folder.join(name), "shots")?.as_u64())
+    [CURRENT, PREVIOUS].iter().find_map(|name| note_entry(&folder.join(name), "shots")?.as_u64())
 }
 
-/// What a run goes on from.
+/// A loaded checkpoint, from which a run resumes.
 #[derive(Debug)]
 pub struct Loaded {
     pub learner: Box<dyn Learner>,
     pub state: State,
     pub bytes: Vec<u8>,
-    /// Why it is the one before the last, if it is.
+    /// Damage of the current checkpoint, if this is the previous one.
     pub fallback: Option<Damage>,
 }
 
 impl Loaded {
-    /// What is told of a damaged last checkpoint.
+    /// Returns the warning about a damaged current checkpoint.
     pub fn notice(&self) -> Option<String> {
         let damage = self.fallback.as_ref()?;
         Some(format!("{damage}; going on from {PREVIOUS}, after {} shots", self.learner.shots()))
@@ -73,17 +73,17 @@ impl Loaded {
 #[derive(Debug)]
 pub struct Checkpoints {
     folder: PathBuf,
-    /// Whether the last one is fit to become the one before. A damaged one must not push out a whole one.
+    /// Whether the current checkpoint is intact and may become the previous one. A damaged one must not replace an intact one.
     current_is_whole: bool,
 }
 
 impl Checkpoints {
-    /// Those of a run that has none yet.
+    /// Creates the checkpoints of a run that has none yet.
     pub fn new(folder: &Path) -> Self {
         Self { folder: folder.to_owned(), current_is_whole: false }
     }
 
-    /// Those that are there, and what the newer one of them that is whole holds.
+    /// Opens the checkpoints in `folder` and loads the newest intact one.
     ///
     /// # Errors
     /// [`RunError::Missing`] or [`RunError::Checkpoints`].
@@ -110,14 +110,14 @@ impl Checkpoints {
         }
     }
 
-    /// Adds a checkpoint; the last one becomes the one before.
+    /// Writes a new checkpoint; the current one becomes the previous one.
     ///
     /// # Errors
-    /// Whatever the file system reports. The whole ones that were there are still there.
+    /// The errors of the file system. Existing intact checkpoints are kept.
     pub fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         let current = self.folder.join(CURRENT);
         let staged = Staged::new(&current, bytes)?;
-        // Killed between the two renames, the run goes on from the one before.
+        // If the process is killed between the two renames, the run resumes from the previous one.
         if std::mem::take(&mut self.current_is_whole) {
             std::fs::rename(&current, self.folder.join(PREVIOUS))?;
         }
@@ -127,10 +127,10 @@ impl Checkpoints {
     }
 }
 
-/// What a checkpoint says beside the learner's arrays. No clock goes in: equal states give equal files.
+/// The JSON note of a checkpoint, next to the learner's arrays. It contains no time of day, so equal states give equal files.
 #[derive(Serialize, Deserialize)]
 struct Header {
-    /// First, so that it is found ([`write_checksum`]).
+    /// Must be the first field, because [`write_checksum`] finds it by the opening brace.
     checksum: String,
     format: u32,
     agent: String,
@@ -141,18 +141,18 @@ struct Header {
     learner: Value,
 }
 
-/// What of a run lives beside its learner.
+/// The run's own state, next to that of its learner.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
     pub schedule: Schedule,
     pub from: Option<Provenance>,
-    /// What it has to report next.
+    /// Sums for the next line of metrics.
     #[serde(rename = "tally")]
     pub accumulator: Accumulator,
 }
 
-/// Sums over shots and updates. They are part of a checkpoint: a line's means must not depend on where a run was interrupted. Those of
-/// older versions, which summed iterations of unlike length, are not read.
+/// Sums over shots and updates. They are part of a checkpoint, so that a line's means do not depend on where a run was interrupted. Sums of
+/// older versions, which weighted iterations of different lengths equally, are ignored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Accumulator {
@@ -165,7 +165,7 @@ pub struct Accumulator {
 }
 
 impl Accumulator {
-    /// Adds an iteration of so many shots and updates. `false` where it has numbers that are not finite.
+    /// Adds an iteration of `shots` shots and `updates` updates. Returns `false` if a sum is no longer finite.
     #[must_use]
     pub fn add(&mut self, iteration: &Iteration, shots: u64, updates: u64) -> bool {
         let Iteration { mean_reward, q_value, critic_loss, actor_loss } = *iteration;
@@ -181,7 +181,7 @@ impl Accumulator {
         sums.iter().all(|sum| sum.is_finite())
     }
 
-    /// The means over the shots and the updates added since the last call.
+    /// Returns the means over the shots and the updates added since the last call, and resets the sums.
     pub fn take(&mut self) -> Iteration {
         let Self { shots, updates, reward_sum, value_sum, critic_loss_sum, actor_loss_sum } = std::mem::take(self);
         let [shots, updates] = [shots, updates].map(|count| count.max(1) as f64);
@@ -194,7 +194,7 @@ impl Accumulator {
     }
 }
 
-/// The bytes of a checkpoint.
+/// Returns the bytes of a checkpoint.
 pub fn bytes(learner: &dyn Learner, state: &State) -> Result<Vec<u8>, WeightsError> {
     let mut writer = Writer::default();
     let note = Header {
@@ -209,7 +209,7 @@ pub fn bytes(learner: &dyn Learner, state: &State) -> Result<Vec<u8>, WeightsErr
     if write_checksum(OF_CHECKPOINT, &mut bytes) { Ok(bytes) } else { Err(WeightsError::Foreign) }
 }
 
-/// The learner and the run's state in a checkpoint's bytes.
+/// Restores the learner and the run's state from a checkpoint's bytes.
 fn restore(bytes: &[u8]) -> Result<(Box<dyn Learner>, State), DamageReason> {
     match is_whole(OF_CHECKPOINT, bytes) {
         Some(true) => {}
@@ -226,18 +226,18 @@ fn restore(bytes: &[u8]) -> Result<(Box<dyn Learner>, State), DamageReason> {
     Ok(((agent.restore)(&reader, learner)?, state))
 }
 
-/// The agent whose run wrote the checkpoint at `path`; `None` where that is no checkpoint, or cannot be read.
+/// Returns the agent of the checkpoint at `path`; `None` if the file is not a checkpoint or cannot be read.
 pub fn agent_of_checkpoint(path: &Path) -> Option<String> {
-    Some(told(path, "agent")?.as_str()?.to_owned())
+    Some(note_entry(path, "agent")?.as_str()?.to_owned())
 }
 
-/// What the note of the checkpoint at `path` says under `name`; that of a policy names no agent.
-fn told(path: &Path, name: &str) -> Option<Value> {
+/// Returns the entry `name` in the note of the checkpoint at `path`. The note of a policy has no entry "agent".
+fn note_entry(path: &Path, name: &str) -> Option<Value> {
     let bytes = storage::read(path, storage::LARGE).ok()?;
     Reader::new(&bytes).ok()?.note::<Value>().ok()?.get(name).cloned()
 }
 
-/// The part of a note that every version has.
+/// The part of the note that all versions have in common.
 #[derive(Deserialize)]
 struct Version {
     format: u32,
@@ -256,7 +256,7 @@ mod tests {
         State { schedule: Schedule::for_shots(100), from: None, accumulator: Accumulator::default() }
     }
 
-    /// A folder with two checkpoints, and the shots that each has played.
+    /// A folder with two checkpoints, and the shots played at each.
     fn folder_of_two() -> (tempfile::TempDir, [u64; 2]) {
         let folder = tempfile::tempdir().unwrap();
         let mut learner = Trainer::new(small_task(), Table::default()).unwrap();
@@ -274,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_one_is_used_and_the_one_before_where_it_is_missing() {
+    fn the_current_checkpoint_is_used_or_the_previous_one_if_it_is_missing() {
         let (folder, [before, last]) = folder_of_two();
         assert_eq!(shots_after_opening(folder.path()).unwrap(), (last, false));
         assert_eq!(shots_in(folder.path()), Some(last));
@@ -285,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn a_damaged_one_does_not_push_out_the_whole_one_before() {
+    fn a_damaged_checkpoint_does_not_replace_the_intact_previous_one() {
         let (folder, [before, _]) = folder_of_two();
         fs::write(folder.path().join(CURRENT), b"damaged").unwrap();
         let (mut checkpoints, loaded) = Checkpoints::open(folder.path()).unwrap();
@@ -307,10 +307,10 @@ mod tests {
     }
 
     #[test]
-    fn means_are_over_the_shots_and_updates_since_the_last_and_survive_a_file() {
+    fn means_are_over_the_shots_and_updates_since_the_last_line_and_survive_a_file() {
         let iteration = |reward| Iteration { mean_reward: reward, q_value: 0.1, critic_loss: 0.7, actor_loss: None };
         let mut accumulator = Accumulator::default();
-        // The second iteration is longer, and the first one, which made no update, says nothing of the loss.
+        // The second iteration is longer. The first one made no update and must not count in the mean loss.
         let first = Iteration { q_value: 0.0, critic_loss: 0.0, ..iteration(0.1) };
         assert!(accumulator.add(&first, 1, 0) && accumulator.add(&iteration(0.3), 3, 2));
         let text = serde_json::to_string(&accumulator).unwrap();
@@ -320,7 +320,7 @@ mod tests {
         assert!((means.mean_reward - 0.25).abs() < 1e-15, "{means:?}");
         assert_eq!((means.q_value, means.critic_loss, again.take()), (0.1, 0.7, Iteration::default()));
         assert!(!accumulator.add(&Iteration { critic_loss: f64::INFINITY, ..iteration(0.0) }, 1, 1));
-        // What an older version had summed is left out.
+        // The sums of an older version are ignored.
         let older = r#"{"turns":3,"mean_reward":0.5,"q_value":0.1,"critic_loss":0.2,"actor_loss":0.3}"#;
         assert_eq!(serde_json::from_str::<Accumulator>(older).unwrap(), Accumulator::default());
     }

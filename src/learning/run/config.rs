@@ -1,4 +1,4 @@
-//! What `config.json` says of a run.
+//! The configuration of a run, `config.json`.
 
 use std::{fmt::Display, path::Path};
 
@@ -14,46 +14,46 @@ use crate::{
     table::Table,
 };
 
-/// The file's name.
+/// File name of the configuration.
 pub const FILE: &str = "config.json";
 
-/// When a run reports and is measured, in shots: it must not depend on the clock, or a run that was interrupted would
-/// give other lines.
+/// When a run writes metrics and evaluates itself, in shots. It must not depend on the clock, or an interrupted run would
+/// write other lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Schedule {
     /// Shots between two lines of metrics.
     pub log_every: u64,
-    /// Shots between two measurements on held-out layouts, each with a line and a checkpoint.
+    /// Shots between two evaluations on held-out layouts, each with a line of metrics and a checkpoint.
     pub evaluate_every: u64,
-    /// Layouts of a measurement.
+    /// Layouts per evaluation.
     pub evaluation_layouts: usize,
 }
 
-/// Fewest shots between two measurements by default: with fewer, a short run would do little but measure itself.
+/// Smallest default number of shots between two evaluations: with fewer, a short run would mostly evaluate itself.
 const FEWEST_SHOTS: u64 = 10_000;
 
-/// Lines of metrics for each measurement: a run of an hour has news every one or two seconds.
+/// Lines of metrics per evaluation: a run of an hour writes one every one or two seconds.
 const LINES: u64 = 50;
 
-/// Layouts of a measurement by default: enough for a standard error of half a percent near 0.95.
+/// Default number of layouts per evaluation: enough for a standard error of half a percent near 0.95.
 const LAYOUTS: usize = 2_000;
 
 impl Schedule {
-    /// What suits a run of so many shots: 50 measurements.
+    /// Returns the default schedule of a run of `shots` shots: 50 evaluations, or fewer if the run is short.
     pub fn for_shots(shots: u64) -> Self {
         Self::new((shots / 50).max(FEWEST_SHOTS), LAYOUTS)
     }
 
-    /// Measures every so many shots on so many layouts.
+    /// Returns the schedule that evaluates every `evaluate_every` shots on `evaluation_layouts` layouts.
     pub fn new(evaluate_every: u64, evaluation_layouts: usize) -> Self {
         Self { log_every: (evaluate_every / LINES).max(1), evaluate_every: evaluate_every.max(1), evaluation_layouts }
     }
 }
 
-/// Whose weights a run started from.
+/// The run or policy whose weights a run started from.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
-    /// The run or the policy, as it was given.
+    /// Path or name of the run or the policy, as the user gave it.
     pub path: String,
     /// Its agent.
     pub agent: String,
@@ -63,11 +63,11 @@ pub struct Provenance {
     pub reward: Reward,
     /// Its seed.
     pub seed: u64,
-    /// Shots that it had practised.
+    /// Shots played in its training.
     pub shots: u64,
 }
 
-/// The content of `config.json`: for people and for [`super::list`]. A run goes on from its checkpoint alone.
+/// The content of `config.json`, for users and for [`super::list`]. Resuming a run needs only its checkpoint.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Config {
     /// The agent's name.
@@ -75,15 +75,15 @@ pub struct Config {
     /// Reward, seed and number of shots.
     #[serde(flatten)]
     pub plan: TrainingPlan,
-    /// When it was started, UTC.
+    /// Time of the start, UTC.
     pub started: String,
     /// Version of carom that started it.
     pub version: String,
-    /// What `git describe` says of the source of that carom; none where it was not built from a checkout.
+    /// Output of `git describe` for the source of that carom; `None` if it was not built from a checkout.
     pub source: Option<String>,
-    /// Whose weights it started from.
+    /// Origin of the weights that it started from.
     pub from: Option<Provenance>,
-    /// When it reports and is measured.
+    /// When it writes metrics and evaluates itself.
     pub schedule: Schedule,
     /// The agent's settings.
     pub settings: Value,
@@ -92,7 +92,7 @@ pub struct Config {
 }
 
 impl Config {
-    /// That of a run that starts now.
+    /// Creates the configuration of a run that starts now.
     pub fn of(learner: &dyn Learner, schedule: Schedule, from: Option<Provenance>) -> Self {
         Self {
             agent: learner.agent().to_owned(),
@@ -107,52 +107,51 @@ impl Config {
         }
     }
 
-    /// Reads that of the run in `folder`.
+    /// Reads the configuration of the run in `folder`.
     ///
     /// # Errors
-    /// Where there is none, or something else.
+    /// Fails if the file is missing or is not a configuration.
     pub fn read(folder: &Path) -> std::io::Result<Self> {
         json::read(&folder.join(FILE), storage::SMALL)
     }
 
-    /// Writes it for the run in `folder`.
+    /// Writes the configuration of the run in `folder`.
     pub(super) fn write(&self, folder: &Path) -> Result<(), RunError> {
         json::write(&folder.join(FILE), self)
     }
 
-    /// The version of the carom that started the run, where it is newer than this one.
+    /// Returns the version of carom that started the run if it is newer than this one.
     pub fn newer_version(&self) -> Option<&str> {
         (numbers(&self.version) > numbers(VERSION)).then_some(self.version.as_str())
     }
 
-    /// A sentence where this is not the carom that started the run.
+    /// Returns a warning if another version or build of carom started the run.
     pub fn other_program(&self) -> Option<String> {
         let name =
             |version: &str, source: Option<&str>| format!("carom {version} ({})", source.unwrap_or("no checkout"));
         let (theirs, ours) = (name(&self.version, self.source.as_deref()), name(VERSION, SOURCE));
-        (theirs != ours).then(|| {
-            format!("the run was started by {theirs}, and this is {ours}: it may end in other weights than there")
-        })
+        (theirs != ours)
+            .then(|| format!("the run was started by {theirs}, and this is {ours}: the final weights may differ"))
     }
 
-    /// The day on which it was started, UTC, as 2026-11-20.
+    /// Returns the day of the start, UTC, as 2026-11-20.
     pub fn day(&self) -> &str {
         self.started.get(..10).unwrap_or(&self.started)
     }
 }
 
-/// Letters of a table's name in that of a folder.
+/// Largest number of characters of a table's name in a folder's name.
 const LONGEST_TABLE: usize = 40;
 
-/// Default name of a new run's folder: names sort by the `moment` of the start, as `timestamp` gives it.
+/// Returns the default name of a new run's folder. Names sort by the `moment` of the start, in the format of `timestamp`.
 pub fn run_name(moment: &str, agent: &str, table: &str, reward: Reward, seed: impl Display) -> String {
     let plain = |letter: char| if letter.is_alphanumeric() { letter } else { '_' };
-    // A named table has no folder.
+    // A table's name may contain characters that a folder's name must not, such as path separators.
     let table: String = table.chars().map(plain).take(LONGEST_TABLE).collect();
     format!("{moment}-{agent}-{table}-{reward}-{seed}")
 }
 
-/// A sentence on the configuration in `folder`, which cannot be read for this reason.
+/// Returns the message about a configuration in `folder` that cannot be read for this reason.
 pub fn unreadable(folder: &Path, reason: &std::io::Error) -> String {
     let version = || {
         let config: Value = json::read(&folder.join(FILE), storage::SMALL).ok()?;
@@ -160,12 +159,12 @@ pub fn unreadable(folder: &Path, reason: &std::io::Error) -> String {
         (version != VERSION).then_some(version)
     };
     match version() {
-        Some(version) => format!("{FILE} is of carom {version} and cannot be read by carom {VERSION}"),
+        Some(version) => format!("{FILE} was written by carom {version} and cannot be read by carom {VERSION}"),
         None => format!("{FILE} cannot be read ({reason})"),
     }
 }
 
-/// The numbers of a version, to be compared.
+/// Parses the numbers of a version, for comparison.
 fn numbers(version: &str) -> Vec<u64> {
     version.split(['.', '-', '+']).map_while(|part| part.parse().ok()).collect()
 }

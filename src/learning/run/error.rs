@@ -1,4 +1,4 @@
-//! Why a run cannot start, go on or be saved.
+//! The errors of training runs.
 
 use std::path::Path;
 
@@ -12,98 +12,98 @@ use crate::{
     printing::shell_word,
 };
 
-/// Why a run cannot start, go on or be saved.
+/// A run cannot start, resume or be saved.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
-    /// The folder already holds a run.
-    #[error("{0} already holds a run; go on with it by --resume {call}, or choose another folder by --run", call = shell_word(.0))]
+    /// The folder already contains a run.
+    #[error("{0} already contains a run; resume it with --resume {call}, or choose another folder with --run", call = shell_word(.0))]
     Occupied(String),
-    /// The folder holds something else.
-    #[error("{folder} is not empty and holds no run: \"{entry}\" is in it; choose a new folder by --run")]
+    /// The folder contains other files.
+    #[error("{folder} is not empty and contains no run: \"{entry}\" is in it; choose a new folder with --run")]
     Foreign {
         /// The folder.
         folder: String,
-        /// Something in it.
+        /// One of its entries.
         entry: String,
     },
-    /// There is a file in the folder's place.
-    #[error("{0} is a file, and a run needs a folder of its own; choose one that is new or empty by --run")]
+    /// The path is a file, not a folder.
+    #[error("{0} is a file, and a run needs a folder of its own; choose a new or empty one with --run")]
     NoFolder(String),
-    /// The folder holds no run.
+    /// The folder contains no run.
     #[error(
-        "{0} holds no run to go on with: it has no checkpoint.safetensors; carom train --list shows the runs there are"
+        "{0} contains no run to resume: it has no checkpoint.safetensors; carom train --list shows the existing runs"
     )]
     Missing(String),
     /// Another process works in the folder.
-    #[error("another process is training in {0}; wait until it ends or stop it, or choose another folder by --run")]
+    #[error("another process is training in {0}; wait until it ends or stop it, or choose another folder with --run")]
     Busy(String),
     /// A file of the run cannot be read or written.
     #[error("{path} cannot be used: {reason}")]
     File {
-        /// The file.
+        /// Path of the file.
         path: String,
-        /// What the system says.
+        /// Error of the operating system.
         reason: std::io::Error,
     },
-    /// No checkpoint is fit for use.
+    /// No checkpoint is usable.
     #[error(
-        "no checkpoint in {folder} can be gone on from: {current}{}",
+        "no checkpoint in {folder} can be used to resume: {current}{}",
         previous.as_ref().map_or_else(String::new, |previous| format!("; {previous}"))
     )]
     Checkpoints {
         /// The run's folder.
         folder: String,
-        /// What is wrong with the last one.
+        /// Damage of the current checkpoint.
         current: Box<Damage>,
-        /// What is wrong with the one before, if there is one.
+        /// Damage of the previous checkpoint, if it exists.
         previous: Option<Box<Damage>>,
     },
-    /// The agent is not known.
+    /// The agent is unknown.
     #[error(transparent)]
     Agent(#[from] UnknownAgent),
     /// The agent refuses its settings.
     #[error(transparent)]
     Start(#[from] StartError),
-    /// The weights to start from do not suit.
+    /// The weights to start from do not fit the run.
     #[error("{path} has no weights for this run: {reason}")]
     Origin {
         /// The file or the run.
         path: String,
-        /// What is wrong.
+        /// Reason.
         reason: String,
     },
     /// The policy to start from cannot be used.
     #[error(transparent)]
     Policy(#[from] PolicyError),
-    /// The state cannot be turned into a file.
+    /// The state cannot be serialized.
     #[error("the state cannot be saved: {0}")]
     Save(#[from] WeightsError),
-    /// The networks no longer give finite numbers.
+    /// The networks no longer return finite numbers.
     #[error("training stopped: {}", first_line(.0))]
     Training(#[from] candle_core::Error),
-    /// The networks no longer give finite losses, after so many shots.
+    /// The loss is no longer finite, after this number of shots.
     #[error("training stopped after {0} shots: the loss is not a finite number any more; try a lower learning rate")]
     NotFinite(u64),
-    /// The work since the last checkpoint could not be saved.
+    /// The progress since the last checkpoint could not be saved.
     #[error(
-        "the run could not be saved after {shots} shots: {reason}; the last checkpoint is whole: make room, then go on \
-         with: carom train --resume {call}",
+        "the run could not be saved after {shots} shots: {reason}; the last checkpoint is intact: free some disk space, \
+         then go on with: carom train --resume {call}",
         call = shell_word(folder)
     )]
     Unsaved {
         /// Shots played.
         shots: u64,
-        /// What went wrong.
+        /// Reason.
         reason: Box<Self>,
         /// The run's folder.
         folder: String,
     },
 }
 
-/// Version of what a checkpoint holds.
+/// Version of the checkpoint format.
 pub const FORMAT: u32 = 2;
 
-/// Why a checkpoint cannot be gone on from.
+/// A checkpoint cannot be used to resume.
 #[derive(Debug, thiserror::Error)]
 #[error("{path}: {reason}")]
 pub struct Damage {
@@ -111,7 +111,7 @@ pub struct Damage {
     pub(super) reason: DamageReason,
 }
 
-/// Why the bytes of a checkpoint cannot be used.
+/// Reason why the bytes of a checkpoint cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum DamageReason {
     #[error("{0}")]
@@ -128,7 +128,7 @@ pub enum DamageReason {
     Content(#[from] WeightsError),
 }
 
-/// The error of a file, for `map_err`.
+/// Returns a converter of a file's error to a [`RunError`], for `map_err`.
 pub fn file(path: &Path) -> impl FnOnce(std::io::Error) -> RunError {
     move |reason| RunError::File { path: path.display().to_string(), reason }
 }
@@ -138,11 +138,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_command_that_goes_on_with_a_run_can_be_pasted() {
-        let said = RunError::Occupied("d b/my run".to_owned()).to_string();
-        assert!(said.starts_with("d b/my run already") && said.contains("--resume 'd b/my run', or"), "{said}");
+    fn the_command_that_resumes_a_run_can_be_pasted() {
+        let message = RunError::Occupied("d b/my run".to_owned()).to_string();
+        assert!(
+            message.starts_with("d b/my run already") && message.contains("--resume 'd b/my run', or"),
+            "{message}"
+        );
         let reason = Box::new(RunError::NotFinite(1));
-        let said = RunError::Unsaved { shots: 1, reason, folder: "r $x".to_owned() }.to_string();
-        assert!(said.ends_with("carom train --resume 'r $x'"), "{said}");
+        let message = RunError::Unsaved { shots: 1, reason, folder: "r $x".to_owned() }.to_string();
+        assert!(message.ends_with("carom train --resume 'r $x'"), "{message}");
     }
 }

@@ -1,4 +1,4 @@
-//! A run's metrics as `TensorBoard` reads them: a file of events beside `metrics.jsonl`, with the same names.
+//! A run's metrics for `TensorBoard`: an event file next to `metrics.jsonl`, with the same names.
 //!
 //! The file is a series of records (length, masked checksum, content, masked checksum), each an `Event` in the encoding of
 //! protocol buffers: <https://github.com/tensorflow/tensorflow/blob/master/tensorflow/core/util/event.proto>.
@@ -15,17 +15,18 @@ use crc::{CRC_32_ISCSI, Crc};
 use super::metrics::Record;
 use crate::storage::replace;
 
-/// The file's name; `TensorBoard` finds files by a part of it.
+/// File name; `TensorBoard` finds files by a part of it.
 pub const FILE: &str = "events.out.tfevents.carom";
 
 const CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISCSI);
 
-/// The file while the run writes it.
+/// The event file, opened for writing.
 #[derive(Debug)]
 pub struct EventFile(File);
 
 impl EventFile {
-    /// The file of a run that has written these lines so far: anew, or, where some of its lines are lost, as it is, for it may have them.
+    /// Opens the file of a run that has written `records` so far. It is rewritten from the records if these are complete (`is_whole`).
+    /// Otherwise it is kept as it is, because it may contain the lost lines.
     pub fn open(folder: &Path, records: &[Record], is_whole: bool) -> io::Result<Self> {
         let path = folder.join(FILE);
         if is_whole || !path.exists() {
@@ -34,11 +35,11 @@ impl EventFile {
         Ok(Self(OpenOptions::new().append(true).open(path)?))
     }
 
-    /// A file of all these lines.
+    /// Returns the content of a file with all these records.
     fn content(records: &[Record]) -> Vec<u8> {
         let version = [field(WALL_TIME, DOUBLE, &now().to_le_bytes()), sized(FILE_VERSION, b"brain.Event:2")].concat();
         let mut bytes = framed(&version);
-        // As if the run had gone on without a break: when its parts were played is not known.
+        // The times of the run's sessions are unknown, so the records get times as if the run had not been interrupted.
         let begin = now() - records.last().map_or(0.0, |last| last.seconds);
         for record in records {
             bytes.extend(framed(&event(record, begin + record.seconds)));
@@ -55,19 +56,19 @@ fn now() -> f64 {
     SystemTime::now().duration_since(UNIX_EPOCH).map_or(0.0, |since| since.as_secs_f64())
 }
 
-/// A record of the file.
+/// Frames an event as a record of the file.
 fn framed(content: &[u8]) -> Vec<u8> {
     let length = (content.len() as u64).to_le_bytes();
     [&length, &masked(&length)[..], content, &masked(content)].concat()
 }
 
-/// The checksum as it stands in the file, rotated and offset, as the format asks, so that checksums of data that hold
+/// Returns the masked checksum that the format requires: rotated and offset, so that checksums of data that contain
 /// checksums stay useful.
 fn masked(bytes: &[u8]) -> [u8; 4] {
     CHECKSUM.checksum(bytes).rotate_right(15).wrapping_add(0xa282_ead8).to_le_bytes()
 }
 
-/// Numbers of the fields of an `Event`, its `Summary` and a value in that.
+/// Field numbers of an `Event`, of its `Summary` and of a value in the summary.
 const WALL_TIME: u8 = 1;
 const STEP: u8 = 2;
 const FILE_VERSION: u8 = 3;
@@ -76,13 +77,13 @@ const VALUE: u8 = 1;
 const TAG: u8 = 1;
 const SIMPLE_VALUE: u8 = 2;
 
-/// Kinds of fields.
+/// Wire types of fields.
 const VARINT: u8 = 0;
 const DOUBLE: u8 = 1;
 const BYTES: u8 = 2;
 const FLOAT: u8 = 5;
 
-/// A line of metrics: every finite number under its name in `metrics.jsonl`, at its number of shots.
+/// Encodes a line of metrics: every finite number under its name in `metrics.jsonl`, with the number of shots as the step.
 fn event(record: &Record, wall_time: f64) -> Vec<u8> {
     let mut summary = Vec::new();
     let fields = serde_json::to_value(record).unwrap_or_default();
@@ -103,7 +104,7 @@ fn sized(number: u8, content: &[u8]) -> Vec<u8> {
     field(number, BYTES, &[varint(content.len() as u64), content.to_vec()].concat())
 }
 
-/// Seven bits a byte, the lowest first; all bytes but the last have the highest bit set.
+/// Encodes an integer with seven bits per byte, the lowest first; all bytes but the last have the highest bit set.
 fn varint(mut value: u64) -> Vec<u8> {
     let mut bytes = Vec::new();
     while value >= 0x80 {
@@ -138,7 +139,7 @@ mod tests {
         open(&[], false).push(&record).unwrap();
         assert!(length() > two);
         open(&[record], true);
-        assert!(length() < two, "what the metrics have is all there is");
+        assert!(length() < two, "a rewritten file contains only the lines of the metrics");
     }
 
     #[test]
@@ -166,7 +167,7 @@ mod tests {
         for event in &events[1..] {
             assert!(has(event, b"rollout/ep_rew_mean") && has(event, &0.25_f32.to_le_bytes()));
             assert!(has(event, &[STEP << 3, 0xac, 0x02]), "300 shots");
-            assert!(!has(event, b"critic_loss"), "what is no number is left out");
+            assert!(!has(event, b"critic_loss"), "NaN is left out");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The latest shots on held-out layouts, to see how an agent plays.
+//! Example shots of the latest evaluation on held-out layouts, which show how an agent plays.
 
 use std::path::Path;
 
@@ -12,34 +12,34 @@ use crate::{
     table::Layout,
 };
 
-/// The file's name.
+/// File name of the examples.
 pub const FILE: &str = "shots.json";
 
-/// Shots that are kept of a measurement.
+/// Number of shots that are stored per evaluation.
 pub const COUNT: usize = 8;
 
-/// A shot of a measurement.
+/// A shot of an evaluation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Example {
-    /// Where the balls lay.
+    /// Positions of the balls before the shot.
     pub layout: Layout,
     /// The agent's first choice.
     pub cue: CueInputs,
-    /// What it earned.
+    /// Reward of the shot.
     pub reward: f64,
 }
 
 /// The content of `shots.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Examples {
-    /// Shots practised before the measurement.
+    /// Training shots played before the evaluation.
     pub after: u64,
-    /// The first of its shots.
+    /// The first shots of the evaluation.
     pub shots: Vec<Example>,
 }
 
 impl Examples {
-    /// Those of a measurement of `learner` on `layouts`.
+    /// Plays the first of `layouts` with `learner` and returns these shots.
     pub(crate) fn of(learner: &dyn Learner, layouts: &[Layout]) -> candle_core::Result<Self> {
         let layouts = &layouts[..layouts.len().min(COUNT)];
         let (reward, table) = (learner.plan().reward, learner.table());
@@ -48,12 +48,12 @@ impl Examples {
         Ok(Self { after: learner.shots(), shots: shots.collect() })
     }
 
-    /// Writes them for the run in `folder`.
+    /// Writes the examples of the run in `folder`.
     pub(crate) fn write(&self, folder: &Path) -> std::io::Result<()> {
         replace(&folder.join(FILE), &serde_json::to_vec(self)?)
     }
 
-    /// Reads those of the run in `folder`.
+    /// Reads the examples of the run in `folder`.
     pub(crate) fn read(folder: &Path) -> std::io::Result<Self> {
         json::read(&folder.join(FILE), storage::LARGE)
     }

@@ -1,4 +1,4 @@
-//! The heartbeat of a run that is training: about once a second it tells what it is doing, and it listens to what it is asked.
+//! The heartbeat of a training run: about once a second it writes the run's status, and it polls for requests.
 
 use std::{
     collections::VecDeque,
@@ -15,58 +15,58 @@ use crate::learning::learner::{Learner, Progress};
 /// Time between two beats. A run that misses many of them counts as stalled.
 pub const BEAT: Duration = Duration::from_secs(1);
 
-/// Time between two looks for a request.
-const EAR: Duration = Duration::from_millis(200);
+/// Time between two polls for a request.
+const REQUEST_INTERVAL: Duration = Duration::from_millis(200);
 
-/// Beats over which speeds are taken.
+/// Number of beats over which speeds are averaged.
 const SPEED_BEATS: usize = 6;
 
-/// Status for watchers of a run. Nothing of it is needed to resume, so a failure to write it is ignored.
+/// Writer of the status for watchers of a run. Resuming does not need the status, so a failure to write it is ignored.
 #[derive(Debug)]
 pub struct Heartbeat {
     folder: PathBuf,
-    /// What is told with the next beat.
+    /// The status that the next beat writes.
     pub status: RunStatus,
-    beaten: Option<Instant>,
-    listened: Instant,
+    last_beat: Option<Instant>,
+    last_poll: Instant,
     /// Seconds of training, shots and updates at the last beats, for the speeds.
     track: VecDeque<(f64, u64, u64)>,
 }
 
 impl Heartbeat {
-    /// That of the run in `folder`, which begins to work now: an earlier request was not meant for it.
+    /// Creates the heartbeat of the run in `folder`, which starts now. Removes an earlier request, which was not meant for this process.
     pub fn new(folder: &Path) -> Self {
         Request::clear(folder);
         let status = RunStatus { process: std::process::id(), ..RunStatus::default() };
         let track = VecDeque::with_capacity(SPEED_BEATS);
-        Self { folder: folder.to_owned(), status, beaten: None, listened: Instant::now(), track }
+        Self { folder: folder.to_owned(), status, last_beat: None, last_poll: Instant::now(), track }
     }
 
-    /// Tells what the run is doing, `seconds` into its training, if a second has passed or it does something else now.
+    /// Writes the status, `seconds` into the training, if a second has passed since the last beat or the phase has changed.
     pub fn beat(&mut self, phase: Phase, learner: &dyn Learner, seconds: f64) {
-        let is_due = self.beaten.is_none_or(|beaten| beaten.elapsed() >= BEAT);
+        let is_due = self.last_beat.is_none_or(|last| last.elapsed() >= BEAT);
         if is_due || phase != self.status.phase {
-            self.tell(phase, learner, seconds);
+            self.write_status(phase, learner, seconds);
         }
     }
 
-    /// Tells how the run has ended.
+    /// Writes the final status of the run.
     pub fn end(&mut self, phase: Phase, learner: &dyn Learner, seconds: f64, reason: Option<String>) {
         self.status.reason = reason;
         Request::clear(&self.folder);
-        self.tell(phase, learner, seconds);
+        self.write_status(phase, learner, seconds);
     }
 
-    /// What the run is asked to do, or a sentence about what is not understood.
+    /// Polls for a request. Returns a sentence as an error if the request is not understood.
     pub fn request(&mut self) -> Option<Result<Request, String>> {
-        if self.listened.elapsed() < EAR {
+        if self.last_poll.elapsed() < REQUEST_INTERVAL {
             return None;
         }
-        self.listened = Instant::now();
+        self.last_poll = Instant::now();
         Request::take(&self.folder)
     }
 
-    fn tell(&mut self, phase: Phase, learner: &dyn Learner, seconds: f64) {
+    fn write_status(&mut self, phase: Phase, learner: &dyn Learner, seconds: f64) {
         let (shots, Progress { updates, exploration, replay_fill, .. }) = (learner.shots(), learner.progress());
         if phase == Phase::Paused {
             self.track.clear();
@@ -82,14 +82,14 @@ impl Heartbeat {
             self.status.updates_per_second = (updates - first.2) as f64 / passed;
         }
         if matches!(phase, Phase::Measuring | Phase::Stopping) {
-            // A measurement is no part of the speed: it is measured again from its end.
+            // An evaluation does not count for the speeds: they are averaged from its end on.
             self.track.clear();
         }
         self.status.phase = phase;
         (self.status.shots, self.status.updates, self.status.seconds) = (shots, updates, seconds);
         (self.status.exploration, self.status.replay_fill) = (exploration, replay_fill);
-        // Nobody has to watch: a full disk stops checkpoints, and says so, but not this.
+        // Errors are ignored, because the status is optional; a full disk is reported when a checkpoint fails.
         let _ = self.status.write(&self.folder);
-        self.beaten = Some(Instant::now());
+        self.last_beat = Some(Instant::now());
     }
 }

@@ -1,28 +1,28 @@
-//! What a run has reported, quantity by quantity, and what a chart shows of it.
+//! The history of a run's metrics, quantity by quantity, and its reduction to the points of a chart.
 //!
-//! A line of metrics takes 112 bytes here, and room for as many again while a vector grows. A run has 2,500 lines by default, and
-//! the longest of `models/train.sh` 5,200: 0.6 megabytes. With a line a second a week has 600,000: 70 megabytes, a third of the
-//! file that they are read from, and 10 ms for the points of four charts.
+//! A line of metrics takes 112 bytes here, and up to twice as much while a vector grows. A run has 2,500 lines by default, and
+//! the longest of `models/train.sh` 5,200: 0.6 megabytes. With one line per second a week has 600,000: 70 megabytes, a third of the
+//! size of the metrics file, and 10 ms to compute the points of four charts.
 
 use std::ops::RangeInclusive;
 
 use super::{metrics::Record, quantity::Quantity};
 
-/// Most points that are given to be drawn, several times as many as a screen has columns: of more lines several are one point.
-const MOST_POINTS: usize = 4096;
+/// Largest number of points for a chart, several times the number of columns of a screen. More lines are grouped into points.
+const MAX_POINTS: usize = 4096;
 
-/// One quantity over a stretch of a run: a line of metrics, or several.
+/// One quantity over one or several successive lines of metrics.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
-    /// Shots played at the first and the last line of the stretch.
+    /// Shots played at the first and the last of the lines.
     pub shots: (u64, u64),
-    /// Smallest, mean and largest finite value; `None` where there is no finite value.
+    /// Smallest, mean and largest finite value; `None` if there is no finite value.
     pub finite: Option<Span>,
-    /// What else there was.
+    /// Numbers of values that are not finite.
     pub non_finite: NonFinite,
 }
 
-/// Finite values of a stretch.
+/// Range and mean of the finite values of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// The smallest.
@@ -31,30 +31,30 @@ pub struct Span {
     pub mean: f64,
     /// The largest.
     pub max: f64,
-    /// How many of them are not above zero, so that a logarithmic scale cannot show them.
+    /// Number of values that are not above zero, so that a logarithmic scale cannot show them.
     pub not_positive: u64,
 }
 
-/// How many values were not finite.
+/// Numbers of values that were not finite.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct NonFinite {
-    /// Not numbers.
+    /// Values that are NaN.
     pub nan: u64,
-    /// Above all numbers.
+    /// Values that are positive infinity.
     pub above: u64,
-    /// Below all numbers.
+    /// Values that are negative infinity.
     pub below: u64,
 }
 
-/// A value, and the shots played at its line.
+/// The shots played at a line, and the line's value.
 type Line = (u64, f64);
 
 impl Point {
-    /// Successive lines, at least one, as one point.
+    /// Combines successive lines, at least one, to one point.
     fn of(lines: &[Line]) -> Self {
         let mut span = Span { min: f64::INFINITY, mean: 0.0, max: f64::NEG_INFINITY, not_positive: 0 };
         let (mut non_finite, mut finite) = (NonFinite::default(), 0.0);
-        // The sum of large values would overflow: it is one of shares.
+        // Sums up shares of the values, because the sum of large values would overflow.
         let share = 1.0 / lines.len() as f64;
         for &(_, value) in lines {
             if value.is_finite() {
@@ -67,7 +67,7 @@ impl Point {
             }
         }
         let span = (finite > 0.0).then(|| {
-            // Rounding must not carry the mean of equal values past them.
+            // The mean of equal values must not differ from them by rounding.
             let mean = (span.mean / (finite * share)).clamp(span.min, span.max);
             Span { mean, ..span }
         });
@@ -87,16 +87,16 @@ impl NonFinite {
     }
 }
 
-/// A run's lines.
+/// The lines of metrics of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
-    /// Of each quantity the lines that report it.
+    /// For each quantity, the lines that contain it.
     lines: [Vec<Line>; Quantity::COUNT],
     last: Option<Record>,
 }
 
 impl History {
-    /// Adds a line. One with fewer shots than the last one begins the history anew: the run has gone on from an earlier
+    /// Adds a line. A line with fewer shots than the last one restarts the history, because the run was resumed from an earlier
     /// checkpoint.
     pub fn push(&mut self, record: &Record) {
         if self.last.as_ref().is_some_and(|last| record.shots < last.shots) {
@@ -108,32 +108,32 @@ impl History {
         self.last = Some(record.clone());
     }
 
-    /// The last line.
+    /// Returns the last line.
     pub fn last(&self) -> Option<&Record> {
         self.last.as_ref()
     }
 
-    /// The largest held-out reward so far.
+    /// Returns the largest held-out reward so far.
     pub fn best(&self) -> Option<f64> {
         self.finite(Quantity::HeldOut).reduce(f64::max)
     }
 
-    /// The last finite value of a quantity.
+    /// Returns the last finite value of a quantity.
     pub fn last_of(&self, quantity: Quantity) -> Option<f64> {
         self.finite(quantity).next_back()
     }
 
-    /// The points of a quantity between two numbers of shots and the next line beyond either end, in order. Each is one line, or
-    /// several where there are too many to be drawn one by one.
+    /// Returns the points of a quantity in a range of shots, plus the next line beyond either end, in order. Each point is one line, or
+    /// several if there are too many lines to draw.
     pub fn points(&self, quantity: Quantity, shots: RangeInclusive<f64>) -> Vec<Point> {
         let lines = self.of(quantity);
         let first = lines.partition_point(|(at, _)| (*at as f64) < *shots.start());
         let beyond = lines.partition_point(|(at, _)| *at as f64 <= *shots.end()).max(first);
         let lines = &lines[first.saturating_sub(1)..(beyond + 1).min(lines.len())];
-        lines.chunks(lines.len().div_ceil(MOST_POINTS).max(1)).map(Point::of).collect()
+        lines.chunks(lines.len().div_ceil(MAX_POINTS).max(1)).map(Point::of).collect()
     }
 
-    /// All values of a quantity that were not finite.
+    /// Counts all values of a quantity that were not finite.
     pub fn non_finite(&self, quantity: Quantity) -> NonFinite {
         let mut non_finite = NonFinite::default();
         let values = self.of(quantity).iter().map(|(_, value)| *value);
@@ -196,12 +196,12 @@ mod tests {
         };
         let history = history_of((0..600_000).map(|n| record(100 * n, reward(n), None)));
         let points = history.points(Quantity::Reward, ALL);
-        assert!(points.len() <= MOST_POINTS && points.is_sorted_by(|one, next| one.shots.1 < next.shots.0));
+        assert!(points.len() <= MAX_POINTS && points.is_sorted_by(|one, next| one.shots.1 < next.shots.0));
         let non_finite = NonFinite { nan: 1, above: 1, below: 1 };
         assert_eq!((history.non_finite(Quantity::Reward), points[0].non_finite), (non_finite, non_finite));
         let peaks: Vec<_> = points.iter().filter(|point| point.finite.is_some_and(|span| span.max == 9.0)).collect();
         assert!(peaks.len() == 1 && (peaks[0].shots.0..=peaks[0].shots.1).contains(&12_345_600));
-        // A part of them is drawn line by line again.
+        // In a shorter range each line is a point again.
         assert_eq!(history.points(Quantity::Reward, 1e6..=1.2e6).len(), 2003);
     }
 
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_went_on_from_earlier_begins_anew() {
+    fn a_run_resumed_from_an_earlier_checkpoint_restarts_its_history() {
         let history = history_of([100, 200, 300, 200, 250].map(|shots| record(shots, f64::NAN, Some(shots as f64))));
         assert_eq!((history.best(), history.non_finite(Quantity::Reward).nan), (Some(250.0), 2));
         let shots: Vec<_> = history.points(Quantity::Reward, ALL).iter().map(|point| point.shots.0).collect();

@@ -1,4 +1,4 @@
-//! Files of JSON in a run's folder.
+//! JSON files in a run's folder.
 
 use std::{io, path::Path};
 
@@ -7,14 +7,14 @@ use serde::{Serialize, de::DeserializeOwned};
 use super::error::{RunError, file};
 use crate::storage::{self, write_atomic};
 
-/// The content of the file at `path`, which has at most `largest` bytes.
+/// Reads the file at `path`, which may have at most `largest` bytes.
 pub fn read<T: DeserializeOwned>(path: &Path, largest: u64) -> io::Result<T> {
     let bytes = storage::read(path, largest)?;
     serde_json::from_slice(&bytes)
         .map_err(|error| io::Error::new(io::ErrorKind::InvalidData, storage::json_flaw(&error)))
 }
 
-/// Replaces the file at `path`, to be read by people, too.
+/// Replaces the file at `path`; the text is indented, because people read it, too.
 pub fn write(path: &Path, content: &impl Serialize) -> Result<(), RunError> {
     let write = || write_atomic(path, (serde_json::to_string_pretty(content)? + "\n").as_bytes());
     write().map_err(file(path))

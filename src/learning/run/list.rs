@@ -1,4 +1,4 @@
-//! What runs there are, and how far they have come.
+//! The list of runs in a folder, with their progress.
 
 use std::{
     collections::HashMap,
@@ -18,14 +18,14 @@ use super::{
 };
 use crate::{game::Reward, printing::moment};
 
-/// A run in a line.
+/// Summary of a run, for one line of a list.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
-    /// Its folder below the one that was listed.
+    /// Its folder, relative to the listed folder.
     pub name: String,
     /// Its agent.
     pub agent: String,
-    /// What it is rewarded for.
+    /// Its reward.
     pub reward: Reward,
     /// Name of its table.
     pub table: String,
@@ -35,25 +35,25 @@ pub struct Summary {
     pub shots: u64,
     /// Shots planned.
     pub planned_shots: u64,
-    /// Largest mean reward on held-out layouts; none before the first measurement.
+    /// Largest mean reward on held-out layouts; `None` before the first evaluation.
     pub best_reward: Option<f64>,
-    /// The last one.
+    /// Latest mean reward on held-out layouts.
     pub last_reward: Option<f64>,
-    /// When it was started, UTC.
+    /// Time of the start, UTC.
     pub started: String,
-    /// When it last wrote something, UTC.
+    /// Time of the last change of its files, UTC.
     pub changed: String,
-    /// How it is; of one that is stalled not since when, which changes every second.
+    /// Its condition. The time of a stalled run is left out, because it changes every second.
     pub state: Condition,
     /// Its folder.
     #[serde(skip)]
     pub folder: PathBuf,
 }
 
-/// The runs in `folder`, those of a group of seeds included, by name. A folder that is a run itself is the only one.
+/// Lists the runs in `folder` by name, including those of groups of seeds. If `folder` is a run itself, it is the only one.
 ///
 /// # Errors
-/// Whatever the file system reports of the folder.
+/// The errors of the file system for the folder.
 pub fn runs_in(folder: &Path) -> io::Result<Listing> {
     RunsFolder::new(folder).look()
 }
@@ -61,13 +61,13 @@ pub fn runs_in(folder: &Path) -> io::Result<Listing> {
 /// The runs in a folder.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Listing {
-    /// Those that can be read.
+    /// The runs that can be read.
     pub runs: Vec<Summary>,
-    /// A sentence on each that cannot.
+    /// A message for each run that cannot be read.
     pub unreadable: Vec<String>,
 }
 
-/// The runs in a folder, looked at again and again: each is followed, so that its files are read only where they have changed.
+/// The runs in a folder, for repeated listing. Each run is followed, so that its files are read only if they have changed.
 #[derive(Debug)]
 pub(crate) struct RunsFolder {
     folder: PathBuf,
@@ -75,12 +75,12 @@ pub(crate) struct RunsFolder {
 }
 
 impl RunsFolder {
-    /// Of the runs in `folder`.
+    /// Creates the list of the runs in `folder`.
     pub fn new(folder: &Path) -> Self {
         Self { folder: folder.to_owned(), known: HashMap::new() }
     }
 
-    /// Looks once.
+    /// Lists the runs once.
     pub fn look(&mut self) -> io::Result<Listing> {
         let mut listing = Listing::default();
         let folders = run_folders(&self.folder)?;
@@ -126,18 +126,19 @@ impl RunsFolder {
     }
 }
 
-/// The folder of the run in `folder`, groups of seeds included, that was the last to write something.
+/// Returns the folder of the run in `folder`, including groups of seeds, whose files changed last.
 pub fn latest_in(folder: &Path) -> Option<PathBuf> {
     run_folders(folder).ok()?.into_iter().map(|(_, run)| run).max_by_key(|run| last_written(run))
 }
 
-/// When the run in `folder` last wrote one of its files.
+/// Returns the time at which the run in `folder` last wrote one of its files.
 fn last_written(folder: &Path) -> Option<SystemTime> {
     let written = |name: &str| std::fs::metadata(folder.join(name)).and_then(|data| data.modified()).ok();
     [status::FILE, METRICS, config::FILE].into_iter().filter_map(written).max()
 }
 
-/// The runs in `folder`, groups of seeds included, in order, by their names below it; `folder` alone where it is a run itself.
+/// Returns the names relative to `folder` and the paths of its runs, in order, including groups of seeds; only `folder` if it is a run
+/// itself.
 fn run_folders(folder: &Path) -> io::Result<Vec<(String, PathBuf)>> {
     if holds_checkpoints(folder) {
         return Ok(vec![(name_of(folder), folder.to_owned())]);

@@ -1,4 +1,4 @@
-//! What a run reports, as JSON Lines with the names that users of Stable-Baselines3 know.
+//! The metrics of a run, as JSON Lines with the names of Stable-Baselines3.
 
 use std::{
     fs,
@@ -12,8 +12,8 @@ use crate::{printing, storage};
 
 use super::{METRICS, number};
 
-/// One line of a run's metrics. Means are over the updates since the line before. Numbers that are not finite stand in the
-/// file by their names.
+/// One line of a run's metrics. Means are over the shots or updates since the previous line. Numbers that are not finite are written as
+/// their names.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// Shots played so far.
@@ -22,49 +22,49 @@ pub struct Record {
     /// Seconds of training so far, evaluations included.
     #[serde(rename = "time/time_elapsed", with = "number")]
     pub seconds: f64,
-    /// Shots a second since the line before, measurements left out.
+    /// Shots per second since the previous line, without the time of evaluations.
     #[serde(rename = "time/fps", with = "number")]
     pub shots_per_second: f64,
     /// Updates made so far.
     #[serde(rename = "train/n_updates")]
     pub updates: u64,
-    /// The critic's learning rate now.
+    /// Current learning rate of the critic.
     #[serde(rename = "train/learning_rate", with = "number")]
     pub learning_rate: f64,
-    /// Loss of whatever judges actions: the mean cross entropy of a critic of successes, nats, or a squared error.
+    /// Loss of the critic or of the Q-function: the mean cross entropy of a critic of successes, nats, or a squared error.
     #[serde(rename = "train/critic_loss", with = "number")]
     pub critic_loss: f64,
     /// Loss of the actor, for agents that have one.
     #[serde(rename = "train/actor_loss", with = "number::option", default, skip_serializing_if = "Option::is_none")]
     pub actor_loss: Option<f64>,
-    /// Mean value that the agent gives its own choices. `Stable-Baselines3` logs none; `CleanRL` logs it as
-    /// `losses/qf1_values` beside its losses, whose group is called `train` here.
+    /// Mean value that the agent assigns to its own choices. `Stable-Baselines3` does not log it; `CleanRL` logs it as
+    /// `losses/qf1_values` next to its losses, whose group is called `train` here.
     #[serde(rename = "train/q_value", with = "number")]
     pub q_value: f64,
     /// Mean reward of the shots played, exploration included.
     #[serde(rename = "rollout/ep_rew_mean", with = "number")]
     pub rollout_reward: f64,
-    /// How strongly the agent explores, see [`Progress`](crate::learning::learner::Progress::exploration).
+    /// Strength of the exploration, see [`Progress`](crate::learning::learner::Progress::exploration).
     #[serde(rename = "rollout/exploration_rate")]
     #[serde(with = "number::option", default, skip_serializing_if = "Option::is_none")]
     pub exploration: Option<f64>,
-    /// Share of the replay buffer that is filled, for agents that have one.
+    /// Filled share of the replay buffer, for agents that have one.
     #[serde(rename = "train/replay_buffer_fill")]
     #[serde(with = "number::option", default, skip_serializing_if = "Option::is_none")]
     pub replay_fill: Option<f64>,
-    /// Mean reward of the averaged networks' first choice on held-out layouts, without exploration.
+    /// Mean reward of the agent's first choice on held-out layouts, without exploration.
     #[serde(rename = "eval/mean_reward", with = "number::option", default, skip_serializing_if = "Option::is_none")]
     pub held_out_reward: Option<f64>,
-    /// Share of those layouts in which any of the best proposals earns at least 1: what a perfect choice among them would reach. The name
-    /// is of a time when every head made one proposal.
+    /// Share of those layouts on which any of the best proposals earns 1 or more (best-of-k success), which a perfect choice among them
+    /// would reach. The name in the file is from a time when every head made one proposal.
     #[serde(rename = "eval/any_head", with = "number::option", default, skip_serializing_if = "Option::is_none")]
     pub best_of_k: Option<f64>,
 }
 
-/// All whole lines in a file; those that are no records are left out.
+/// Reads all complete lines of a file; lines that are not records are left out. A missing file counts as empty.
 ///
 /// # Errors
-/// Whatever the file system reports; a missing file is an empty one.
+/// The errors of the file system.
 pub fn read(path: &Path) -> io::Result<Vec<Record>> {
     Ok(records(&content(path)?).collect())
 }
@@ -73,49 +73,50 @@ fn records(bytes: &[u8]) -> impl Iterator<Item = Record> {
     whole_lines(bytes).filter_map(|line| serde_json::from_slice(line).ok())
 }
 
-/// Sentences about the file of a run that goes on after `shots` shots: where it ends within a line, and where lines are missing, of
-/// which there is one for every `log_every` shots. What cannot be read is told by who opens it.
+/// Returns warnings about the file of a run that resumes after `shots` shots: if it ends within a line, or if lines are missing (one is due
+/// every `log_every` shots). A file that cannot be read is reported when it is opened.
 pub(super) fn notices(path: &Path, shots: u64, log_every: u64) -> Vec<String> {
     let Ok(bytes) = content(path) else { return Vec::new() };
     let is_torn = bytes.last().is_some_and(|byte| *byte != b'\n');
     let torn = is_torn.then(|| format!("the last line of {METRICS} is cut off and is left out"));
     let last = records(&bytes).map(|record| record.shots).filter(|last| *last <= shots).max();
     let missing = lacks_lines(last, shots, log_every).then(|| {
-        let what = match last {
+        let problem = match last {
             None if !path.exists() => {
                 format!("{METRICS} is missing: there is no line of the {shots} shots played")
             }
             last => cut_off(last.unwrap_or(0), shots),
         };
-        format!("{what}; those lines are lost, and the training goes on as if they were there")
+        format!("{problem}; those lines are lost, which does not affect the training")
     });
     torn.into_iter().chain(missing).collect()
 }
 
-/// Whether lines are missing after the `last` one of a run that has played so many shots. A checkpoint is written after all lines before
-/// it: none is missing where no line is due between the last one and it.
+/// Whether lines are missing after the `last` one of a run that resumes after `shots` shots. All lines before a checkpoint are written
+/// before it, so none is missing if no line was due between the last one and the checkpoint.
 pub(super) fn lacks_lines(last: Option<u64>, shots: u64, log_every: u64) -> bool {
     let number = |shots: u64| shots / log_every.max(1);
     number(last.unwrap_or(0)) != number(shots)
 }
 
-/// The sentence about a file whose last line is of `last` shots, where `shots` were played and lines are missing.
+/// Returns the message about a file with missing lines, whose last line is of `last` of the `shots` shots played.
 pub(super) fn cut_off(last: u64, shots: u64) -> String {
     format!("{METRICS} has been emptied or cut off: it ends after {last} of the {shots} shots played")
 }
 
-/// A run's file of metrics while the run writes it. Lines that cannot be written wait in memory.
+/// Writer of a run's metrics file. Lines that cannot be written wait in memory.
 #[derive(Debug)]
 pub(super) struct MetricsFile {
     path: PathBuf,
-    /// Bytes of whole lines in the file.
+    /// Bytes of complete lines in the file.
     length: u64,
-    waiting: Vec<u8>,
+    /// Lines that are not written yet.
+    pending: Vec<u8>,
 }
 
 impl MetricsFile {
-    /// Opens the file of a run that goes on after `shots` shots: what was written later, and a last line that was cut
-    /// off, is dropped, so that no line comes twice. Returns the records that are left, too. A missing file is an empty one.
+    /// Opens the file of a run that resumes after `shots` shots. Removes later lines and an incomplete last line, so that no line
+    /// occurs twice. Also returns the remaining records. A missing file counts as empty.
     pub fn open(path: &Path, shots: u64) -> io::Result<(Self, Vec<Record>)> {
         let bytes = content(path)?;
         let (mut length, mut left) = (0, Vec::new());
@@ -131,44 +132,44 @@ impl MetricsFile {
         if length < bytes.len() as u64 {
             fs::OpenOptions::new().write(true).open(path)?.set_len(length)?;
         }
-        Ok((Self { path: path.to_owned(), length, waiting: Vec::new() }, left))
+        Ok((Self { path: path.to_owned(), length, pending: Vec::new() }, left))
     }
 
-    /// Adds a line to those that wait.
+    /// Adds a line to the pending ones.
     pub fn push(&mut self, record: &Record) {
-        // A record has nothing but numbers under fixed names, and memory takes any number of bytes.
-        let _ = printing::json_line(&mut self.waiting, record);
+        // Cannot fail: a record contains only numbers under fixed names, and the target is memory.
+        let _ = printing::json_line(&mut self.pending, record);
     }
 
-    /// Writes the lines that wait. Where that fails they go on waiting, and the file has whole lines only.
+    /// Writes the pending lines. If that fails they stay pending, and the file contains complete lines only.
     pub fn flush(&mut self) -> io::Result<()> {
         self.write().map(|_| ())
     }
 
-    /// The same, and returns when they would outlive a power cut.
+    /// Writes the pending lines and waits until they are on the disk, so that they survive a power failure.
     pub fn sync(&mut self) -> io::Result<()> {
         self.write()?.sync_data()
     }
 
     fn write(&mut self) -> io::Result<fs::File> {
         let mut file = fs::OpenOptions::new().create(true).truncate(false).write(true).open(&self.path)?;
-        if !self.waiting.is_empty() {
+        if !self.pending.is_empty() {
             let length = file.metadata()?.len();
             if length < self.length {
-                // Somebody has emptied the file or cut it off: it is not filled up with zeros, and no line is added to half
-                // a line.
+                // The file was emptied or cut off from outside. It must not be filled up with zeros, and no line may be added to an
+                // incomplete one.
                 let whole: usize = whole_lines(&content(&self.path)?).map(<[u8]>::len).sum();
                 self.length = self.length.min(whole as u64);
             }
             file.set_len(self.length)?;
             file.seek(SeekFrom::End(0))?;
             // In one call, so that readers see whole lines.
-            if let Err(error) = file.write_all(&self.waiting) {
+            if let Err(error) = file.write_all(&self.pending) {
                 let _ = file.set_len(self.length);
                 return Err(error);
             }
-            self.length += self.waiting.len() as u64;
-            self.waiting.clear();
+            self.length += self.pending.len() as u64;
+            self.pending.clear();
         }
         Ok(file)
     }
@@ -178,7 +179,7 @@ fn content(path: &Path) -> io::Result<Vec<u8>> {
     Ok(storage::read_if_there(path, storage::LARGE)?.unwrap_or_default())
 }
 
-/// The lines that have an end, with it.
+/// Iterates over the complete lines, each with its newline.
 fn whole_lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     bytes.split_inclusive(|byte| *byte == b'\n').filter(|line| line.ends_with(b"\n"))
 }
@@ -191,7 +192,7 @@ mod tests {
         Record { shots, actor_loss: Some(-0.5), rollout_reward: 0.25, ..Record::default() }
     }
 
-    /// A new folder, the path of a file in it, and that file, opened for a run that goes on after `shots` shots.
+    /// A new folder, the path of a file in it, and that file, opened for a run that resumes after `shots` shots.
     fn opened(shots: u64) -> (tempfile::TempDir, PathBuf, MetricsFile) {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("metrics.jsonl");
@@ -201,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_goes_on_drops_later_lines_and_a_torn_one() {
+    fn a_resumed_run_drops_later_lines_and_an_incomplete_one() {
         let (_folder, path, mut file) = opened(5);
         for shots in [1, 2, 3] {
             file.push(&record(shots));
@@ -221,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_are_missing_before_a_checkpoint_are_told_with_the_gap() {
+    fn lines_that_are_missing_before_a_checkpoint_are_reported() {
         let (_folder, path, mut file) = opened(0);
         assert!(notices(&path, 99, 100).is_empty(), "no line is due yet");
         assert!(notices(&path, 640, 100)[0].contains("is missing: there is no line of the 640 shots"));
@@ -229,7 +230,7 @@ mod tests {
             file.push(&record(shots));
         }
         file.flush().unwrap();
-        // Lines that are younger than the checkpoint are no gap: they come again.
+        // Lines after the checkpoint leave no gap, because the resumed run writes them again.
         for (shots, is_whole) in [(192, true), (576, true), (599, true), (600, false)] {
             assert_eq!(notices(&path, shots, 100).is_empty(), is_whole, "{shots}");
         }
@@ -237,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_was_cut_off_meanwhile_goes_on_after_its_last_whole_line() {
+    fn a_file_that_was_cut_off_meanwhile_continues_after_its_last_complete_line() {
         let (_folder, path, mut file) = opened(0);
         for shots in [1, 2] {
             file.push(&record(shots));
@@ -255,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_cannot_be_written_wait_and_come_later() {
+    fn lines_that_cannot_be_written_are_written_later() {
         let (_folder, path, mut file) = opened(0);
         fs::create_dir(&path).unwrap();
         for shots in [1, 2] {

@@ -1,9 +1,9 @@
-//! A training run on disk: its folder, and the order in which it is written.
+//! A training run on disk: its folder, and the order in which its files are written.
 //!
-//! A run can be killed at any moment. The order of writing sees to it that what it goes on from is complete: first the
-//! policy, then the lines of metrics, last the checkpoint; whatever is younger than the checkpoint is done again,
-//! to the same bits. What takes long comes after the checkpoint: the measurement and the policy of a run that is stopped, and of one
-//! that is finished the policy, which is calibrated. Its result comes last of all, and until that is there its policy is written again.
+//! A run can be killed at any moment. The order of writing guarantees a complete state to resume from: first the
+//! policy, then the lines of metrics, last the checkpoint. A resumed run repeats everything after the checkpoint, bit for bit.
+//! Slow steps come after the checkpoint: for a stopped run the evaluation and the policy, for a finished run the calibrated policy.
+//! The result of a finished run is written last; until it exists, resuming the run writes the policy again.
 
 mod checkpoint;
 mod config;
@@ -46,22 +46,22 @@ use crate::{
     storage::{self, Lock, remove_partial_files, write_atomic},
 };
 
-/// The metrics' file in a run's folder.
+/// File name of the metrics in a run's folder.
 pub const METRICS: &str = "metrics.jsonl";
 
-/// The policy's file in a run's folder.
+/// File name of the policy in a run's folder.
 pub const POLICY: &str = "policy.safetensors";
 
-/// What a run has come to: it is there once the run is finished, and taken away when it goes on.
+/// File name of the result. The file is written when the run is finished, and removed if an unfinished run resumes.
 const RESULT: &str = "result.json";
 
-/// Mean reward on the held-out layouts there, without exploration: what is to be made large.
+/// Key in the result: mean reward on the held-out layouts, without exploration; the objective to maximise.
 const REWARD: &str = "held_out_reward";
 
-/// Share of those layouts there in which any proposal earns at least 1.
+/// Key in the result: share of those layouts on which any proposal earns 1 or more (best-of-k success).
 const BEST_OF_K: &str = "held_out_reach";
 
-/// All that a run writes into its folder, the lock last.
+/// All files that a run writes into its folder, the lock last.
 const FILES: [&str; 11] = [
     config::FILE,
     METRICS,
@@ -76,7 +76,7 @@ const FILES: [&str; 11] = [
     Lock::FILE,
 ];
 
-/// What the run in `folder` was started with; where it cannot be read, its checkpoint has the same values.
+/// Returns the configuration of the run in `folder`; if the file cannot be read, from the checkpoint, which contains the same values.
 pub fn config_of(folder: &Path) -> Option<Config> {
     let of_checkpoint = || {
         let (_, Loaded { learner, state, .. }) = Checkpoints::open(folder).ok()?;
@@ -85,7 +85,7 @@ pub fn config_of(folder: &Path) -> Option<Config> {
     Config::read(folder).ok().or_else(of_checkpoint)
 }
 
-/// A run and its folder, which is this process' own as long as the run lives.
+/// A run and its folder. The folder is locked for this process as long as the value exists.
 #[derive(Debug)]
 pub struct Run {
     folder: PathBuf,
@@ -97,10 +97,10 @@ pub struct Run {
 }
 
 impl Run {
-    /// A new run of `learner` in `folder`, which is made where it is missing.
+    /// Creates a run of `learner` in `folder`, and the folder if it is missing.
     ///
     /// # Errors
-    /// [`RunError::Occupied`] where it holds a run already, [`RunError::NoFolder`] where it is a file.
+    /// [`RunError::Occupied`] if the folder already contains a run, [`RunError::NoFolder`] if it is a file.
     pub fn create(
         folder: &Path,
         learner: Box<dyn Learner>,
@@ -114,18 +114,17 @@ impl Run {
         let state = State { schedule, from, accumulator: Accumulator::default() };
         let checkpoints = Checkpoints::new(folder);
         let mut run = Self { folder: folder.to_owned(), config, learner, state, checkpoints, _lock: lock };
-        // First of all something to go on from, however early the run is killed.
+        // The checkpoint comes first, so that the run can be resumed however early it is killed.
         run.write_checkpoint()?;
         run.config.write(folder)?;
         Ok(run)
     }
 
-    /// The run in `folder` as its last whole checkpoint left it, and sentences about what may make
-    /// it another run than the one that was interrupted: the last checkpoint is damaged, or this is another carom; also where the
-    /// last line of its metrics was cut off, which is then left out, and where lines are missing.
+    /// Resumes the run in `folder` from its newest intact checkpoint. Also returns warnings about differences from the interrupted run: a
+    /// damaged current checkpoint, another version of carom, an incomplete last line of metrics (which is left out), or missing lines.
     ///
     /// # Errors
-    /// Where there is no whole checkpoint, or another process works in the folder.
+    /// Fails if there is no intact checkpoint, or if another process works in the folder.
     pub fn resume(folder: &Path) -> Result<(Self, Vec<String>), RunError> {
         if !holds_checkpoints(folder) {
             return Err(RunError::Missing(folder.display().to_string()));
@@ -138,10 +137,10 @@ impl Run {
         let config = Config::read(folder).or_else(|error| {
             let config = Config::of(learner.as_ref(), state.schedule, state.from.clone());
             if error.kind() == ErrorKind::NotFound {
-                // It was killed before it had one, or it was removed.
+                // The run was killed before it was written, or the file was removed.
                 config.write(folder)?;
             } else {
-                // It may still tell somebody when and by which version the run was started.
+                // The file is kept, because a user may still find in it when and by which version the run was started.
                 let unreadable = config::unreadable(folder, &error);
                 notices
                     .push(format!("{unreadable} and stays as it is; the run goes on without it, from its checkpoint"));
@@ -150,14 +149,14 @@ impl Run {
         })?;
         if !learner.is_finished() {
             notices.extend(config.other_program());
-            // What an earlier process said of itself holds no more, now that one goes on.
+            // The status of the earlier process is obsolete.
             let _ = std::fs::remove_file(folder.join(status::FILE));
         }
         let folder = folder.to_owned();
         Ok((Self { folder, config, learner, state, checkpoints, _lock: lock }, notices))
     }
 
-    /// What it has come to, where it has played all its shots and said so.
+    /// Returns the result of a finished run; `None` if it is not finished or its result cannot be read.
     pub fn result(&self) -> Option<Score> {
         let result: serde_json::Value = json::read(&self.folder.join(RESULT), storage::SMALL).ok()?;
         let number = |name: &str| result.get(name)?.as_f64();
@@ -170,17 +169,17 @@ impl Run {
         &self.folder
     }
 
-    /// Who learns.
+    /// The learner.
     pub fn learner(&self) -> &dyn Learner {
         self.learner.as_ref()
     }
 
-    /// Where the policy is written, if the agent has one that the coach can use.
+    /// Returns the path of the policy file, which exists only for agents whose policy the coach can use.
     pub fn policy_path(&self) -> PathBuf {
         self.folder.join(POLICY)
     }
 
-    /// Writes the policy of a run that goes on, the lines that wait and the checkpoint, in this order.
+    /// Writes the policy of an unfinished run, the pending lines of metrics and the checkpoint, in this order.
     fn save(&mut self, metrics: &mut MetricsFile, score: Option<Score>) -> Result<(), RunError> {
         if let Some(score) = score.filter(|_| !self.learner.is_finished()) {
             self.write_policy(score, &mut || true)?;
@@ -189,7 +188,7 @@ impl Run {
         self.write_checkpoint()
     }
 
-    /// Writes the policy, unless `go_on` says no before it is there.
+    /// Writes the policy, unless `go_on` returns `false` before it is complete.
     fn write_policy(&self, score: Score, go_on: &mut dyn FnMut() -> bool) -> Result<(), RunError> {
         let path = self.policy_path();
         match self.learner.policy(score.mean_reward, self.config.day(), go_on)? {
@@ -209,16 +208,15 @@ impl Run {
     }
 }
 
-/// Whether `folder` holds a run: something to go on from.
+/// Whether `folder` contains a run, that is, a checkpoint to resume from.
 pub fn holds_checkpoints(folder: &Path) -> bool {
     [checkpoint::CURRENT, checkpoint::PREVIOUS].iter().any(|name| folder.join(name).exists())
 }
 
-/// Ends a run that shall not be kept: removes what it has written into its folder, and the folder if nothing else is in
-/// it.
+/// Deletes a run: removes the files that it has written into its folder, and the folder if it is then empty.
 ///
 /// # Errors
-/// [`RunError::Missing`], [`RunError::Busy`], or whatever the file system reports.
+/// [`RunError::Missing`], [`RunError::Busy`], or the errors of the file system.
 pub fn discard(folder: &Path) -> Result<(), RunError> {
     if !holds_checkpoints(folder) {
         return Err(RunError::Missing(folder.display().to_string()));
@@ -230,21 +228,21 @@ pub fn discard(folder: &Path) -> Result<(), RunError> {
             _ => {}
         }
     }
-    // Somebody may have put something else there, which is not ours to remove.
+    // Fails if the folder contains other files, which must stay.
     let _ = std::fs::remove_dir(folder);
     Ok(())
 }
 
-/// Makes a folder where it is missing.
+/// Creates a folder if it is missing.
 fn make_folder(folder: &Path) -> Result<(), RunError> {
-    // Also above it: a file there cannot hold it.
-    if let Some(in_the_way) = folder.ancestors().find(|path| path.exists() && !path.is_dir()) {
-        return Err(RunError::NoFolder(in_the_way.display().to_string()));
+    // Finds a file in place of the folder or of one of its parents.
+    if let Some(file) = folder.ancestors().find(|path| path.exists() && !path.is_dir()) {
+        return Err(RunError::NoFolder(file.display().to_string()));
     }
     std::fs::create_dir_all(folder).map_err(file(folder))
 }
 
-/// Refuses a folder in which anything but `own` is: a run, or files that no run has written. A run would write over some of them.
+/// Refuses a folder that contains a run or any file other than `own`, because a new run could overwrite files.
 fn refuse_taken(folder: &Path, own: Option<&str>) -> Result<(), RunError> {
     let name = || folder.display().to_string();
     let holds = |file: &&str| folder.join(file).exists();
@@ -260,7 +258,7 @@ fn refuse_taken(folder: &Path, own: Option<&str>) -> Result<(), RunError> {
     Ok(())
 }
 
-/// Takes possession of a folder, and clears away what was being written there when the last owner was killed.
+/// Locks a folder, and removes partially written files of a previous process that was killed.
 fn lock(folder: &Path) -> Result<Lock, RunError> {
     let busy = || RunError::Busy(folder.display().to_string());
     let lock = Lock::take(folder).map_err(file(&folder.join("lock")))?.ok_or_else(busy)?;

@@ -1,12 +1,12 @@
-//! Numbers in files of JSON, those that are not finite by their names: JSON has no sign for them, and a run that breaks
-//! down is to be seen breaking down.
+//! Numbers in JSON files, with names for those that are not finite: JSON has no notation for them, and the metrics of a diverging run
+//! must show its divergence.
 
 use serde::{
     Deserialize, Deserializer, Serializer,
     de::{Error as _, Unexpected},
 };
 
-/// Writes a number, or its name as protobuf's JSON has it.
+/// Writes a number; one that is not finite as its name in protobuf's JSON.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it with a reference")]
 pub fn serialize<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
     match *number {
@@ -16,19 +16,19 @@ pub fn serialize<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S:
     }
 }
 
-/// Reads a number, or its name; `null`, which many programs write for what is no number, is one that is none.
+/// Reads a number or its name. `null`, which many programs write instead of NaN, is read as NaN.
 pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     match Number::deserialize(deserializer)? {
         Number::Finite(number) => Ok(number),
         Number::None(()) => Ok(f64::NAN),
-        // Rust reads these names as numbers, and others too.
+        // Rust's parser also accepts other texts, such as ordinary numbers, which the filter rejects.
         Number::Name(name) => (name.parse().ok())
             .filter(|number: &f64| !number.is_finite())
             .ok_or_else(|| D::Error::invalid_value(Unexpected::Str(&name), &EXPECTED)),
     }
 }
 
-/// What errors say is taken.
+/// Accepted values, for error messages.
 const EXPECTED: &str = "a number, \"NaN\", \"Infinity\" or \"-Infinity\"";
 
 #[derive(Deserialize)]
@@ -39,7 +39,7 @@ enum Number {
     None(()),
 }
 
-/// The same for numbers that may be missing: those are left out of the file.
+/// The same for optional numbers, which the file leaves out if they are missing.
 pub mod option {
     use serde::Serialize;
 
@@ -48,13 +48,13 @@ pub mod option {
     #[derive(Serialize, Deserialize)]
     struct Present(#[serde(with = "super")] f64);
 
-    /// Writes the number that is there.
+    /// Writes the number.
     #[expect(clippy::ref_option, reason = "serde calls it with a reference")]
     pub fn serialize<S: Serializer>(number: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
         number.map(Present).serialize(serializer)
     }
 
-    /// Reads a number, or its name, or nothing.
+    /// Reads a number, its name, or nothing.
     pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
         Ok(Option::<Present>::deserialize(deserializer)?.map(|Present(number)| number))
     }

@@ -1,4 +1,4 @@
-//! The weights that a run starts from: another run's, or a policy's.
+//! The weights that a run starts from: those of another run or of a policy.
 
 use std::path::Path;
 
@@ -21,35 +21,35 @@ use crate::{
     table::Table,
 };
 
-/// Weights to start from, and what is known of them.
+/// Weights to start from, with their provenance.
 #[derive(Clone, Debug)]
 pub struct Weights {
     pub start: Provenance,
-    /// The settings of the agent that has them.
+    /// The settings of the agent with these weights.
     pub settings: Value,
-    /// Its table, where the file has more of it than its name.
+    /// The agent's table; `None` for a policy, whose file contains only the table's name.
     pub table: Option<Table>,
-    /// Why they are those of the checkpoint before the last, if they are.
+    /// Warning if the weights are those of the previous checkpoint, because the current one is damaged.
     pub notice: Option<String>,
     bytes: Vec<u8>,
 }
 
 impl Weights {
-    /// The weights in a run's folder, in a checkpoint or in a policy file.
+    /// Loads the weights from a run's folder, a checkpoint or a policy file.
     pub fn load(path: &Path) -> Result<Self, RunError> {
         if path.is_dir() {
             return Ok(Self::of_checkpoint(path, Checkpoints::open(path)?.1));
         }
         let bytes = storage::read(path, storage::LARGE).map_err(file(path))?;
-        // Whole or not, it claims to be one.
+        // A file with a checkpoint's checksum, right or wrong, is treated as a checkpoint.
         if is_whole(OF_CHECKPOINT, &bytes).is_some() {
             return Ok(Self::of_checkpoint(path, checkpoint::load(path, bytes)?));
         }
-        // From the same bytes: a run may replace the file at any moment.
+        // Parses the same bytes, because a run may replace the file at any moment.
         Self::of_policy(path.display().to_string(), bytes)
     }
 
-    /// The weights of the bundled policy of this name, if there is one.
+    /// Returns the weights of the bundled policy called `name`, if there is one.
     pub fn bundled(name: &str) -> Option<Result<Self, RunError>> {
         bundled_bytes(name).map(|bytes| Self::of_policy(name.to_owned(), bytes.to_vec()))
     }
@@ -59,7 +59,7 @@ impl Weights {
         let origin = policy.origin();
         let start = Provenance {
             path: path.clone(),
-            // The one agent whose policy has a file of its own.
+            // The only agent with policy files.
             agent: "ddpg".to_owned(),
             table: origin.table.clone(),
             reward: origin.reward,
@@ -86,23 +86,23 @@ impl Weights {
         Self { start, settings: learner.settings(), table: Some(learner.table().clone()), notice, bytes }
     }
 
-    /// Gives the weights to an untrained agent.
+    /// Loads the weights into an untrained agent.
     ///
     /// # Errors
-    /// [`RunError::Origin`] where the agent, what its networks' numbers mean or the sizes differ.
+    /// [`RunError::Origin`] if the agents, the meaning of the networks' inputs and outputs, or the sizes differ.
     pub fn give_to(&self, learner: &mut dyn Learner) -> Result<(), RunError> {
         let refuse = |reason| RunError::Origin { path: self.start.path.clone(), reason };
         let (found, expected) = (&self.start.agent, learner.agent());
         if found != expected {
             return Err(refuse(format!(
-                "they are {found}'s, and the run's agent is {expected}; leave out --agent, or choose other weights"
+                "they are of the agent {found}, and the run's agent is {expected}; leave out --agent, or choose other weights"
             )));
         }
         let own = learner.settings();
         for name in AgentKind::named(found)?.must_match {
-            let [known, asked] = [&self.settings, &own].map(|settings| &settings[*name]);
-            if known != asked {
-                return Err(refuse(format!("they were learnt with {name} = {known}, and the run has {asked}")));
+            let [theirs, ours] = [&self.settings, &own].map(|settings| &settings[*name]);
+            if theirs != ours {
+                return Err(refuse(format!("they were trained with {name} = {theirs}, and the run has {ours}")));
             }
         }
         let loaded = Reader::new(&self.bytes).and_then(|weights| learner.load_weights(&weights));
@@ -114,7 +114,7 @@ impl Weights {
         })
     }
 
-    /// Keeps a copy of the file.
+    /// Writes a copy of the file.
     pub fn write(&self, path: &Path) -> Result<(), RunError> {
         write_atomic(path, &self.bytes).map_err(file(path))
     }

@@ -1,35 +1,35 @@
-//! The quantities that a run reports, one by one, as charts show them.
+//! The quantities of a run's metrics, as charts show them.
 
 use super::metrics::Record;
 
-/// A quantity that a run reports.
+/// A quantity of the metrics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Quantity {
     /// Mean reward of the shots played, exploration included (the thesis' Figures 23 to 25, left).
     Reward,
-    /// Mean value that the agent gives its own choices (the same figures, middle).
+    /// Mean value that the agent assigns to its own choices (the same figures, middle).
     QValue,
-    /// Loss of whatever judges actions (the same figures, right).
+    /// Loss of the critic or of the Q-function (the same figures, right).
     CriticLoss,
     /// Mean reward on held-out layouts, without exploration.
     HeldOut,
     /// Loss of the actor.
     ActorLoss,
-    /// Best-of-k success: share of the held-out layouts in which any proposal earns at least 1.
+    /// Best-of-k success: share of the held-out layouts on which any proposal earns 1 or more.
     BestOfK,
-    /// Shots a second, measurements left out.
+    /// Shots per second, without the time of evaluations.
     ShotSpeed,
-    /// Updates a second, measurements left out.
+    /// Updates per second, without the time of evaluations.
     UpdateSpeed,
-    /// How strongly the agent explores.
+    /// Strength of the exploration.
     Exploration,
 }
 
 impl Quantity {
-    /// How many there are.
+    /// Number of quantities.
     pub const COUNT: usize = Self::ALL.len();
 
-    /// All of them, in the order of their keys; the first four are what a run is about.
+    /// All quantities, in the order of their keys; the first four are the main ones.
     pub const ALL: [Self; 9] = [
         Self::Reward,
         Self::QValue,
@@ -42,7 +42,7 @@ impl Quantity {
         Self::Exploration,
     ];
 
-    /// Its name.
+    /// Returns the name for charts.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Reward => "mean reward",
@@ -57,8 +57,8 @@ impl Quantity {
         }
     }
 
-    /// Its value in a line of metrics; the speed of updates needs the line before. `None` where the line does not report
-    /// it, which is something else than a value that is not a number.
+    /// Returns the value in a line of metrics; the speed of updates needs the previous line. `None` if the line does not contain the
+    /// quantity, which is different from a value of NaN.
     pub fn of(self, record: &Record, before: Option<&Record>) -> Option<f64> {
         match self {
             Self::Reward => Some(record.rollout_reward),
@@ -71,8 +71,8 @@ impl Quantity {
             Self::UpdateSpeed => {
                 let (updates, shots) = before.map_or((0, 0), |before| (before.updates, before.shots));
                 let played = record.shots.saturating_sub(shots);
-                let a_shot = record.updates.saturating_sub(updates) as f64 / played as f64;
-                (played > 0).then_some(a_shot * record.shots_per_second)
+                let updates_per_shot = record.updates.saturating_sub(updates) as f64 / played as f64;
+                (played > 0).then_some(updates_per_shot * record.shots_per_second)
             }
             Self::Exploration => record.exploration,
         }

@@ -1,5 +1,4 @@
-//! Requests to a running training, a word in a file of its folder: anyone who may write there may steer it, from any
-//! terminal.
+//! Requests to a running training, as a word in a file in its folder: every user with write access may control the run from any terminal.
 
 use std::{fs, io, path::Path};
 
@@ -8,13 +7,13 @@ use crate::{
     storage::{self, replace},
 };
 
-/// The file's name.
+/// File name of a request.
 pub const FILE: &str = "request";
 
-/// The file while it is read; its name shows what a killed process has left ([`crate::storage`]).
+/// File name while the request is read; by its form [`crate::storage`] recognises a leftover of a killed process.
 const TAKEN: &str = ".carom-request.partial";
 
-/// Characters that are shown of what is no request.
+/// Largest number of characters of an unknown request in the error message.
 const LONGEST_SHOWN: usize = 30;
 
 /// A request to a run.
@@ -22,11 +21,11 @@ const LONGEST_SHOWN: usize = 30;
 pub enum Request {
     /// Save and wait.
     Pause,
-    /// Go on after a pause.
+    /// Resume after a pause.
     GoOn,
-    /// Save, measure and end.
+    /// Save, evaluate and end.
     Stop,
-    /// End and remove the run, after a measurement that is under way.
+    /// End and delete the run; an evaluation in progress is completed first.
     Abandon,
 }
 
@@ -42,24 +41,24 @@ impl Request {
         }
     }
 
-    /// Asks the run in `folder`. The newest request replaces the one before.
+    /// Sends the request to the run in `folder`. It replaces an earlier request that was not read yet.
     ///
     /// # Errors
-    /// Whatever the file system reports.
+    /// The errors of the file system.
     pub fn send(self, folder: &Path) -> io::Result<()> {
         replace(&folder.join(FILE), self.word().as_bytes())
     }
 
-    /// Takes what the run in `folder` is asked to do; nothing where there is no request.
+    /// Reads and removes the request to the run in `folder`; `None` if there is none.
     ///
     /// # Errors
-    /// A sentence that names what is not understood, and what would be.
+    /// For an unknown request, a sentence that names it and the accepted ones.
     pub fn take(folder: &Path) -> Option<Result<Self, String>> {
-        // Who opens the file first and writes later has not asked yet.
+        // An empty file is not a request yet: its writer has opened it and will write later.
         if fs::metadata(folder.join(FILE)).ok()?.len() == 0 {
             return None;
         }
-        // Away first: another request may come while this one is read.
+        // Moved away before it is read, because another request may arrive meanwhile.
         let taken = folder.join(TAKEN);
         fs::rename(folder.join(FILE), &taken).ok()?;
         let word = storage::read_text(&taken, storage::SMALL).unwrap_or_default();
@@ -73,9 +72,9 @@ impl Request {
         }))
     }
 
-    /// Removes the request, if there is one: it was meant for a process that is gone.
+    /// Removes the request, if there is one, because it was meant for a process that has ended.
     pub fn clear(folder: &Path) {
-        // Where it stays it is done again, which changes nothing.
+        // Errors are ignored: a request that stays is carried out again, which changes nothing.
         let _ = fs::remove_file(folder.join(FILE));
     }
 }
@@ -85,21 +84,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_no_request_is_named_once_with_what_is_accepted() {
+    fn an_unknown_request_is_reported_once_with_the_accepted_ones() {
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(Request::take(folder.path()), None);
         Request::GoOn.send(folder.path()).unwrap();
         assert_eq!(Request::take(folder.path()), Some(Ok(Request::GoOn)));
-        // As a shell does whose command takes its time.
+        // A shell with a slow command opens the file before it writes.
         let mut slow = fs::File::create(folder.path().join(FILE)).unwrap();
         assert_eq!(Request::take(folder.path()), None);
         io::Write::write_all(&mut slow, b"stop\n").unwrap();
         assert_eq!(Request::take(folder.path()), Some(Ok(Request::Stop)));
         fs::write(folder.path().join(FILE), "puase\u{1b}\n").unwrap();
-        let said = Request::take(folder.path()).unwrap().unwrap_err();
+        let message = Request::take(folder.path()).unwrap().unwrap_err();
         let accepted = "accepted are \"pause\", \"go on\", \"stop\", \"abandon\"";
-        assert_eq!(said, format!("the request \"puase\\u{{1b}}\" is not understood; {accepted}"));
-        assert_eq!(Request::take(folder.path()), None, "it is said once");
+        assert_eq!(message, format!("the request \"puase\\u{{1b}}\" is not understood; {accepted}"));
+        assert_eq!(Request::take(folder.path()), None, "it is reported once");
         fs::write(folder.path().join(FILE), "x".repeat(1000)).unwrap();
         assert!(Request::take(folder.path()).unwrap().unwrap_err().len() < 150);
     }

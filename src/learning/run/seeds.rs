@@ -1,4 +1,4 @@
-//! The same run with several seeds, and the spread between them.
+//! Groups of runs that differ only in their seed, and the spread of their rewards.
 
 use std::{
     fmt::Write as _,
@@ -22,23 +22,23 @@ use crate::{
     table::Table,
 };
 
-/// The file that makes a folder a group.
+/// File name of the group's description, which marks a folder as a group.
 const FILE: &str = "seeds.json";
 
-/// The spread, in the group's folder.
+/// File name of the spread in the group's folder.
 const SPREAD: &str = "seeds.csv";
 
-/// The weights that all runs of the group start from, in the group's folder.
+/// File name, in the group's folder, of the weights from which all its runs start.
 const WEIGHTS: &str = "from.safetensors";
 
-/// What to train.
+/// Specification of a training: agent, plan, settings, schedule and table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TrainingSpec {
     pub agent: String,
     /// Reward, number of shots, and the first seed.
     #[serde(flatten)]
     pub plan: TrainingPlan,
-    /// The agent's settings, as far as they differ from its defaults.
+    /// The agent's settings that differ from its defaults.
     pub settings: Value,
     pub schedule: Schedule,
     pub table: Table,
@@ -50,7 +50,7 @@ impl TrainingSpec {
         Run::create(folder, learner, self.schedule, weights.map(|weights| weights.start.clone()))
     }
 
-    /// All settings of the agent, with the defaults of those that are not given.
+    /// Returns all settings of the agent, with the defaults for those that are not given.
     pub fn all_settings(&self) -> Result<Value, RunError> {
         Ok((AgentKind::named(&self.agent)?.settings)(&self.settings)?)
     }
@@ -65,7 +65,7 @@ impl TrainingSpec {
     }
 }
 
-/// What a group trains, with how many seeds, and from whose weights.
+/// The description of a group: number of seeds, origin of the weights, and what is trained.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct GroupFile {
     pub seeds: u64,
@@ -74,13 +74,13 @@ pub struct GroupFile {
     pub spec: TrainingSpec,
 }
 
-/// What the group in `folder` was started with.
+/// Reads the description of the group in `folder`.
 pub fn described(folder: &Path) -> Result<GroupFile, RunError> {
     let path = folder.join(FILE);
     json::read(&path, storage::SMALL).map_err(file(&path))
 }
 
-/// Runs that differ in their seed alone, in folders of one folder.
+/// A group of runs that differ only in their seed, in subfolders of one folder.
 #[derive(Debug)]
 pub struct Group {
     folder: PathBuf,
@@ -89,16 +89,16 @@ pub struct Group {
 }
 
 impl Group {
-    /// A new group with `seeds` seeds in `folder`, which is made where it is missing.
+    /// Creates a group with `seeds` seeds in `folder`, and the folder if it is missing.
     ///
     /// # Errors
-    /// [`RunError::Occupied`] where it holds runs already, and whatever [`TrainingSpec::start`] would refuse.
+    /// [`RunError::Occupied`] if the folder already contains runs, and the errors of [`TrainingSpec::start`].
     pub fn create(folder: &Path, spec: TrainingSpec, seeds: u64, weights: Option<&Weights>) -> Result<Self, RunError> {
-        // What is refused is refused before anything is written.
+        // Fails before anything is written if the specification is not valid.
         spec.untrained(spec.plan.seed, weights)?;
         super::make_folder(folder)?;
         let lock = super::lock(folder)?;
-        // Killed before the next file was written, the same command writes this one again.
+        // Accepts an existing weights file: the same command was killed after writing it and is repeated now.
         super::refuse_taken(folder, weights.map(|_| WEIGHTS))?;
         if let Some(weights) = weights {
             weights.write(&folder.join(WEIGHTS))?;
@@ -108,7 +108,7 @@ impl Group {
         Ok(Self { folder: folder.to_owned(), file, _lock: lock })
     }
 
-    /// The group in `folder`.
+    /// Resumes the group in `folder`.
     pub fn resume(folder: &Path) -> Result<Self, RunError> {
         Ok(Self { folder: folder.to_owned(), file: described(folder)?, _lock: super::lock(folder)? })
     }
@@ -117,23 +117,22 @@ impl Group {
         &self.folder
     }
 
-    /// The seeds, in order.
+    /// Returns the seeds, in order.
     pub fn seeds(&self) -> impl Iterator<Item = u64> {
         let first = self.file.spec.plan.seed;
         (0..self.file.seeds).map(move |index| first.wrapping_add(index))
     }
 
-    /// The run with this seed: a new one, or the one that is there as it was left, with what [`Run::resume`]
-    /// has to say.
+    /// Creates the run with this seed, or resumes it if it exists, with the warnings of [`Run::resume`].
     pub fn run(&self, seed: u64) -> Result<(Run, Vec<String>), RunError> {
         let folder = self.member(seed);
         if holds_checkpoints(&folder) {
             return Run::resume(&folder);
         }
-        // Seeds that have begun need the weights no more.
+        // Loads the weights only for a new run; a resumed one does not need them.
         let mut weights = None;
         if let Some(start) = &self.file.from {
-            // Under what was known of them when the file was copied.
+            // Restores the provenance from when the weights were copied.
             weights.insert(Weights::load(&self.folder.join(WEIGHTS))?).start = start.clone();
         }
         Ok((self.file.spec.start(&folder, seed, weights.as_ref())?, Vec::new()))
@@ -143,7 +142,7 @@ impl Group {
         self.folder.join(format!("seed-{seed}"))
     }
 
-    /// Writes the spread between the seeds at every measurement as CSV and returns its last line, if there is one.
+    /// Writes the spread between the seeds at every evaluation as CSV and returns its last line, if there is one.
     pub fn write_spread(&self) -> Result<Option<Spread>, RunError> {
         let mut rewards = std::collections::BTreeMap::<u64, Vec<f64>>::new();
         for seed in self.seeds() {
@@ -170,19 +169,19 @@ impl Group {
     }
 }
 
-/// Whether `folder` holds runs with several seeds.
+/// Whether `folder` contains a group of runs.
 pub fn is_group(folder: &Path) -> bool {
     folder.join(FILE).exists()
 }
 
-/// The mean rewards on held-out layouts that several seeds had after as many shots.
+/// Statistics of the mean rewards on held-out layouts of several seeds after the same number of shots.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     pub shots: u64,
-    /// Seeds that have come so far.
+    /// Number of seeds that have reached these shots.
     pub seeds: usize,
     pub mean: f64,
-    /// Their sample standard deviation; one alone has none.
+    /// Sample standard deviation; `None` for a single seed.
     pub sd: Option<f64>,
     pub min: f64,
     pub max: f64,

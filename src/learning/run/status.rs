@@ -1,6 +1,6 @@
-//! The run status, schema of `state.json`: a small file that is replaced about once a second, for watchers.
+//! The run status, schema of `state.json`: a small file for watchers, replaced about once a second.
 //!
-//! It is no part of what a run goes on from. Whether its process still lives the lock tells, not this file.
+//! Resuming a run does not need it. The lock, not this file, shows whether the run's process still exists.
 
 use std::path::Path;
 
@@ -9,10 +9,10 @@ use serde::{Deserialize, Serialize};
 use super::json;
 use crate::storage::{self, replace};
 
-/// The file's name.
+/// File name of the status.
 pub const FILE: &str = "state.json";
 
-/// What a run is doing.
+/// Current activity of a run, or how it ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Phase {
@@ -21,20 +21,20 @@ pub enum Phase {
     Training,
     /// It plays the held-out layouts.
     Measuring,
-    /// It waits for a request to go on.
+    /// It waits for a request to resume.
     Paused,
-    /// It was told to stop, has saved, and plays the held-out layouts before it ends.
+    /// After a request to stop it has saved, and plays the held-out layouts before it ends.
     Stopping,
     /// It has played all its shots.
     Finished,
-    /// It was stopped and can go on.
+    /// It was stopped and can be resumed.
     Stopped,
-    /// It broke down.
+    /// It ended with an error.
     Failed,
 }
 
 impl Phase {
-    /// In a word.
+    /// Returns the phase in one word.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Training => "training",
@@ -47,7 +47,7 @@ impl Phase {
         }
     }
 
-    /// Whether nothing more will come.
+    /// Whether the run has ended.
     pub const fn is_over(self) -> bool {
         matches!(self, Self::Finished | Self::Stopped | Self::Failed)
     }
@@ -56,49 +56,49 @@ impl Phase {
 /// The content of `state.json`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RunStatus {
-    /// What the run is doing.
+    /// Current activity.
     pub phase: Phase,
     /// Shots played.
     pub shots: u64,
-    /// Shots that had been played at the last line of the metrics' file; 0 in files of earlier versions.
+    /// Shots played at the last line of the metrics file; 0 in files of earlier versions.
     #[serde(default)]
     pub logged: u64,
     /// Updates made.
     pub updates: u64,
-    /// Seconds of training so far, evaluations included, pauses not.
+    /// Seconds of training so far, with evaluations, without pauses.
     pub seconds: f64,
-    /// Shots a second over the last seconds.
+    /// Shots per second over the last seconds.
     pub shots_per_second: f64,
-    /// Updates a second over the last seconds.
+    /// Updates per second over the last seconds.
     pub updates_per_second: f64,
-    /// How strongly the agent explores, see [`Progress`](crate::learning::learner::Progress::exploration).
+    /// Strength of the exploration, see [`Progress`](crate::learning::learner::Progress::exploration).
     pub exploration: f64,
-    /// Share of the replay buffer that is filled, for agents that have one.
+    /// Filled share of the replay buffer, for agents that have one.
     #[serde(rename = "memory")]
     pub replay_fill: Option<f64>,
-    /// What it earned at its last measurement on held-out layouts in this session.
+    /// Mean reward of the last evaluation on held-out layouts in this session.
     pub held_out_reward: Option<f64>,
-    /// The process that trains.
+    /// Id of the training process.
     pub process: u32,
     /// The last warning, if there was one.
     pub warning: Option<String>,
-    /// Why it broke down, if it did.
+    /// The error, if the run ended with one.
     pub reason: Option<String>,
 }
 
 impl RunStatus {
-    /// Writes it for the run in `folder`.
+    /// Writes the status of the run in `folder`.
     ///
     /// # Errors
-    /// Whatever the file system reports.
+    /// The errors of the file system.
     pub fn write(&self, folder: &Path) -> std::io::Result<()> {
         replace(&folder.join(FILE), &serde_json::to_vec(self)?)
     }
 
-    /// Reads that of the run in `folder`.
+    /// Reads the status of the run in `folder`.
     ///
     /// # Errors
-    /// Where there is none, or something else.
+    /// Fails if the file is missing or is not a status.
     pub fn read(folder: &Path) -> std::io::Result<Self> {
         json::read(&folder.join(FILE), storage::SMALL)
     }

@@ -1,4 +1,4 @@
-//! Runs that are stopped, go on, do as they are asked, and meet trouble; kills of the whole program are in `tests/binary/training`.
+//! Tests of runs that are stopped, resumed, controlled by requests or disturbed. `tests/binary/training` kills the whole program.
 
 use std::{cell::Cell, fs, thread, time::Duration};
 
@@ -22,14 +22,14 @@ use crate::{
     table::Table,
 };
 
-/// What a run reported to its watcher.
+/// A watcher that collects the reports of a run.
 #[derive(Default)]
-struct Told {
+struct Reports {
     lines: Vec<Record>,
     warnings: Vec<String>,
 }
 
-impl Watcher for Told {
+impl Watcher for Reports {
     fn line(&mut self, record: &Record) {
         self.lines.push(record.clone());
     }
@@ -39,7 +39,7 @@ impl Watcher for Told {
     }
 }
 
-/// A run of ten iterations, a line after every other one and a measurement after every fourth.
+/// A run of ten iterations, with a line after every second and an evaluation after every fourth.
 fn small_run(folder: &Path) -> Run {
     let learner = Trainer::new(small_task(), Table::default()).unwrap();
     let schedule = Schedule { log_every: 32, evaluate_every: 64, evaluation_layouts: 20 };
@@ -52,34 +52,34 @@ fn is_finished(ending: Ending) -> bool {
     matches!(ending, Ending::Finished(_))
 }
 
-fn finish(run: &mut Run) -> (Ending, Told) {
-    let mut told = Told::default();
-    (run.train(&FOREVER, &mut told).unwrap(), told)
+fn finish(run: &mut Run) -> (Ending, Reports) {
+    let mut reports = Reports::default();
+    (run.train(&FOREVER, &mut reports).unwrap(), reports)
 }
 
 #[test]
 fn a_run_leaves_metrics_a_policy_and_a_checkpoint() {
     let folder = tempfile::tempdir().unwrap();
     let mut run = small_run(folder.path());
-    let (ending, told) = finish(&mut run);
-    assert!(is_finished(ending) && told.warnings.is_empty());
-    let shots: Vec<_> = told.lines.iter().map(|line| (line.shots, line.held_out_reward.is_some())).collect();
+    let (ending, reports) = finish(&mut run);
+    assert!(is_finished(ending) && reports.warnings.is_empty());
+    let shots: Vec<_> = reports.lines.iter().map(|line| (line.shots, line.held_out_reward.is_some())).collect();
     assert_eq!(shots, [(32, false), (64, true), (96, false), (128, true), (160, true)]);
     let policy = Policy::load(&run.policy_path()).unwrap();
     assert!(matches!(ending, Ending::Finished(score) if score.mean_reward == policy.origin().held_out_reward));
 }
 
-/// Trains a run that is told to stop once it has asked so many times whether it shall.
+/// Trains a run whose `stop` function returns `true` at its call number `times`, counted from 0.
 fn stopped_after(run: &mut Run, times: u32) -> Result<Ending, RunError> {
-    let asked = Cell::new(0);
-    let stop = || asked.replace(asked.get() + 1) == times;
-    run.train(&Limits { time: None, stop: &stop }, &mut Told::default())
+    let calls = Cell::new(0);
+    let stop = || calls.replace(calls.get() + 1) == times;
+    run.train(&Limits { time: None, stop: &stop }, &mut Reports::default())
 }
 
-/// What must not depend on where a run was stopped: the policy, the checkpoint, and the metrics but for the clock.
+/// Content that must not depend on where a run was stopped: the policy, the checkpoint, and the metrics except their times.
 type Files = (Option<Vec<u8>>, Vec<u8>, Vec<Record>);
 
-/// The files of a run that is stopped after so many iterations, and again, and then finishes.
+/// The files of a run that is stopped and resumed after each of these numbers of iterations, and then finishes.
 fn files_of(start: &dyn Fn(&Path) -> Run, stops: &[u32]) -> Files {
     let folder = tempfile::tempdir().unwrap();
     let mut run = start(folder.path());
@@ -96,7 +96,7 @@ fn files_of(start: &dyn Fn(&Path) -> Run, stops: &[u32]) -> Files {
 }
 
 #[test]
-fn a_run_that_is_stopped_at_any_iteration_goes_on_to_the_same_files() {
+fn a_run_that_is_stopped_at_any_iteration_ends_with_the_same_files() {
     let whole = files_of(&small_run, &[]);
     assert_eq!(whole.2.len(), 5);
     for stops in [[0, 0, 1], [1, 2, 3], [3, 1, 5], [4, 4, 1]] {
@@ -105,7 +105,7 @@ fn a_run_that_is_stopped_at_any_iteration_goes_on_to_the_same_files() {
 }
 
 #[test]
-fn every_agent_goes_on_to_the_same_files() {
+fn every_agent_resumes_to_the_same_files() {
     for agent in AGENTS {
         let start = |folder: &Path| {
             let plan = TrainingPlan { reward: Reward::R1, seed: 3, shots: 1_000 };
@@ -118,10 +118,10 @@ fn every_agent_goes_on_to_the_same_files() {
 }
 
 #[test]
-fn a_run_that_is_stopped_saves_before_it_is_measured() {
+fn a_stopped_run_is_saved_before_its_evaluation() {
     let folder = tempfile::tempdir().unwrap();
     let mut run = small_run(folder.path());
-    // A policy that cannot be written shows what was saved before the measurement.
+    // The policy cannot be written, so only what was saved before the evaluation remains.
     fs::create_dir(folder.path().join(POLICY)).unwrap();
     let error = stopped_after(&mut run, 3).unwrap_err().to_string();
     assert!(error.contains("after 48 shots") && error.contains(POLICY) && error.contains("--resume"), "{error}");
@@ -130,10 +130,10 @@ fn a_run_that_is_stopped_saves_before_it_is_measured() {
 }
 
 #[test]
-fn a_finished_run_is_saved_before_it_is_calibrated_and_stops_meanwhile() {
+fn a_finished_run_is_saved_before_its_calibration_which_can_be_stopped() {
     let (folder, whole) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let mut run = small_run(folder.path());
-    // After ten iterations, at the second look of the calibration.
+    // Stops after ten iterations, at the second call of the calibration's `go_on`.
     let ending = stopped_after(&mut run, 11).unwrap();
     assert!(matches!(ending, Ending::Stopped(_)) && run.learner().is_finished() && run.result().is_none());
     drop(run);
@@ -142,11 +142,11 @@ fn a_finished_run_is_saved_before_it_is_calibrated_and_stops_meanwhile() {
     assert!(run.result().is_some());
     finish(&mut small_run(whole.path()));
     let policy = |folder: &Path| fs::read(folder.join(POLICY)).unwrap();
-    assert!(policy(folder.path()) == policy(whole.path()), "it is calibrated as if it had not been stopped");
+    assert!(policy(folder.path()) == policy(whole.path()), "the calibration must equal that of an uninterrupted run");
 }
 
 #[test]
-fn a_finished_run_that_is_asked_again_says_what_it_said() {
+fn resuming_a_finished_run_returns_its_stored_result() {
     let folder = tempfile::tempdir().unwrap();
     let ending = finish(&mut small_run(folder.path())).0;
     let path = |name: &str| folder.path().join(name);
@@ -156,14 +156,14 @@ fn a_finished_run_that_is_asked_again_says_what_it_said() {
     let events = fs::read(path(event_file::FILE)).unwrap();
     assert_eq!(finish(&mut Run::resume(folder.path()).unwrap().0).0, ending);
     assert_eq!(fs::read_to_string(path(RESULT)).unwrap(), result);
-    assert!(fs::read(path(event_file::FILE)).unwrap() == events, "the second copy of the curves");
-    // What says nothing is written anew.
+    assert!(fs::read(path(event_file::FILE)).unwrap() == events, "the event file must keep the lost lines");
+    // A result file without a result is written again.
     fs::write(path(RESULT), "{}").unwrap();
     assert_eq!(finish(&mut Run::resume(folder.path()).unwrap().0).0, ending);
     assert!(fs::read_to_string(path(RESULT)).unwrap().contains(VERSION));
 }
 
-/// What each warning said, and the checkpoint that was there then.
+/// A watcher that collects each warning with the checkpoint at that moment.
 struct Witness(PathBuf, Vec<(String, Vec<u8>)>);
 
 impl Watcher for Witness {
@@ -193,46 +193,46 @@ fn a_folder_belongs_to_one_run_at_a_time() {
     let run = small_run(folder.path());
     assert!(matches!(Run::resume(folder.path()), Err(RunError::Busy(_))));
     drop(run);
-    // What a kill between the first checkpoint and the configuration leaves can be gone on from as well.
+    // A run that was killed between the first checkpoint and the configuration can be resumed, too.
     fs::remove_file(folder.path().join(config::FILE)).unwrap();
     let (_run, notices) = Run::resume(folder.path()).unwrap();
     assert_eq!((notices.len(), Config::read(folder.path()).unwrap().agent.as_str()), (0, "ddpg"));
 }
 
 #[test]
-fn a_configuration_that_cannot_be_read_stays_and_is_told() {
+fn a_configuration_that_cannot_be_read_is_kept_and_reported() {
     let folder = tempfile::tempdir().unwrap();
     drop(small_run(folder.path()));
     let path = folder.path().join(config::FILE);
     let newer = fs::read_to_string(&path).unwrap().replace("\"agent\"", "\"who\"").replace(VERSION, "90.1.0");
-    for (text, told) in [("{", "config.json cannot be read"), (newer.as_str(), "config.json is of carom 90.1.0")] {
+    let newer_message = "config.json was written by carom 90.1.0";
+    for (text, message) in [("{", "config.json cannot be read"), (newer.as_str(), newer_message)] {
         fs::write(&path, text).unwrap();
         let (run, notices) = Run::resume(folder.path()).unwrap();
-        assert!(notices.len() == 1 && notices[0].starts_with(told), "{notices:?}");
+        assert!(notices.len() == 1 && notices[0].starts_with(message), "{notices:?}");
         assert_eq!((fs::read_to_string(&path).unwrap().as_str(), run.learner().shots()), (text, 0));
     }
 }
 
 #[test]
-fn a_run_that_breaks_down_says_so_shows_what_was_odd_and_goes_on_from_before() {
+fn a_failed_run_reports_its_numbers_and_resumes_from_its_last_checkpoint() {
     let folder = tempfile::tempdir().unwrap();
     let mut run = small_run(folder.path());
     let odd = Iteration { critic_loss: f64::NAN, actor_loss: Some(f64::NEG_INFINITY), ..Iteration::default() };
     assert!(!run.state.accumulator.add(&odd, 1, 1));
-    let mut told = Told::default();
-    let error = run.train(&FOREVER, &mut told).unwrap_err().to_string();
+    let error = run.train(&FOREVER, &mut Reports::default()).unwrap_err().to_string();
     assert!(error.contains("after 16 shots"), "{error}");
     let lines = metrics::read(&folder.path().join(METRICS)).unwrap();
     assert!(lines[0].critic_loss.is_nan() && lines[0].actor_loss == Some(f64::NEG_INFINITY), "{lines:?}");
     let status = RunStatus::read(folder.path()).unwrap();
     assert_eq!((status.phase, status.reason), (Phase::Failed, Some(error)));
     drop(run);
-    let (ending, told) = finish(&mut Run::resume(folder.path()).unwrap().0);
-    assert!(is_finished(ending) && told.lines.len() == 5);
+    let (ending, reports) = finish(&mut Run::resume(folder.path()).unwrap().0);
+    assert!(is_finished(ending) && reports.lines.len() == 5);
     assert!(metrics::read(&folder.path().join(METRICS)).unwrap().iter().all(|line| line.critic_loss.is_finite()));
 }
 
-/// Asks the run in `folder` from another thread as soon as it is in `phase`.
+/// Sends a request to the run in `folder` from another thread as soon as it is in `phase`.
 fn ask(folder: &Path, phase: Phase, request: Request) -> thread::JoinHandle<()> {
     let folder = folder.to_owned();
     thread::spawn(move || {
@@ -246,26 +246,25 @@ fn ask(folder: &Path, phase: Phase, request: Request) -> thread::JoinHandle<()> 
     })
 }
 
-/// Trains a run that is asked for something in each of these phases. It is held up between two iterations, so that it does not end
-/// before it is asked.
+/// Trains a run that receives a request in each of these phases. A delay between the iterations ensures that it does not end before.
 fn asked(run: &mut Run, requests: &[(Phase, Request)]) -> Ending {
-    let asking: Vec<_> = requests.iter().map(|(phase, request)| ask(run.folder(), *phase, *request)).collect();
-    let linger = || {
+    let threads: Vec<_> = requests.iter().map(|(phase, request)| ask(run.folder(), *phase, *request)).collect();
+    let delay = || {
         thread::sleep(Duration::from_millis(60));
         false
     };
-    let ending = run.train(&Limits { time: None, stop: &linger }, &mut Told::default()).unwrap();
-    for thread in asking {
+    let ending = run.train(&Limits { time: None, stop: &delay }, &mut Reports::default()).unwrap();
+    for thread in threads {
         thread.join().unwrap();
     }
     ending
 }
 
 #[test]
-fn a_run_waits_goes_on_and_stops_as_it_is_asked_and_ends_in_the_same_place() {
+fn requests_pause_resume_and_stop_a_run_without_changing_its_end() {
     let folder = tempfile::tempdir().unwrap();
     let mut run = small_run(folder.path());
-    // What was asked of an earlier process is not done.
+    // A request to an earlier process is not carried out.
     Request::Abandon.send(folder.path()).unwrap();
     let ending = asked(&mut run, &[(Phase::Training, Request::Pause), (Phase::Paused, Request::Stop)]);
     assert!(matches!(ending, Ending::Stopped(_)));
@@ -281,7 +280,7 @@ fn a_run_waits_goes_on_and_stops_as_it_is_asked_and_ends_in_the_same_place() {
 }
 
 #[test]
-fn a_run_that_is_given_up_leaves_nothing_but_what_is_not_its_own() {
+fn an_abandoned_run_leaves_only_files_that_are_not_its_own() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
     let mut run = small_run(path);
@@ -294,7 +293,7 @@ fn a_run_that_is_given_up_leaves_nothing_but_what_is_not_its_own() {
     assert_eq!(left, ["notes.txt"]);
 }
 
-/// Gives its run up as soon as that has measured itself for the last time.
+/// A watcher that abandons the run at its last evaluation.
 struct GivesUp<'a>(&'a Path);
 
 impl Watcher for GivesUp<'_> {
@@ -308,7 +307,7 @@ impl Watcher for GivesUp<'_> {
 }
 
 #[test]
-fn a_run_that_is_given_up_during_its_last_measurement_does_not_finish() {
+fn a_run_that_is_abandoned_during_its_last_evaluation_does_not_finish() {
     let folder = tempfile::tempdir().unwrap();
     let ending = small_run(folder.path()).train(&FOREVER, &mut GivesUp(folder.path())).unwrap();
     assert_eq!(ending, Ending::Abandoned);
@@ -317,7 +316,7 @@ fn a_run_that_is_given_up_during_its_last_measurement_does_not_finish() {
 }
 
 #[test]
-fn whoever_follows_sees_a_run_begin_work_tell_what_it_does_and_end() {
+fn a_follower_sees_a_run_start_report_and_end() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run");
     let (mut follower, mut followed) = (Follower::new(&path), Followed::new(&path));

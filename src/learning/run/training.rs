@@ -1,4 +1,4 @@
-//! The loop that fills a run's folder.
+//! The training loop of a run: iterations, evaluations, metrics, checkpoints and requests.
 
 use std::{
     fs, thread,
@@ -27,45 +27,46 @@ use crate::{
     table::Layout,
 };
 
-/// Longest time between two checkpoints: what a power cut costs. It may depend on the clock, because nothing depends on
-/// when a checkpoint is written.
+/// Longest time between two checkpoints, which a power failure can cost. It may depend on the clock, because nothing depends on
+/// the time at which a checkpoint is written.
 const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(60);
 
-/// Time between two looks at whether a pause is over.
-const NAP: Duration = Duration::from_millis(100);
+/// Time between two polls for the end of a pause.
+const PAUSE_POLL_INTERVAL: Duration = Duration::from_millis(100);
 
 /// Receives the events of a run in its own process. Other processes follow its folder ([`super::follow`]).
 pub trait Watcher {
-    /// A line of metrics.
+    /// Receives a line of metrics.
     fn line(&mut self, record: &Record);
 
-    /// Something went wrong, and training goes on.
+    /// Receives a warning about a problem that does not stop the training.
     fn warn(&mut self, sentence: &str);
 }
 
-/// How a run ended, with what it earns on the held-out layouts.
+/// How a run ended, with its score on the held-out layouts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ending {
     /// All shots have been played.
     Finished(Score),
-    /// It was stopped and can go on.
+    /// It was stopped and can be resumed.
     Stopped(Score),
-    /// It was given up: nothing was saved, and the run is to be discarded.
+    /// It was abandoned: nothing was saved, and the caller must discard the run.
     Abandoned,
 }
 
-/// When training ends before the plan is finished.
+/// Limits that end the training before the plan is finished.
 pub struct Limits<'a> {
-    /// Longest time to train, pauses left out.
+    /// Longest training time, without pauses.
     pub time: Option<Duration>,
-    /// Asked between two iterations whether to stop.
+    /// Called between two iterations; returns whether to stop.
     pub stop: &'a dyn Fn() -> bool,
 }
 
-/// Where training reports to.
+/// Outputs of the training.
 struct Reporting<'a> {
     metrics: MetricsFile,
-    /// None where it cannot be written: it is for looking at, and nothing is lost.
+    /// `None` if the run is finished or the file cannot be written. The latter is ignored: the file only repeats the metrics for
+    /// `TensorBoard`.
     events: Option<EventFile>,
     clock: Clock,
     heartbeat: Heartbeat,
@@ -74,23 +75,23 @@ struct Reporting<'a> {
 }
 
 impl Run {
-    /// Trains until the plan is finished, a limit is reached or a [`Request`] in the folder says so. The folder then holds
-    /// a checkpoint from which the run can go on. A checkpoint on the way that cannot be written is reported to the watcher,
-    /// and the next one tried.
+    /// Trains until the plan is finished, a limit is reached or a [`Request`] in the folder ends it. The folder then contains
+    /// a checkpoint from which the run can be resumed. If an intermediate checkpoint cannot be written, the watcher gets a warning
+    /// and training continues to the next one.
     ///
     /// # Errors
-    /// Where training breaks down, or where the last checkpoint cannot be written.
+    /// Fails if training fails or the last checkpoint cannot be written.
     pub fn train(&mut self, limits: &Limits<'_>, watcher: &mut dyn Watcher) -> Result<Ending, RunError> {
         let path = self.folder.join(METRICS);
         let (metrics, records) = MetricsFile::open(&path, self.learner.shots()).map_err(file(&path))?;
         let (last, shots) = (records.last().map(|record| record.shots), self.learner.shots());
         let is_whole = !metrics::lacks_lines(last, shots, self.state.schedule.log_every);
-        // A finished run has no more lines.
+        // A finished run writes no more lines.
         let events =
             if self.learner.is_finished() { None } else { EventFile::open(&self.folder, &records, is_whole).ok() };
         let layouts = held_out_layouts(self.learner.table(), self.state.schedule.evaluation_layouts, HELD_OUT_SEED);
         if !self.learner.is_finished() {
-            // A finished run whose last checkpoint was lost goes on from the one before.
+            // A result exists here if the last checkpoint of a finished run was lost and the run resumes from the previous one.
             let _ = fs::remove_file(self.folder.join(RESULT));
         }
         let before = records.last().map_or(0.0, |record| record.seconds);
@@ -99,7 +100,7 @@ impl Run {
         heartbeat.status.logged = last.unwrap_or(0);
         let mut reporting = Reporting { metrics, events, clock, heartbeat, layouts, watcher };
         let ending = self.iterate_until(limits, &mut reporting).and_then(|ending| {
-            // It may have been given up during the last measurement, after which nothing else is asked for.
+            // A request to abandon may have arrived during the last evaluation, after which no other poll follows.
             if Request::take(&self.folder) == Some(Ok(Request::Abandon)) {
                 return Ok(Ending::Abandoned);
             }
@@ -119,13 +120,13 @@ impl Run {
         ending
     }
 
-    /// Writes what it has come to with this last measurement, for programs that compare runs.
+    /// Writes the result with the score of the last evaluation, for programs that compare runs.
     fn write_result(&self, score: Score) -> Result<(), RunError> {
         let learner = self.learner.as_ref();
         let TrainingPlan { reward, seed, .. } = learner.plan();
         let result = json!({
             "agent": learner.agent(), "reward": reward, "seed": seed, "table": learner.table().name, "version": VERSION,
-            // Those of the last iteration beyond the plan included.
+            // May exceed the plan by a part of the last iteration.
             "shots": learner.shots(),
             "updates": learner.progress().updates,
             REWARD: score.mean_reward,
@@ -140,7 +141,7 @@ impl Run {
                 let score = self.measure(reporting, Phase::Measuring)?;
                 return self.finish(score, limits, reporting);
             };
-            // By this program's own simulator it might be another number.
+            // The stored score, because another version's simulator might measure another one.
             reporting.heartbeat.status.held_out_reward = Some(score.mean_reward);
             return if self.policy_path().exists() {
                 Ok(Ending::Finished(score))
@@ -163,7 +164,7 @@ impl Run {
                 Some(Request::GoOn) | None => {}
             }
             if stops {
-                // Nothing waits for the measurement, which may take long: whoever cannot wait ends it by a second signal.
+                // Saved before the evaluation, which may take long: a user who cannot wait may end it by a second signal.
                 self.save(&mut reporting.metrics, None).map_err(|reason| self.unsaved(reason))?;
                 let score = self.measure(reporting, Phase::Stopping)?;
                 self.write_policy(score, &mut || true).map_err(|reason| self.unsaved(reason))?;
@@ -171,9 +172,9 @@ impl Run {
             }
             let score = self.iterate(reporting)?;
             if score.is_some() || saved.elapsed() >= CHECKPOINT_INTERVAL {
-                let done = self.save(&mut reporting.metrics, score);
+                let result = self.save(&mut reporting.metrics, score);
                 saved = Instant::now();
-                match (done, score.filter(|_| self.learner.is_finished())) {
+                match (result, score.filter(|_| self.learner.is_finished())) {
                     (Ok(()), Some(score)) => return self.finish(score, limits, reporting),
                     (Ok(()), None) => {}
                     (Err(reason), Some(_)) => return Err(self.unsaved(reason)),
@@ -184,7 +185,7 @@ impl Run {
     }
 
     /// Writes the policy of a run that has played its last shot and is saved. Its calibration may take minutes; a run that is stopped
-    /// meanwhile begins it again when it goes on.
+    /// meanwhile repeats it when it is resumed.
     fn finish(&self, score: Score, limits: &Limits<'_>, reporting: &mut Reporting<'_>) -> Result<Ending, RunError> {
         let mut ending = Ending::Finished(score);
         let mut go_on = || {
@@ -212,7 +213,7 @@ impl Run {
             reporting.heartbeat.beat(Phase::Paused, self.learner.as_ref(), seconds);
             match reporting.request() {
                 Some(Request::Pause) | None if stop() => break Request::Stop,
-                Some(Request::Pause) | None => thread::sleep(NAP),
+                Some(Request::Pause) | None => thread::sleep(PAUSE_POLL_INTERVAL),
                 Some(request) => break request,
             }
         };
@@ -220,19 +221,19 @@ impl Run {
         request
     }
 
-    /// Plays the held-out layouts; `phase` says on which occasion.
+    /// Evaluates the agent on the held-out layouts; `phase` is the phase to report meanwhile.
     fn measure(&self, reporting: &mut Reporting<'_>, phase: Phase) -> Result<Score, RunError> {
         let learner = self.learner.as_ref();
         reporting.heartbeat.beat(phase, learner, reporting.clock.seconds());
         let score = learner.score(&reporting.layouts)?;
-        // A run that is stopped has no line of metrics for it.
+        // The status contains the reward, because a stopped run has no line of metrics for it.
         reporting.heartbeat.status.held_out_reward = Some(score.mean_reward);
-        // They are for looking at: where they cannot be written, nothing is lost.
+        // A failure to write is ignored, because the examples are only for display.
         let _ = Examples::of(learner, &reporting.layouts)?.write(&self.folder);
         Ok(score)
     }
 
-    /// One iteration, and the measurement and the line of metrics that are due after it.
+    /// Makes one iteration, and the evaluation and the line of metrics that are due after it. Returns the score of the evaluation.
     fn iterate(&mut self, reporting: &mut Reporting<'_>) -> Result<Option<Score>, RunError> {
         let Schedule { log_every, evaluate_every, .. } = self.state.schedule;
         let [before, updated] = [self.learner.shots(), self.learner.progress().updates];
@@ -252,7 +253,7 @@ impl Run {
                 reporting.events = None;
             }
             reporting.watcher.line(&record);
-            // Until there is room it waits in memory. No checkpoint is written before it is.
+            // If the disk is full, the line stays pending in memory. No checkpoint is written before it.
             if reporting.metrics.flush().is_ok() {
                 reporting.heartbeat.status.logged = shots;
             }
@@ -262,7 +263,7 @@ impl Run {
 }
 
 impl Reporting<'_> {
-    /// What the run is asked to do; what is not understood is told.
+    /// Polls for a request; warns about one that is not understood.
     fn request(&mut self) -> Option<Request> {
         match self.heartbeat.request()? {
             Ok(request) => Some(request),
@@ -280,38 +281,38 @@ impl Reporting<'_> {
 
     fn warn_of_checkpoint(&mut self, reason: &RunError, shots: u64) {
         let sentence = format!(
-            "the checkpoint after {shots} shots could not be written: {reason}; the one before is whole, and training \
-             goes on to the next"
+            "the checkpoint after {shots} shots could not be written: {reason}; the previous one is intact, and training \
+             goes on"
         );
         self.warn(&sentence);
     }
 }
 
-/// The time that training takes, pauses left out.
+/// Clock of the training time, without pauses.
 #[derive(Debug)]
 struct Clock {
     start: Instant,
-    /// Seconds of the sessions before.
+    /// Seconds of the earlier sessions.
     before: f64,
-    /// Time that passed in pauses.
+    /// Total time of pauses.
     paused: Duration,
     /// Seconds and shots of the last line, or of the start.
     last: (f64, u64),
 }
 
 impl Clock {
-    /// Time since the start.
+    /// Returns the training time of this session.
     fn session(&self) -> Duration {
         self.start.elapsed().saturating_sub(self.paused)
     }
 
-    /// Seconds of training in all.
+    /// Returns the seconds of training in all sessions.
     fn seconds(&self) -> f64 {
         self.before + self.session().as_secs_f64()
     }
 
-    /// The line that is due now, `measuring` seconds after the last shot: a speed that fell with each measurement would say
-    /// nothing of either.
+    /// Returns the line of metrics that is due now, `measuring` seconds after the last shot. The speed excludes this time, because it would
+    /// otherwise drop at every evaluation.
     fn record(&mut self, learner: &dyn Learner, means: Iteration, score: Option<Score>, measuring: f64) -> Record {
         let seconds = self.seconds();
         let (shots, progress) = (learner.shots(), learner.progress());

@@ -1,4 +1,4 @@
-//! A plain actor and its critic, and how they learn (thesis Algorithm 4): candle's modules, optimiser and gradients.
+//! A plain actor-critic pair and its update (thesis Algorithm 4), with candle's modules, optimiser and gradients.
 
 use candle_core::{Device, Result, Tensor};
 use candle_nn::{Module, Optimizer};
@@ -18,12 +18,12 @@ use crate::learning::{
     },
 };
 
-/// Layer sizes of an actor with these hidden layers, from the state to the action, and of a critic, from both to one value.
+/// Returns the layer sizes of an actor (state to action) and of a critic (state and action to one value) with these hidden layers.
 pub fn sizes(actor: &[usize], critic: &[usize]) -> [Vec<usize>; 2] {
     [[&[STATES], actor, &[ACTIONS]].concat(), [&[STATES + ACTIONS], critic, &[1]].concat()]
 }
 
-/// How to learn (thesis Table 4; the networks' example gives the clipping).
+/// Learning rate, gradient clipping and soft update (thesis Table 4; the clipping is that of keras-rl's example).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates {
     pub adam: AdamConfig,
@@ -31,47 +31,47 @@ pub struct Rates {
     pub keep: f64,
 }
 
-/// How the actor learns beside climbing the critic.
+/// Terms of the actor's loss in addition to the deterministic policy gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Guidance {
-    /// Weight of the critic's slope.
+    /// Weight of the policy gradient, the ascent on the critic.
     pub climbing: f64,
-    /// The first rows of a batch, so many, are lessons: the actor goes towards what was done there.
+    /// Number of lessons, which are the first rows of a batch: the actor moves towards the actions in these rows.
     pub lessons: usize,
-    /// Weight of that.
+    /// Weight of the lessons (behaviour cloning).
     pub cloning: f64,
-    /// How near a lesson must be to the actor's own action to count, in direction and speed: of several ways to make a point the
-    /// nearest is followed, not the mean of all, which makes none.
+    /// Standard deviations, in direction and speed, of the bell by which a lesson counts less the farther it is from the actor's own
+    /// action. If several different shots make the point, the actor follows the nearest one and not their mean, which makes none.
     pub width: [f64; 2],
-    /// How strongly actions outside the range are pulled back to it.
+    /// Weight of the pull that brings actions outside the range back into it.
     pub pull: f64,
 }
 
 impl Guidance {
-    /// Nothing but the critic.
+    /// The policy gradient alone.
     pub const NONE: Self = Self { climbing: 1.0, lessons: 0, cloning: 0.0, width: [1.0; 2], pull: 0.0 };
 
-    /// What the actor's step goes down, from the sum of the values of its `actions`.
+    /// Returns the actor's loss, from the sum of the critic's values of its `actions`.
     fn loss(&self, values: &Tensor, actions: &Tensor, batch: &Batch) -> Result<Tensor> {
         let rows = actions.dim(0)? as f64;
         let mut loss = (values * (-self.climbing / rows))?;
         if self.lessons > 0 {
-            // Climbing a bell around each lesson climbs the success of an action with noise of that width.
-            let [own, shown] = [actions, &batch.actions].map(|actions| actions.narrow(0, 0, self.lessons));
+            // Ascent on a bell around each lesson is ascent on the success of an action with noise of that width.
+            let [own, demonstrated] = [actions, &batch.actions].map(|actions| actions.narrow(0, 0, self.lessons));
             let scale = Tensor::new(&self.width.map(|width| (1.0 / width) as f32), &Device::Cpu)?;
-            let apart = (own? - shown?)?.broadcast_mul(&scale)?.sqr()?.sum(1)?;
-            let near = (apart * -0.5)?.exp()?.sum_all()?;
-            loss = (loss - (near * (self.cloning * self.width[0] / rows))?)?;
+            let squared_distance = (own? - demonstrated?)?.broadcast_mul(&scale)?.sqr()?.sum(1)?;
+            let bells = (squared_distance * -0.5)?.exp()?.sum_all()?;
+            loss = (loss - (bells * (self.cloning * self.width[0] / rows))?)?;
         }
         if self.pull > 0.0 {
-            let beyond = (actions - actions.detach().clamp(-1f32, 1f32)?)?;
-            loss = (loss + (beyond.sqr()?.sum_all()? * (0.5 * self.pull / rows))?)?;
+            let excess = (actions - actions.detach().clamp(-1f32, 1f32)?)?;
+            loss = (loss + (excess.sqr()?.sum_all()? * (0.5 * self.pull / rows))?)?;
         }
         Ok(loss)
     }
 }
 
-/// An actor and a critic, the networks that they follow slowly, and optimisers; of each the actor's first.
+/// An actor and a critic with their target networks and optimisers. Each array contains the actor's first, then the critic's.
 #[derive(Debug)]
 pub struct ActorCritic {
     rates: Rates,
@@ -81,12 +81,12 @@ pub struct ActorCritic {
 }
 
 impl ActorCritic {
-    /// Networks of these [`sizes`] with weights drawn from `rng` (Glorot and Bengio 2010); the target networks begin as copies.
+    /// Creates networks of these [`sizes`] with weights drawn from `rng` (Glorot and Bengio 2010). The target networks start as copies.
     pub fn random([actor, critic]: &[Vec<usize>; 2], rates: Rates, rng: &mut (impl Rng + ?Sized)) -> Result<Self> {
         Self::starting_from([Mlp::glorot(actor, rng)?, Mlp::glorot(critic, rng)?], rates)
     }
 
-    /// Learning starts with these networks.
+    /// Starts learning with these networks: the target networks are copies, the optimisers are new.
     fn starting_from(online: [Mlp; 2], rates: Rates) -> Result<Self> {
         let [actor, critic] = &online;
         let target = [actor.duplicate()?, critic.duplicate()?];
@@ -94,7 +94,7 @@ impl ActorCritic {
         Ok(Self { optimisers: [optimiser(actor)?, optimiser(critic)?], rates, online, target })
     }
 
-    /// Networks that go on from what [`ActorCritic::values`] and [`ActorCritic::updates`] gave.
+    /// Restores the networks and optimisers from the results of [`ActorCritic::values`] and [`ActorCritic::updates`].
     pub fn from_values(
         sizes: &[Vec<usize>; 2],
         rates: Rates,
@@ -102,14 +102,14 @@ impl ActorCritic {
         updates: u32,
     ) -> std::result::Result<Self, WeightsError> {
         let [online, target, first, second] = split(sizes, values)?;
-        let optimisers = [0, 1].map(|which: usize| {
-            let moments = [&first, &second].map(|moments| moments[which].parameters().as_detached_tensor());
-            Adam::resume(vec![online[which].parameters().clone()], rates.adam, vec![moments], updates)
+        let optimisers = [0, 1].map(|network: usize| {
+            let moments = [&first, &second].map(|moments| moments[network].parameters().as_detached_tensor());
+            Adam::resume(vec![online[network].parameters().clone()], rates.adam, vec![moments], updates)
         });
         Ok(Self { rates, online, target, optimisers })
     }
 
-    /// The same networks at the beginning of their learning: the learning ones become both the learning ones and the targets.
+    /// Restarts learning with the online networks: the target networks become copies of them, the optimisers new.
     pub fn begun_anew(self) -> Result<Self> {
         Self::starting_from(self.online, self.rates)
     }
@@ -124,8 +124,8 @@ impl ActorCritic {
         self.optimisers[0].steps()
     }
 
-    /// Everything that changes: parameters, target parameters, Adam's averages of the gradient and of its square, each
-    /// the actor's and then the critic's.
+    /// Returns all that changes in learning: parameters, target parameters, Adam's averages of the gradient and of its square. Each
+    /// part contains the actor's values, then the critic's.
     pub fn values(&self) -> Result<Vec<f32>> {
         let parameters = self.online.iter().chain(&self.target).map(|network| network.parameters().as_tensor());
         let moments = self.optimisers.iter().flat_map(Adam::moments);
@@ -134,35 +134,35 @@ impl ActorCritic {
         Ok(all.collect::<Result<Vec<_>>>()?.concat())
     }
 
-    /// The actor's actions in `states` (rows x states).
+    /// Returns the actor's actions in `states` (rows x states).
     pub fn act(&self, states: &Tensor) -> Result<Tensor> {
         self.online[0].forward_frozen(states)
     }
 
-    /// Learns from now on at `share` of its learning rate.
+    /// Sets the learning rate of both optimisers to `share` of the configured one.
     pub fn set_rate_share(&mut self, share: f64) {
         for optimiser in &mut self.optimisers {
             optimiser.set_learning_rate(share * self.rates.adam.learning_rate);
         }
     }
 
-    /// One update: the critic's step, the actor's step and both soft updates.
+    /// Makes one update: the critic's step, the actor's step and both soft updates.
     ///
     /// # Errors
-    /// Where the networks no longer give finite numbers.
+    /// Fails if the networks no longer return finite numbers.
     pub fn update(&mut self, batch: &Batch, guidance: &Guidance) -> Result<UpdateStats> {
         let [[actor, critic], [target_actor, target_critic]] = [&self.online, &self.target];
         let [actor_optimiser, critic_optimiser] = &mut self.optimisers;
-        // The critic comes nearer to what it should have said: the reward and, where the episode went on, the value of the
-        // target actor's action thereafter in the target critic's eyes (equations 57 and 58).
-        let wanted = batch.targets(|states| {
+        // The critic moves towards its targets: the reward plus, if the episode continued, the discounted value that the target critic
+        // assigns to the target actor's action in the next state (equations 57 and 58).
+        let targets = batch.targets(|states| {
             let actions = target_actor.forward_frozen(states)?;
             target_critic.forward_frozen(&Tensor::cat(&[states, &actions], 1)?)
         })?;
-        let loss = squared_error(&critic.forward(&Tensor::cat(&[&batch.states, &batch.actions], 1)?)?, &wanted)?;
+        let loss = squared_error(&critic.forward(&Tensor::cat(&[&batch.states, &batch.actions], 1)?)?, &targets)?;
         critic_optimiser.backward_step(&loss)?;
 
-        // The actor climbs the critic (the deterministic policy gradient), and may be guided.
+        // The actor ascends the critic (the deterministic policy gradient) and follows the guidance.
         let actions = actor.forward(&batch.states)?;
         let values = critic.forward_frozen(&Tensor::cat(&[&batch.states, &actions], 1)?)?.sum_all()?;
         actor_optimiser.backward_step(&guidance.loss(&values, &actions, batch)?)?;
@@ -174,7 +174,7 @@ impl ActorCritic {
     }
 }
 
-/// The four parts of [`ActorCritic::values`].
+/// Splits the result of [`ActorCritic::values`] into its four parts.
 fn split([actor, critic]: &[Vec<usize>; 2], values: &[f32]) -> std::result::Result<[[Mlp; 2]; 4], WeightsError> {
     let (actors, critics) = (parameter_count(actor), parameter_count(critic));
     let expected = 4 * (actors + critics);
@@ -221,7 +221,7 @@ mod tests {
 
     #[test]
     fn the_first_step_goes_down_the_finite_differences_of_both_losses() {
-        // Adam's averages after one step are the gradient times 0.1, which makes it visible.
+        // After one step Adam's average of the gradient is 0.1 times the gradient, so the test can read it.
         let adam = AdamConfig { learning_rate: 1e-12, gradient_clip: f64::INFINITY };
         let (sizes, rates) = (sizes(&[5, 4], &[6, 5]), Rates { adam, ..RATES });
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(4);
@@ -250,7 +250,7 @@ mod tests {
                 assert!((ours - differences).abs() < 3e-3, "critic {is_critic}, {index}: {ours} against {differences}");
                 largest = largest.max(ours.abs());
             }
-            assert!(largest > 0.05, "a gradient of nought agrees with anything");
+            assert!(largest > 0.05, "a gradient of zero would agree with anything");
         }
     }
 
@@ -273,7 +273,7 @@ mod tests {
         let own = act(&agent)[0];
         let (near, far) = (own + 0.25, own - 0.6);
         let guidance = Guidance { climbing: 0.0, lessons: 4, cloning: 1.0, width: [0.2, 0.5], pull: 0.0 };
-        // Their mean lies on the other side.
+        // The mean of the lessons is on the other side of the actor's own action.
         let batch = Batch::new(&[lesson(near), lesson(far), lesson(near), lesson(far)], 0.0).unwrap();
         for _ in 0..400 {
             agent.update(&batch, &guidance).unwrap();
@@ -282,7 +282,7 @@ mod tests {
         let outside = Batch::new(&[lesson(1.8)], 0.0).unwrap();
         let far = Guidance { width: [9.0; 2], lessons: 1, ..guidance };
         let back = Guidance { lessons: 0, pull: 1.0, ..guidance };
-        // What Adam still carries leads on into the range.
+        // Adam's remaining momentum carries the action on into the range.
         for (guidance, within) in [(far, 1.2..2.0), (back, -1.05..1.05)] {
             for _ in 0..1000 {
                 agent.update(&outside, &guidance).unwrap();
@@ -292,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_that_are_not_finite_are_refused_before_they_do_harm() {
+    fn numbers_that_are_not_finite_are_refused_before_any_weight_changes() {
         let sizes = sizes(&[4], &[4]);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(6);
         let mut agent = ActorCritic::random(&sizes, RATES, &mut rng).unwrap();

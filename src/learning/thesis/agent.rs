@@ -1,4 +1,4 @@
-//! What the thesis' agents have in common, the loop in which they play and learn, and what a training run drives them by.
+//! The interface of the thesis' agents, their training loop, and its implementation of [`Learner`] for training runs.
 
 use candle_core::Error;
 use rand::SeedableRng;
@@ -24,43 +24,43 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// What an agent does.
+/// The action that an agent chose.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Choice {
     /// The action.
     pub action: Action,
-    /// Its number, for agents with discrete actions.
+    /// Index of the action, for agents with discrete actions.
     pub index: u32,
 }
 
 impl Choice {
-    /// The discrete action number `index`.
+    /// Returns the discrete action with this index.
     pub fn discrete(index: u32) -> Self {
         Self { action: discrete_action(index), index }
     }
 }
 
-/// One shot as an agent learns from it.
+/// One shot from which an agent learns.
 #[derive(Clone, Copy, Debug)]
 pub struct Transition {
-    /// What was seen.
+    /// Observation before the shot.
     pub before: Observation,
-    /// What was done.
+    /// The action played.
     pub choice: Choice,
-    /// What it earned.
+    /// Reward of the shot.
     pub reward: f64,
-    /// Whether the episode goes on.
+    /// Whether the episode continues after the shot.
     pub goes_on: bool,
-    /// What is seen now.
+    /// Observation after the shot.
     pub after: Observation,
 }
 
 /// An agent's settings.
 pub trait Settings: Clone + std::fmt::Debug + Default + Serialize + DeserializeOwned + Send {
-    /// When an episode is over.
+    /// When an episode ends.
     fn episode(&self) -> Episode;
 
-    /// Whether they are about points: of no use with a reward that says anything else.
+    /// Whether the settings use points, so that they are of no use with a reward that is not about points.
     fn are_about_points(&self) -> bool {
         false
     }
@@ -68,39 +68,39 @@ pub trait Settings: Clone + std::fmt::Debug + Default + Serialize + DeserializeO
     /// Checks every setting.
     ///
     /// # Errors
-    /// The first one that is outside its range.
+    /// Fails with the first setting that is outside its range.
     fn validate(&self) -> Result<(), SettingError>;
 }
 
-/// One of the thesis' agents. Errors are candle's, where networks no longer give finite numbers or an array has another size, and
-/// those of files that do not fit the settings.
-#[expect(clippy::missing_errors_doc, reason = "said of all of them at once")]
+/// One of the thesis' agents. Methods fail with candle's errors if the networks no longer return finite numbers or an array has another
+/// size, and with the errors of files that do not fit the settings.
+#[expect(clippy::missing_errors_doc, reason = "the trait's documentation states the errors of all methods")]
 pub trait Agent: std::fmt::Debug + Send + Sized {
     /// Name on the command line and in files.
     const NAME: &'static str;
 
-    /// What it is, in one line for people.
+    /// Description in one line, for users.
     const TITLE: &'static str;
 
-    /// Its settings.
+    /// The type of the agent's settings.
     type Settings: Settings;
 
-    /// An untrained agent.
+    /// Creates an untrained agent.
     fn new(settings: Self::Settings, rng: &mut Xoshiro256PlusPlus) -> Result<Self, Error>;
 
-    /// Its settings.
+    /// The agent's settings.
     fn settings(&self) -> &Self::Settings;
 
-    /// How far its learning has come.
+    /// Progress of the learning.
     fn progress(&self) -> Progress;
 
-    /// What it does while it learns.
+    /// Chooses an action with exploration, for training.
     fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error>;
 
-    /// What it thinks best.
+    /// Chooses the action that the agent values most, without exploration.
     fn best(&self, seen: &Observation) -> Result<Choice, Error>;
 
-    /// Looks for lessons before a shot is played, which only some agents do.
+    /// Looks for lessons before a shot is played. The default does nothing, because only some agents use lessons.
     fn study(
         &mut self,
         _environment: &impl Environment,
@@ -110,32 +110,32 @@ pub trait Agent: std::fmt::Debug + Send + Sized {
     ) {
     }
 
-    /// Remembers a shot and learns from those that it remembers; nothing as long as these are too few.
+    /// Stores a shot and makes an update from the stored shots. Returns `None`, without an update, while they are too few.
     fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error>;
 
-    /// Adds the arrays of its state to a file and returns everything else.
+    /// Adds the arrays of the state to a file and returns the rest of the state as a note.
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError>;
 
-    /// The agent whose [`Agent::save`] filled the file and returned `note`.
+    /// Restores the agent whose [`Agent::save`] filled the file and returned `note`.
     fn restore(settings: Self::Settings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError>;
 
-    /// Takes what it plays by, and nothing else, from such a file.
+    /// Loads only the weights or the table by which the agent plays, from a file that [`Agent::save`] filled.
     fn load_weights(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError>;
 }
 
-/// Where an agent and its environment are in their episodes.
+/// State of an agent and its environment within their episodes.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct EpisodeState {
-    /// Whether an episode is going on.
+    /// Whether an episode is in progress.
     running: bool,
 }
 
 impl EpisodeState {
-    /// Plays a shot and learns (Algorithms 2 to 4), beginning an episode where none is going on. Returns the shot's reward and
-    /// what was learnt after it.
+    /// Plays a shot and learns (Algorithms 2 to 4). Begins an episode if none is in progress. Returns the shot's reward and
+    /// the statistics of the update after it.
     ///
     /// # Errors
-    /// Where the networks no longer give finite numbers.
+    /// Fails if the networks no longer return finite numbers.
     pub fn shoot<A: Agent>(
         &mut self,
         agent: &mut A,
@@ -155,10 +155,10 @@ impl EpisodeState {
     }
 }
 
-/// Shots of an iteration. As many as the agents play before their first update, so that updates come in whole hundreds.
+/// Shots per iteration: as many as the agents play before their first update, so that the number of updates is a multiple of 100.
 const SHOTS_PER_ITERATION: u64 = 100;
 
-/// The line of a thesis' agent in the list of agents.
+/// Returns the entry of a thesis agent in the list of agents.
 pub(crate) const fn kind_of<A: Agent + 'static>() -> AgentKind {
     AgentKind {
         name: A::NAME,
@@ -197,7 +197,7 @@ struct TrainingLoop<A> {
     state: State,
 }
 
-/// What a file holds beside arrays.
+/// The JSON note of a file, next to its arrays.
 #[derive(Serialize, Deserialize)]
 struct Note<S> {
     settings: S,
@@ -206,7 +206,7 @@ struct Note<S> {
     state: State,
 }
 
-/// What there is beside the agent.
+/// State of the training loop other than the agent's.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct State {
     plan: TrainingPlan,
@@ -265,7 +265,7 @@ impl<A: Agent> Learner for TrainingLoop<A> {
         let play = |layout| {
             let choice = self.agent.best(&self.state.game.observation(layout))?;
             let State { plan, game, .. } = &self.state;
-            // As every other agent is measured: on a table with room for the cue, a stroke without any earns nothing.
+            // Scored like every other agent: on a table that checks the room for the cue, a stroke without room earns nothing.
             let reward = plan.reward.with_room(&game.table, layout, &cue_inputs(choice.action), u32::MAX);
             Ok((reward, reward >= 1.0))
         };

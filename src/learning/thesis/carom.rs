@@ -1,4 +1,4 @@
-//! The game as the thesis' agents play it: raw positions in, direction and speed out, a reward for every shot.
+//! Carom billiards as the environment of the thesis' agents: raw positions in, direction and speed out, a reward for every shot.
 
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
@@ -15,21 +15,21 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// When an episode is over. The thesis does not say; its mean rewards, below the most that one shot earns, and its
-/// discount factor of 0.99 speak for one reading each.
+/// When an episode ends. The thesis does not state it. Its mean rewards, which are below the maximum of one shot, suggest one-shot
+/// episodes; its discount factor of 0.99 suggests longer ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Episode {
     /// After one shot: every shot is played on a fresh layout.
     #[default]
     OneShot,
-    /// After so many shots, each played from where the balls have stopped.
+    /// After this number of shots, each played from where the balls have stopped.
     Shots(u32),
-    /// After a miss, or after so many shots, each played from where the balls have stopped.
+    /// After a miss, or after this number of shots, each played from where the balls have stopped.
     UntilMiss(u32),
 }
 
-/// Rows and columns of the squares in which a table has states (4.2.2).
+/// Rows and columns of the squares that define the discrete states of tabular Q-learning (4.2.2).
 const SQUARES: [u32; 2] = [6, 12];
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -47,14 +47,14 @@ impl Carom {
         Self { layout: Layout::opening(&table), table, reward, episode, shots: 0 }
     }
 
-    /// What an agent sees of a layout.
+    /// Returns the agent's observation of a layout.
     pub fn observation(&self, layout: &Layout) -> Observation {
         let reach = self.table.reach();
         let (mut state, mut cell) = ([0.0; 6], 0);
-        for (place, ball) in state.chunks_exact_mut(2).zip(layout.balls) {
-            place[0] = (ball.x / reach.x) as f32;
-            place[1] = (ball.y / reach.y) as f32;
-            // The square whose centre is nearest is the one that the ball's centre lies in.
+        for (position, ball) in state.chunks_exact_mut(2).zip(layout.balls) {
+            position[0] = (ball.x / reach.x) as f32;
+            position[1] = (ball.y / reach.y) as f32;
+            // The square with the nearest centre is the one that contains the ball's centre.
             let square = |part: f64, count: u32| ((0.5 * (part + 1.0) * f64::from(count)) as u32).min(count - 1);
             let row = square(ball.y / self.table.half_width(), SQUARES[0]);
             let column = square(ball.x / self.table.half_length(), SQUARES[1]);
@@ -63,13 +63,13 @@ impl Carom {
         Observation { state, cell }
     }
 
-    /// The reward of `action` on a layout, by itself.
+    /// Returns the reward of `action` on a layout, without changing the game.
     pub fn reward_of(&self, layout: &Layout, action: Action) -> f64 {
         self.reward.of(&self.table, layout, &cue_inputs(action))
     }
 
-    /// Plays on from where the balls are; returns the reward and whether the shot was a miss.
-    fn go_on(&mut self, action: Action) -> (f64, bool) {
+    /// Plays the next shot of the game to its end; returns the reward and whether the shot was a miss.
+    fn play_on(&mut self, action: Action) -> (f64, bool) {
         let mut referee = Referee::to_the_end();
         let end = simulate(&self.table, &self.layout, &strike(&self.table, &cue_inputs(action)), &mut referee);
         let tally = referee.tally;
@@ -107,16 +107,16 @@ impl Environment for Carom {
         match self.episode {
             // Nothing follows, so the shot need not be played to its end.
             Episode::OneShot => Outcome { reward: self.reward_of(&self.layout, action), over: true },
-            Episode::Shots(most) => Outcome { reward: self.go_on(action).0, over: self.shots >= most },
+            Episode::Shots(most) => Outcome { reward: self.play_on(action).0, over: self.shots >= most },
             Episode::UntilMiss(most) => {
-                let (reward, missed) = self.go_on(action);
+                let (reward, missed) = self.play_on(action);
                 Outcome { reward, over: missed || self.shots >= most }
             }
         }
     }
 }
 
-/// A shot without spin (4.1.3).
+/// Returns the cue inputs of an action: a shot without spin (4.1.3).
 pub fn cue_inputs(action: Action) -> CueInputs {
     let [phi, speed] = direction_and_speed(action);
     CueInputs { a: 0.0, b: 0.0, theta: 10_f64.to_radians(), phi, speed }
@@ -145,12 +145,12 @@ mod tests {
     }
 
     #[test]
-    fn a_game_goes_on_where_the_balls_have_stopped_until_the_episode_is_over() {
+    fn a_game_continues_from_the_final_positions_until_the_episode_ends() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
         let mut game = Carom::new(thesis(), Reward::R1, Episode::Shots(2));
         game.layout = Layout::opening(&game.table);
         let before = game.observe();
-        // Straight along the table at the red ball.
+        // A shot straight along the table at the red ball.
         assert_eq!(game.act([0.0, 1.0]), Outcome { reward: 1.0, over: false });
         assert_ne!(game.observe(), before);
         assert!(game.act([0.0, 1.0]).over);

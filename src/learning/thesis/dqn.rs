@@ -27,11 +27,11 @@ use crate::learning::{
     settings::{SettingError, check_batch, check_count, check_layers, check_positive, check_share},
 };
 
-/// Settings of [`Dqn`]: Tables 2 and 3; the thesis says nothing on epsilon.
+/// Settings of [`Dqn`]: Tables 2 and 3; the thesis does not state epsilon.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DqnSettings {
-    /// When an episode is over.
+    /// When an episode ends.
     pub episode: Episode,
     /// Units of the hidden layers.
     pub layers: Vec<usize>,
@@ -39,15 +39,15 @@ pub struct DqnSettings {
     pub learning_rate: f64,
     /// Updates between two copies to the target network.
     pub target_every: u32,
-    /// Transitions remembered.
+    /// Capacity of the replay buffer, in transitions.
     pub memory: usize,
-    /// What a reward one shot later is worth now.
+    /// Discount factor of a reward one shot later.
     pub discount: f64,
-    /// Transitions an update learns from.
+    /// Transitions in the minibatch of an update.
     pub batch: usize,
     /// Shots before the first update.
     pub warm_up: usize,
-    /// The probability of a random action.
+    /// Schedule of the probability of a random action.
     pub epsilon: Epsilon,
 }
 
@@ -84,7 +84,7 @@ impl Settings for DqnSettings {
     }
 }
 
-/// The agent.
+/// The deep Q-learning agent.
 #[derive(Debug)]
 pub struct Dqn {
     settings: DqnSettings,
@@ -113,12 +113,12 @@ impl DqnSettings {
 }
 
 impl Dqn {
-    /// Learns from a batch that is drawn from the memory.
+    /// Makes one update with a minibatch from the replay buffer.
     fn update(&mut self, rng: &mut Xoshiro256PlusPlus) -> Result<UpdateStats, Error> {
         let batch = Batch::new(&self.replay.sample(self.settings.batch, rng), self.settings.discount)?;
-        let wanted = batch.targets(|states| self.target.forward_frozen(states)?.max_keepdim(1))?;
+        let targets = batch.targets(|states| self.target.forward_frozen(states)?.max_keepdim(1))?;
         let values = self.online.forward(&batch.states)?;
-        let loss = squared_error(&values.gather(&batch.indices, 1)?, &wanted)?;
+        let loss = squared_error(&values.gather(&batch.indices, 1)?, &targets)?;
         self.optimiser.backward_step(&loss)?;
         let value = values.detach().max(1)?.mean_all()?;
         if self.optimiser.steps().is_multiple_of(self.settings.target_every) {

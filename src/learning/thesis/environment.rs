@@ -1,22 +1,22 @@
-//! What an agent of the thesis plays against: states, actions, rewards (its 4.1).
+//! The environment interface of the thesis' agents: states, actions and rewards (thesis 4.1).
 
 use std::f64::consts::PI;
 
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// Numbers of a state: where the three balls lie (equation 43).
+/// Numbers in a state: the positions of the three balls (equation 43).
 pub const STATES: usize = 6;
 
-/// Numbers of an action: direction and speed (4.1.3).
+/// Numbers in an action: direction and speed (4.1.3).
 pub const ACTIONS: usize = 2;
 
 /// A state, each number from -1 to 1.
 pub type State = [f32; STATES];
 
-/// An action; numbers outside -1 to 1 are taken as the nearest of these.
+/// An action; numbers outside -1 to 1 are clamped to this range.
 pub type Action = [f32; ACTIONS];
 
-/// Directions of the discrete actions: -180° to 180° in steps of 5°, both ends counted as the thesis does.
+/// Directions of the discrete actions: -180° to 180° in steps of 5°. As in the thesis, both ends count.
 const DIRECTIONS: u32 = 73;
 
 /// Speeds of the discrete actions: 0.5 to 6 m/s in steps of 0.5 m/s.
@@ -28,30 +28,30 @@ pub const DISCRETE_ACTIONS: u32 = DIRECTIONS * SPEEDS;
 /// Slowest and fastest shot, m/s.
 const SPEED: [f64; 2] = [0.5, 6.0];
 
-/// The discrete action number `index` as an action.
+/// Returns the action of the discrete action `index`.
 pub fn discrete_action(index: u32) -> Action {
     let (direction, speed) = (index / SPEEDS % DIRECTIONS, index % SPEEDS);
     let part = |value: u32, count: u32| 2.0 * value as f32 / (count - 1) as f32 - 1.0;
     [part(direction, DIRECTIONS), part(speed, SPEEDS)]
 }
 
-/// Direction (rad) and speed (m/s) of an action.
+/// Returns the direction (rad) and the speed (m/s) of an action.
 pub fn direction_and_speed(action: Action) -> [f64; 2] {
-    // An action that is not a number becomes the middle, so that a broken network still gives a shot.
+    // NaN becomes the middle of the range, so that a broken network still plays a shot.
     let [direction, speed] = action.map(|value| if value.is_nan() { 0.0 } else { f64::from(value.clamp(-1.0, 1.0)) });
     [PI * direction, SPEED[0] + 0.5 * (SPEED[1] - SPEED[0]) * (speed + 1.0)]
 }
 
-/// What an agent sees.
+/// An agent's observation of the environment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Observation {
     /// The state.
     pub state: State,
-    /// Number of the state among the discrete ones, for agents that look it up in a table.
+    /// Index of the discrete state, for tabular agents.
     pub cell: u32,
 }
 
-/// What came of an action.
+/// Outcome of an action.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// The reward.
@@ -60,23 +60,23 @@ pub struct Outcome {
     pub over: bool,
 }
 
-/// Something to be played.
+/// A game that an agent plays.
 pub trait Environment {
     /// Begins an episode.
     fn begin(&mut self, rng: &mut Xoshiro256PlusPlus);
 
-    /// What is to be seen now.
+    /// Returns the current observation.
     fn observe(&self) -> Observation;
 
     /// Carries out an action.
     fn act(&mut self, action: Action) -> Outcome;
 
-    /// What an action would earn now, by itself: nothing is carried out. Nought where nobody can tell.
+    /// Returns the reward that an action would earn now, without carrying it out; 0 if the environment does not support this.
     fn would_earn(&self, _action: Action) -> f64 {
         0.0
     }
 
-    /// States, much like the present one, in which an action would succeed. None where nobody can tell.
+    /// Returns states similar to the present one in which an action would succeed; none if the environment does not support this.
     fn in_hindsight(&self, _action: Action, _rng: &mut Xoshiro256PlusPlus) -> Vec<State> {
         Vec::new()
     }

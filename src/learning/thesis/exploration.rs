@@ -1,4 +1,4 @@
-//! How the thesis' agents try what they would not choose: epsilon-greedy (4.2.1) and Ornstein-Uhlenbeck noise.
+//! Exploration of the thesis' agents: epsilon-greedy (4.2.1) and Ornstein-Uhlenbeck noise.
 
 use rand::Rng;
 use serde::{Deserialize, Serialize};
@@ -6,53 +6,54 @@ use serde::{Deserialize, Serialize};
 use super::environment::{ACTIONS, Action};
 use crate::statistics::normal_pair;
 
-/// The probability of a random action, which falls in a straight line.
+/// Schedule of the probability of a random action, which falls linearly.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "first, last and over, or some of them, like { last = 0.1 }")]
 pub struct Epsilon {
-    /// At the first shot.
+    /// Probability at the first shot.
     pub first: f64,
-    /// From shot number `over` on.
+    /// Probability from shot number `over` on.
     pub last: f64,
-    /// Shots over which it falls.
+    /// Number of shots over which the probability falls.
     pub over: u64,
 }
 
 impl Epsilon {
-    /// The probability after so many shots.
+    /// Returns the probability after `shots` shots.
     pub fn after(&self, shots: u64) -> f64 {
         let done = (shots as f64 / self.over.max(1) as f64).min(1.0);
         self.first + done * (self.last - self.first)
     }
 }
 
-/// The process of Ornstein and Uhlenbeck around nought, as keras-rl steps it: `x += -theta x dt + sigma sqrt(dt) n`.
+/// An Ornstein-Uhlenbeck process with mean zero, discretised as in keras-rl: `x += -theta x dt + sigma sqrt(dt) n`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "theta, sigma and dt, or some of them, like { sigma = 0.3 }")]
 pub struct OrnsteinUhlenbeck {
-    /// How fast it falls back to nought.
+    /// Rate of return to zero.
     pub theta: f64,
-    /// How strongly it is pushed.
+    /// Strength of the random part.
     pub sigma: f64,
     /// Time between two shots.
     pub dt: f64,
 }
 
 impl OrnsteinUhlenbeck {
-    /// Standard deviation of the noise on a shot: of the first step where it restarts with each, else in the long run.
+    /// Returns the standard deviation of the noise on a shot: that of the first step if the process `restarts` with every shot, else
+    /// the stationary one.
     pub fn deviation(&self, restarts: bool) -> f64 {
-        let pushed = self.sigma * self.dt.sqrt();
-        let kept = 1.0 - self.theta * self.dt;
-        // A process that keeps all of itself has no long run.
-        if restarts || kept.abs() >= 1.0 { pushed } else { pushed / (1.0 - kept * kept).sqrt() }
+        let step = self.sigma * self.dt.sqrt();
+        let retained = 1.0 - self.theta * self.dt;
+        // A process that does not decay has no stationary deviation.
+        if restarts || retained.abs() >= 1.0 { step } else { step / (1.0 - retained * retained).sqrt() }
     }
 
-    /// The next value after `now`.
+    /// Draws the next value after `now`.
     pub fn step(&self, now: Action, rng: &mut (impl Rng + ?Sized)) -> Action {
-        let push = (self.sigma * self.dt.sqrt()) as f32;
+        let step = (self.sigma * self.dt.sqrt()) as f32;
         let noise = normal_pair(rng).map(|noise| noise as f32);
-        let kept = (1.0 - self.theta * self.dt) as f32;
-        std::array::from_fn::<f32, ACTIONS, _>(|index| kept * now[index] + push * noise[index])
+        let retained = (1.0 - self.theta * self.dt) as f32;
+        std::array::from_fn::<f32, ACTIONS, _>(|index| retained * now[index] + step * noise[index])
     }
 }
 
@@ -79,7 +80,7 @@ mod tests {
             product += f64::from(next[1] * now[1]);
             now = next;
         }
-        // Variance of x' = a x + s n: s² / (1 - a²), and a for the correlation of neighbours.
+        // x' = a x + s n has the variance s² / (1 - a²) and the correlation a between neighbours.
         let expected = 0.09 / (1.0 - 0.85 * 0.85);
         assert!((square / f64::from(count) - expected).abs() < 0.01 * expected * 3.0);
         assert!((product / square - 0.85).abs() < 0.01);

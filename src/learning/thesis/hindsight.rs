@@ -1,5 +1,5 @@
-//! Hindsight (Andrychowicz et al. 2017; thesis 6.1.1): a shot that met one ball would have made the point, had the other lain
-//! on the cue ball's way.
+//! Hindsight relabelling (Andrychowicz et al. 2017; thesis 6.1.1): a shot that hits one object ball makes the point if the other
+//! object ball is moved onto the cue ball's path.
 
 use std::ops::ControlFlow;
 
@@ -14,20 +14,22 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Moments of a shot that are tried.
+/// Number of moments drawn for one shot.
 const MOMENTS: usize = 20;
 
-/// They are drawn from so long a time after the first meeting, s: hardly any cue ball still rolls then.
+/// Length of the time after the first hit from which the moments are drawn, s. Hardly any cue ball still rolls at its end.
 const HORIZON: f64 = 8.0;
 
-/// Speed from which a moment is always taken, m/s. Slower ones are taken as seldom as they are slow, so that places lie evenly
-/// along the way and not where the ball dawdles.
-const ALWAYS: f64 = 5.0;
+/// Cue-ball speed from which a drawn moment is always accepted, m/s. Below it the probability is proportional to the speed, so that
+/// the positions are uniform along the path and not concentrated where the ball is slow.
+const FULL_ACCEPTANCE_SPEED: f64 = 5.0;
 
-/// `layout` with the ball that `cue` met last or not at all moved to where the shot makes the point; each is played to be sure.
-/// The places are uniform in the area that the cue ball sweeps, but that those count twice which it passes twice, and the more the
-/// larger that is: about as if a great many layouts had been drawn and those kept in which this very shot succeeds. Places chosen
-/// otherwise teach about layouts that do not come up.
+/// Returns copies of `layout` in which the object ball that `cue` hits last or not at all is moved to where the shot makes the point.
+/// A simulation verifies each of them.
+///
+/// The positions are uniform in the area that the cue ball sweeps, except that an area swept twice counts twice, and their number
+/// grows with the area. This resembles drawing very many layouts and keeping those in which this shot succeeds. Positions with
+/// another distribution would train the agent on layouts that do not occur.
 pub fn layouts(
     table: &Table,
     reward: Reward,
@@ -35,69 +37,69 @@ pub fn layouts(
     cue: &CueInputs,
     rng: &mut (impl Rng + ?Sized),
 ) -> Vec<Layout> {
-    let way = CueWay::of(table, layout, cue);
-    let Some((first, begin)) = way.met else { return Vec::new() };
-    let mut place = || {
+    let path = CuePath::of(table, layout, cue);
+    let Some((first, begin)) = path.first_hit else { return Vec::new() };
+    let mut draw = || {
         let [moment, speed, across] = rng.random::<[f64; 3]>();
-        let [position, velocity] = way.at(begin + HORIZON * moment)?;
-        let direction = velocity.try_normalize().filter(|_| velocity.length() >= ALWAYS * speed)?;
-        // A ball that lies anywhere across the way is met at the angle whose sine says how far aside.
+        let [position, velocity] = path.at(begin + HORIZON * moment)?;
+        let direction = velocity.try_normalize().filter(|_| velocity.length() >= FULL_ACCEPTANCE_SPEED * speed)?;
+        // The ball's lateral offset from the path is uniform; in units of two radii it is the sine of the impact angle.
         let side = DVec2::from_angle((2.0 * across - 1.0).asin());
         let mut moved = *layout;
         moved.balls[3 - first] = position + 2.0 * table.radius * side.rotate(direction);
         moved.validate(table).ok()?;
         (reward.within(table, &moved, cue, CONTACT_STEPS) >= 1.0).then_some(moved)
     };
-    (0..MOMENTS).filter_map(|_| place()).collect()
+    (0..MOMENTS).filter_map(|_| draw()).collect()
 }
 
-/// The cue ball's way in a shot after it has met its first ball.
+/// The cue ball's path in a shot after its first hit of an object ball.
 #[derive(Debug)]
-struct CueWay {
-    /// The ball that the cue ball met first, and when, s.
-    met: Option<(usize, f64)>,
-    /// Pieces of the way and when they end, s.
+struct CuePath {
+    /// The object ball that the cue ball hits first, and the time, s.
+    first_hit: Option<(usize, f64)>,
+    /// Segments of the path with their end times, s.
     segments: Vec<(Segment, f64)>,
-    patience: StepBudget,
+    contact_steps: StepBudget,
 }
 
-impl CueWay {
-    /// Plays a shot, with at most [`CONTACT_STEPS`] steps of resting contacts.
+impl CuePath {
+    /// Simulates a shot, with at most [`CONTACT_STEPS`] steps of resting contacts.
     fn of(table: &Table, layout: &Layout, cue: &CueInputs) -> Self {
-        let mut way = Self { met: None, segments: Vec::new(), patience: StepBudget(CONTACT_STEPS) };
-        watch(table, layout, &strike(table, cue), &mut way);
-        way
+        let mut path = Self { first_hit: None, segments: Vec::new(), contact_steps: StepBudget(CONTACT_STEPS) };
+        watch(table, layout, &strike(table, cue), &mut path);
+        path
     }
 
-    /// Where the cue ball was at `time` and how fast, m and m/s; nothing before its first meeting or after its end.
+    /// Returns the cue ball's position (m) and velocity (m/s) at `time`; `None` before the first hit and after the path's end.
     fn at(&self, time: f64) -> Option<[DVec2; 2]> {
         let (segment, _) = self.segments.iter().find(|(segment, end)| segment.start <= time && time <= *end)?;
         Some([segment.position_after(time - segment.start), segment.velocity_after(time - segment.start)])
     }
 }
 
-impl Observer for CueWay {
+impl Observer for CuePath {
     fn wants_segments(&self) -> bool {
         true
     }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         if let EventKind::BallBall(0, ball) = event.kind
-            && self.met.is_none()
+            && self.first_hit.is_none()
         {
-            self.met = Some((ball, event.time));
+            self.first_hit = Some((ball, event.time));
         }
         ControlFlow::Continue(())
     }
 
     fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
-        if ball == 0 && self.met.is_some() {
+        if ball == 0 && self.first_hit.is_some() {
             self.segments.push((segment.clone(), end));
         }
     }
 
     fn contact_step(&mut self) -> ControlFlow<()> {
-        self.patience.step()
+        self.contact_steps.step()
     }
 }
 
@@ -126,8 +128,8 @@ mod tests {
     }
 
     #[test]
-    fn places_are_as_random_layouts_in_which_the_shot_succeeds_have_them() {
-        // One shot at a ball; the third anywhere. Where the point is made, how far from the cue ball does it lie?
+    fn positions_are_distributed_as_in_random_layouts_in_which_the_shot_succeeds() {
+        // One fixed shot at a ball, and the third ball anywhere. The test compares its distance from the cue ball when the point is made.
         let (table, mut rng) = (Table::preset("thesis").unwrap(), Xoshiro256PlusPlus::seed_from_u64(32));
         let cue = cue_inputs([0.0, 0.2]);
         let layout = |third| Layout::new([DVec2::new(-0.8, 0.0), DVec2::new(-0.3, 0.03), third]);
@@ -153,7 +155,7 @@ mod tests {
             layouts.iter().map(|layout| layout.balls[0].distance(layout.balls[2])).sum::<f64>() / layouts.len() as f64
         };
         assert!(drawn.len() > 200 && moved.len() > 200, "{} {}", drawn.len(), moved.len());
-        // A place that the way passes twice counts twice: it is not quite the same.
+        // The means differ a little, because a position that the path passes twice counts twice.
         assert!((mean(&drawn) / mean(&moved) - 1.0).abs() < 0.1, "{} {}", mean(&drawn), mean(&moved));
     }
 }

@@ -1,5 +1,5 @@
-//! Shots that make a point, from which the plain actor learns beside its own: seen in hindsight (thesis 6.1.1) or
-//! demonstrated (6.1.2). Each kind has a memory of its own and a share of every batch.
+//! Lessons: shots that make the point, from which the plain actor learns in addition to its own shots. They come from hindsight
+//! relabelling (thesis 6.1.1) or from demonstrations (6.1.2). Each kind has its own replay buffer and a share of every minibatch.
 
 use rand::{Rng, RngExt};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -15,30 +15,32 @@ use crate::learning::{
     replay::ReplayBuffer,
 };
 
-/// The memories of both kinds, in the order of their [`NAMES`].
+/// The replay buffers of both kinds of lessons, in the order of their [`NAMES`].
 #[derive(Debug)]
 pub struct Lessons {
-    memories: [ReplayBuffer<StoredTransition>; 2],
+    buffers: [ReplayBuffer<StoredTransition>; 2],
+    /// Layouts on which demonstrations have been sought.
     layouts: u64,
 }
 
-/// What a checkpoint says of them beside arrays.
+/// The lessons' part of a checkpoint's note, next to its arrays.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct LessonsState {
     next: [usize; 2],
     layouts: u64,
 }
 
-/// Names of the memories in a checkpoint.
+/// Names of the buffers in a checkpoint.
 const NAMES: [&str; 2] = ["hindsight", "demonstrations"];
 
 impl Lessons {
-    /// Empty memories for `capacity` lessons each.
+    /// Creates empty buffers for `capacity` lessons each.
     pub fn new(capacity: usize) -> Self {
-        Self { memories: NAMES.map(|_| ReplayBuffer::new(capacity)), layouts: 0 }
+        Self { buffers: NAMES.map(|_| ReplayBuffer::new(capacity)), layouts: 0 }
     }
 
-    /// Looks for lessons before `action` is played: where it would have made the point, and what makes it here.
+    /// Looks for lessons before `action` is played: states in which `action` makes the point (hindsight), and random actions that make
+    /// it in the present state (demonstrations).
     pub fn seek(
         &mut self,
         settings: &PlainDdpgSettings,
@@ -47,7 +49,7 @@ impl Lessons {
         action: Action,
         rng: &mut Xoshiro256PlusPlus,
     ) {
-        let [hindsight, demonstrations] = &mut self.memories;
+        let [hindsight, demonstrations] = &mut self.buffers;
         if settings.hindsight > 0.0 {
             for state in environment.in_hindsight(action, rng) {
                 hindsight.push(lesson(state, action));
@@ -64,25 +66,25 @@ impl Lessons {
         }
     }
 
-    /// So many lessons of each kind, drawn uniformly; none of a kind of which there is none yet.
+    /// Draws `rows` lessons of each kind uniformly; none of a kind whose buffer is empty.
     pub fn sample(&self, rows: [usize; 2], rng: &mut (impl Rng + ?Sized)) -> Vec<StoredTransition> {
-        self.memories.iter().zip(rows).flat_map(|(memory, rows)| memory.sample(rows, rng)).collect()
+        self.buffers.iter().zip(rows).flat_map(|(buffer, rows)| buffer.sample(rows, rng)).collect()
     }
 
-    /// Adds both memories to a file and returns everything else.
+    /// Adds both buffers to a file and returns the rest of the state.
     pub fn save(&self, writer: &mut Writer) -> LessonsState {
-        let next = [0, 1].map(|kind| replay::save(&self.memories[kind], NAMES[kind], writer));
+        let next = [0, 1].map(|kind| replay::save(&self.buffers[kind], NAMES[kind], writer));
         LessonsState { next, layouts: self.layouts }
     }
 
-    /// The memories that [`Lessons::save`] wrote.
+    /// Restores the buffers that [`Lessons::save`] wrote.
     pub fn restore(capacity: usize, reader: &Reader<'_>, state: LessonsState) -> Result<Self, WeightsError> {
-        let memory = |kind: usize| replay::restore(capacity, reader, NAMES[kind], state.next[kind]);
-        Ok(Self { memories: [memory(0)?, memory(1)?], layouts: state.layouts })
+        let buffer = |kind: usize| replay::restore(capacity, reader, NAMES[kind], state.next[kind]);
+        Ok(Self { buffers: [buffer(0)?, buffer(1)?], layouts: state.layouts })
     }
 }
 
-/// A shot that makes the point. Actions out of range are carried out as the nearest inside, so that is what is learnt.
+/// Returns a lesson: a shot that makes the point. The game clamps actions to their range, so the lesson contains the clamped action.
 fn lesson(state: State, action: Action) -> StoredTransition {
     let action = action.map(|value| value.clamp(-1.0, 1.0));
     StoredTransition { state, action, index: 0, reward: 1.0, goes_on: false, next: state }

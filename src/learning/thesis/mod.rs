@@ -1,7 +1,7 @@
 //! The thesis' three agents (its chapter 4): Q-learning, deep Q-learning and a plain deep deterministic policy gradient.
 //!
-//! An [`agent`] plays against an [`environment`], which is `carom` or anything else that has states of six numbers
-//! and actions of two. What the thesis found with them, and what they find here, is in `docs/thesis.md`.
+//! An [`agent`] plays in an [`environment`], which is `carom` or any other with states of six numbers and actions of two.
+//! `docs/thesis.md` compares the results of the thesis with those of this program.
 
 pub(crate) mod actor_critic;
 pub mod agent;

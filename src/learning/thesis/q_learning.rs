@@ -1,4 +1,4 @@
-//! Q-learning with a table (thesis Algorithm 2).
+//! Tabular Q-learning (thesis Algorithm 2).
 
 use std::collections::BTreeMap;
 
@@ -20,17 +20,17 @@ use crate::learning::{
     settings::{SettingError, check, check_positive, check_share},
 };
 
-/// Settings of [`QLearning`]. The thesis gives the squares, the actions and epsilon-greedy, but no numbers.
+/// Settings of [`QLearning`]. The thesis states the squares, the actions and epsilon-greedy, but no values of these settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct QLearningSettings {
-    /// When an episode is over.
+    /// When an episode ends.
     pub episode: Episode,
-    /// Part of the way that a value goes to its target (alpha in equation 54).
+    /// Fraction by which a value moves towards its target (alpha in equation 54).
     pub learning_rate: f64,
-    /// What a reward one shot later is worth now.
+    /// Discount factor of a reward one shot later.
     pub discount: f64,
-    /// The probability of a random action.
+    /// Schedule of the probability of a random action.
     pub epsilon: Epsilon,
 }
 
@@ -71,11 +71,11 @@ pub(super) fn check_epsilon(epsilon: &Epsilon) -> Result<(), SettingError> {
     check_share("epsilon.last", epsilon.last)
 }
 
-/// The agent. Its table begins at nought everywhere; only what has been tried takes room.
+/// The tabular Q-learning agent. All values start at zero; the table stores only the state-action pairs that were tried.
 #[derive(Debug)]
 pub struct QLearning {
     settings: QLearningSettings,
-    /// For each state the actions tried there and their values.
+    /// For each state, the actions tried in it and their values.
     table: BTreeMap<u32, Vec<(u32, f32)>>,
     shots: u64,
 }
@@ -86,20 +86,20 @@ struct QLearningState {
 }
 
 impl QLearning {
-    /// The best action that has earned anything in a state, and its value.
-    fn favourite(&self, cell: u32) -> Option<(u32, f32)> {
+    /// Returns the action with the highest positive value in a state, and the value.
+    fn best_known(&self, cell: u32) -> Option<(u32, f32)> {
         let tried = self.table.get(&cell)?;
-        // Rewards are not negative, so an action without a positive value is no better than one never tried.
+        // Rewards are not negative, so an action without a positive value is no better than an untried one.
         tried.iter().filter(|(_, value)| *value > 0.0).copied().max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     fn value_mut(&mut self, cell: u32, index: u32) -> &mut f32 {
         let tried = self.table.entry(cell).or_default();
-        let place = tried.iter().position(|(known, _)| *known == index).unwrap_or_else(|| {
+        let position = tried.iter().position(|(known, _)| *known == index).unwrap_or_else(|| {
             tried.push((index, 0.0));
             tried.len() - 1
         });
-        &mut tried[place].1
+        &mut tried[position].1
     }
 }
 
@@ -126,20 +126,20 @@ impl Agent for QLearning {
     }
 
     fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
-        let any = rng.random_bool(self.settings.epsilon.after(self.shots));
-        let index = if any { None } else { self.favourite(seen.cell).map(|(index, _)| index) };
-        // Among equals, chance decides.
+        let is_random = rng.random_bool(self.settings.epsilon.after(self.shots));
+        let index = if is_random { None } else { self.best_known(seen.cell).map(|(index, _)| index) };
+        // Without a positive value all actions are equal: the choice is random.
         Ok(Choice::discrete(index.unwrap_or_else(|| rng.random_range(0..DISCRETE_ACTIONS))))
     }
 
     fn best(&self, seen: &Observation) -> Result<Choice, Error> {
-        // Among equals, a chance that is the same whenever the state is met.
-        let any = || Xoshiro256PlusPlus::seed_from_u64(u64::from(seen.cell)).random_range(0..DISCRETE_ACTIONS);
-        Ok(Choice::discrete(self.favourite(seen.cell).map_or_else(any, |(index, _)| index)))
+        // Without a positive value the choice is random, but always the same for one state.
+        let random = || Xoshiro256PlusPlus::seed_from_u64(u64::from(seen.cell)).random_range(0..DISCRETE_ACTIONS);
+        Ok(Choice::discrete(self.best_known(seen.cell).map_or_else(random, |(index, _)| index)))
     }
 
     fn learn(&mut self, transition: &Transition, _rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {
-        let highest = |cell| self.favourite(cell).map_or(0.0, |(_, value)| f64::from(value));
+        let highest = |cell| self.best_known(cell).map_or(0.0, |(_, value)| f64::from(value));
         let value = highest(transition.before.cell);
         let next = if transition.goes_on { highest(transition.after.cell) } else { 0.0 };
         let target = transition.reward + self.settings.discount * next;
@@ -153,7 +153,7 @@ impl Agent for QLearning {
 
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError> {
         let entries = || self.table.iter().flat_map(|(cell, tried)| tried.iter().map(move |entry| (*cell, *entry)));
-        // States and actions are numbers below 2^24: exact.
+        // Indices of states and actions are below 2^24, so `f32` represents them exactly.
         let numbers: Vec<f32> =
             entries().flat_map(|(cell, (index, value))| [cell as f32, index as f32, value]).collect();
         writer.add("table", &[numbers.len() / 3, 3], &numbers);

@@ -1,5 +1,4 @@
-//! The library of experiences (thesis 4.3.1): what is remembered of a shot, a replay buffer of these in a file, and a batch of them
-//! to learn from.
+//! Experience replay (thesis 4.3.1): the stored form of a transition, replay buffers in files, and minibatches.
 
 use candle_core::{Device, Error, Tensor};
 
@@ -12,25 +11,26 @@ use crate::learning::{
     replay::ReplayBuffer,
 };
 
+/// A transition as the replay buffer stores it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StoredTransition {
     pub state: State,
     pub action: Action,
-    /// Its number among the discrete actions, for agents that have them.
+    /// Index of the action, for agents with discrete actions.
     pub index: u32,
     pub reward: f32,
     pub goes_on: bool,
     pub next: State,
 }
 
-/// The name of a library of one's own shots in a file.
+/// Name, in a file, of the replay buffer with the agent's own shots.
 pub const MEMORY: &str = "memory";
 
-/// Numbers of a transition in a file.
+/// Numbers per transition in a file.
 const NUMBERS: usize = 2 * STATES + ACTIONS + 3;
 
 impl StoredTransition {
-    /// What is remembered of a transition.
+    /// Converts a transition to its stored form.
     pub fn of(transition: &Transition) -> Self {
         let Transition { before, choice, reward, goes_on, after } = *transition;
         let (state, next, reward) = (before.state, after.state, reward as f32);
@@ -41,7 +41,7 @@ impl StoredTransition {
         let [a, b, c, d, e, f] = self.state;
         let [g, h, i, j, k, l] = self.next;
         let goes_on = f32::from(u8::from(self.goes_on));
-        // An action's number is below 2^24: exact.
+        // An action's index is below 2^24, so `f32` represents it exactly.
         [a, b, c, d, e, f, g, h, i, j, k, l, self.action[0], self.action[1], self.index as f32, self.reward, goes_on]
     }
 
@@ -52,14 +52,14 @@ impl StoredTransition {
     }
 }
 
-/// Adds what a library holds to a file under `name`; returns where the next one goes.
+/// Adds a replay buffer to a file under `name`; returns the index of the slot that the next transition overwrites.
 pub fn save(buffer: &ReplayBuffer<StoredTransition>, name: &str, writer: &mut Writer) -> usize {
-    let numbers: Vec<f32> = buffer.held().iter().flat_map(StoredTransition::numbers).collect();
+    let numbers: Vec<f32> = buffer.stored().iter().flat_map(StoredTransition::numbers).collect();
     writer.add(name, &[buffer.len(), NUMBERS], &numbers);
     buffer.next()
 }
 
-/// A library with the content that [`save`] wrote.
+/// Restores a replay buffer that [`save`] wrote.
 pub fn restore(
     capacity: usize,
     reader: &Reader<'_>,
@@ -72,26 +72,26 @@ pub fn restore(
         let expected = format!("at most {capacity} rows of {NUMBERS} values");
         return Err(WeightsError::Array { name: name.to_owned(), expected });
     }
-    let held = numbers.as_chunks::<NUMBERS>().0.iter().map(StoredTransition::from_numbers).collect();
-    Ok(ReplayBuffer::restore(capacity, held, next))
+    let stored = numbers.as_chunks::<NUMBERS>().0.iter().map(StoredTransition::from_numbers).collect();
+    Ok(ReplayBuffer::restore(capacity, stored, next))
 }
 
-/// Transitions to learn from, a row each.
+/// A minibatch of transitions, one per row.
 #[derive(Clone, Debug)]
 pub struct Batch {
     /// States (rows x states).
     pub states: Tensor,
-    /// What was done in them (rows x actions).
+    /// Actions played in them (rows x actions).
     pub actions: Tensor,
-    /// The same by number, for discrete actions (rows x 1, unsigned).
+    /// Indices of these actions, for discrete actions (rows x 1, unsigned).
     pub indices: Tensor,
-    /// What it earned (rows x 1).
+    /// Rewards (rows x 1).
     pub rewards: Tensor,
-    /// What a value one shot later counts: `discount` where the episode went on, nought where it was over (rows x 1).
+    /// Factor of the next state's value: `discount` if the episode continued, zero if it ended (rows x 1).
     pub discounts: Tensor,
-    /// Whether any episode went on: else nobody asks for values one shot later.
+    /// Whether any episode continued. If none did, the values of the next states are not needed.
     pub any_goes_on: bool,
-    /// The states thereafter (rows x states).
+    /// The next states (rows x states).
     pub next_states: Tensor,
 }
 
@@ -112,8 +112,8 @@ impl Batch {
         })
     }
 
-    /// What the values should be: the reward and, where the episode went on, what `next` says of the states thereafter (rows x 1),
-    /// discounted (the target of equation 57). `next` is not asked where every episode was over.
+    /// Returns the targets of the values (rows x 1): the reward plus, if the episode continued, the discounted value that `next` returns
+    /// for the next state (the target of equation 57). `next` is not called if every episode ended.
     pub fn targets(&self, next: impl FnOnce(&Tensor) -> Result<Tensor, Error>) -> Result<Tensor, Error> {
         if !self.any_goes_on {
             return Ok(self.rewards.clone());
@@ -122,7 +122,7 @@ impl Batch {
     }
 }
 
-/// The one number in a tensor.
+/// Returns the number in a scalar tensor.
 pub fn number(tensor: &Tensor) -> Result<f64, Error> {
     tensor.to_scalar::<f32>().map(f64::from)
 }
@@ -132,7 +132,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_library_that_is_larger_than_the_memory_is_refused() {
+    fn a_replay_buffer_in_a_file_that_exceeds_the_capacity_is_refused() {
         let mut replay = ReplayBuffer::new(3);
         (0..3).for_each(|_| replay.push(StoredTransition::default()));
         let mut writer = Writer::default();

@@ -176,7 +176,7 @@ fn odd_files_give_a_sentence_each_and_no_crash() {
         ("metrics.jsonl", "", "emptied or cut off: it ends after 0 of the 640 shots", Some(0)),
         ("metrics.jsonl", &half, "emptied or cut off: it ends after 320 of the 640 shots", None),
         ("config.json", &newer, "which is newer than this one", None),
-        ("config.json", &unknown, "config.json is of carom 90", Some(10)),
+        ("config.json", &unknown, "config.json was written by carom 90", Some(10)),
         ("config.json", "{", "config.json cannot be read", None),
         ("state.json", "[]", "state.json cannot be read", None),
         ("shots.json", "bla", "shots.json cannot be read", None),
@@ -210,7 +210,7 @@ fn odd_files_give_a_sentence_each_and_no_crash() {
         scope.spawn(|| look("folder", "metrics.jsonl cannot be read", None));
     });
     let list = done(here, "train --list .");
-    assert!(list.err.contains("case-5: config.json is of carom 90"), "{}", list.err);
+    assert!(list.err.contains("case-5: config.json was written by carom 90"), "{}", list.err);
     assert!(!list.out.lines().any(|line| line.contains("case-5") && line.contains("ddpg")), "{}", list.out);
     // Numbers that are not finite are written by name, and all readers accept them.
     let odd = lines.replacen("\"train/critic_loss\":0", "\"train/critic_loss\":\"NaN\",\"was\":0", 1);

@@ -1,20 +1,20 @@
-//! Platt scaling: what a critic says of the strokes that it chose itself, against how often they are made.
+//! Platt scaling: calibrates the critic's probabilities for the strokes that it chose itself to their actual success.
 //!
-//! Whoever takes the best of many estimates takes those that are too high (the winner's curse), so that a critic which is right
-//! on average promises too much of its choice.
+//! The best of many estimates is usually too high (the winner's curse). So a critic that is right on average predicts too much success
+//! for its choice.
 
 use glam::{DMat3, DVec3};
 use serde::{Deserialize, Serialize};
 
-/// Steps of Newton's method, and halvings of one, at most: the logarithm of the likelihood is concave, and most trials need five whole
+/// Limit on the steps of Newton's method, and on the halvings of one step. The log-likelihood is concave, and most fits need five full
 /// steps.
 const STEPS: i32 = 25;
 
-/// Weight of the square by which factors differ from those that change nothing: next to thousands of attempts it decides only where
-/// these say nothing.
+/// Weight of the squared deviation of the factors from the identity. Compared with thousands of attempts it matters only where these
+/// contain no information.
 const PRIOR: f64 = 10.0;
 
-/// From the critic's logit to a probability (Platt 1999), for players without errors and for those who err: factors of 1, of the
+/// Maps the critic's logit to a probability (Platt 1999), for players without and with errors: factors of 1, of the
 /// logit, and of the logarithm of the player's errors in multiples of an expert's.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
@@ -22,37 +22,37 @@ pub struct Calibration {
     erring: DVec3,
 }
 
-/// A stroke that was chosen and tried.
+/// A stroke that the critic chose, and its attempts.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial {
     /// The critic's logit of success.
     pub logit: f64,
     /// The player's errors as a multiple of an expert's.
     pub errors: f64,
-    /// How often it was struck.
+    /// Number of attempts.
     pub attempts: f64,
-    /// How often it succeeded.
+    /// Number of successes.
     pub successes: f64,
 }
 
 impl Default for Calibration {
-    /// The critic is taken at its word.
+    /// The identity: the critic's own probability.
     fn default() -> Self {
         Self { flawless: DVec3::Y, erring: DVec3::Y }
     }
 }
 
 impl Calibration {
-    /// The likeliest one by what was made in these trials. One that would turn the critic's order round is not used.
+    /// Fits the calibration to these trials. A fit that would reverse the critic's order is replaced by the identity.
     pub fn of(trials: &[Trial]) -> Self {
-        let of = |errs: bool| {
-            let some: Vec<&Trial> = trials.iter().filter(|trial| (trial.errors > 0.0) == errs).collect();
-            Some(likeliest(&some)).filter(|factors| factors.is_finite() && factors.y > 0.0).unwrap_or(DVec3::Y)
+        let of = |has_errors: bool| {
+            let some: Vec<&Trial> = trials.iter().filter(|trial| (trial.errors > 0.0) == has_errors).collect();
+            Some(fit(&some)).filter(|factors| factors.is_finite() && factors.y > 0.0).unwrap_or(DVec3::Y)
         };
         Self { flawless: of(false), erring: of(true) }
     }
 
-    /// The probability of success by the critic's `logit`, for a player with so many times an expert's errors.
+    /// Returns the probability of success for the critic's `logit` and a player whose errors are `errors` times an expert's.
     pub fn probability(&self, logit: f64, errors: f64) -> f64 {
         let factors = if errors > 0.0 { self.erring } else { self.flawless };
         logistic(factors.dot(inputs(logit, errors)))
@@ -67,23 +67,23 @@ fn logistic(logit: f64) -> f64 {
     1.0 / (1.0 + libm::exp(-logit))
 }
 
-/// The factors of greatest likelihood, a priori near those that change nothing.
-fn likeliest(trials: &[&Trial]) -> DVec3 {
+/// Returns the factors of the highest posterior density; the prior is centred on the identity.
+fn fit(trials: &[&Trial]) -> DVec3 {
     let mut factors = DVec3::Y;
     for _ in 0..STEPS {
         let (mut slope, mut curvature) = (PRIOR * (DVec3::Y - factors), DMat3::from_diagonal(DVec3::splat(PRIOR)));
         for Trial { logit, errors, attempts, successes } in trials {
             let inputs = inputs(*logit, *errors);
-            let said = logistic(factors.dot(inputs));
-            slope += (successes - attempts * said) * inputs;
-            let weighted = attempts * said * (1.0 - said) * inputs;
+            let predicted = logistic(factors.dot(inputs));
+            slope += (successes - attempts * predicted) * inputs;
+            let weighted = attempts * predicted * (1.0 - predicted) * inputs;
             curvature += DMat3::from_cols(weighted * inputs.x, weighted * inputs.y, weighted * inputs.z);
         }
         let step = curvature.inverse() * slope;
-        let here = log_posterior(trials, factors);
+        let current = log_posterior(trials, factors);
         let mut shares = (0..STEPS).map(|halvings| 0.5_f64.powi(halvings));
-        // Where nearly all is made a whole step leads too far.
-        let Some(share) = shares.find(|share| log_posterior(trials, factors + *share * step) >= here) else {
+        // A full step goes too far if nearly all attempts succeed.
+        let Some(share) = shares.find(|share| log_posterior(trials, factors + *share * step) >= current) else {
             break;
         };
         factors += share * step;
@@ -91,7 +91,7 @@ fn likeliest(trials: &[&Trial]) -> DVec3 {
     factors
 }
 
-/// Logarithm of how likely the factors are, but for what is the same for all.
+/// Returns the log posterior of the factors up to a constant.
 fn log_posterior(trials: &[&Trial], factors: DVec3) -> f64 {
     let log_likelihood = trials.iter().map(|Trial { logit, errors, attempts, successes }| {
         let logit = factors.dot(inputs(*logit, *errors));
@@ -104,7 +104,7 @@ fn log_posterior(trials: &[&Trial], factors: DVec3) -> f64 {
 mod tests {
     use super::*;
 
-    /// Trials of which as many succeed as `truth` says.
+    /// Trials whose share of successes is `truth` of the logit.
     fn trials(errors: f64, truth: impl Fn(f64) -> f64) -> impl Iterator<Item = Trial> {
         (-40..=40).map(move |step| {
             let (logit, attempts) = (0.1 * f64::from(step), 1000.0);
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_promised_too_high_is_told_as_it_is_made() {
+    fn overconfident_predictions_are_corrected() {
         let [flawless, expert, beginner] = [
             |logit| logistic(0.8 * logit - 0.3),
             |logit| logistic(0.9 * logit - 0.1),
@@ -123,14 +123,14 @@ mod tests {
         let calibration = Calibration::of(&all.collect::<Vec<_>>());
         for logit in [-3.0, -0.5, 0.0, 2.0] {
             for (errors, truth) in [(0.0, flawless(logit)), (1.0, expert(logit)), (8.0, beginner(logit))] {
-                let told = calibration.probability(logit, errors);
-                assert!((told - truth).abs() < 1e-3, "{errors} {logit}: {told} for {truth}");
+                let predicted = calibration.probability(logit, errors);
+                assert!((predicted - truth).abs() < 1e-3, "{errors} {logit}: {predicted} for {truth}");
             }
         }
     }
 
     #[test]
-    fn nothing_changes_without_trials_or_where_the_order_would_turn_round() {
+    fn nothing_changes_without_trials_or_if_the_fit_reverses_the_order() {
         let turned: Vec<Trial> = trials(1.0, |logit| logistic(-logit)).collect();
         for calibration in [Calibration::default(), Calibration::of(&[]), Calibration::of(&turned)] {
             for errors in [0.0, 1.0, 9.0] {
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn where_all_strokes_are_made_a_probability_is_told_nonetheless() {
+    fn a_fit_in_which_every_stroke_succeeds_still_gives_a_probability() {
         let certain = Calibration::of(&trials(0.0, |_| 1.0).collect::<Vec<_>>());
         assert!((0.9..=1.0).contains(&certain.probability(2.0, 0.0)), "{certain:?}");
     }

@@ -1,4 +1,4 @@
-//! Policies as files: what they say about themselves, and the checks before one is trusted.
+//! Policy files: their metadata, the checks when one is loaded, and the bundled ones.
 
 use std::path::Path;
 
@@ -16,8 +16,8 @@ use crate::{
     table::Table,
 };
 
-/// The bundled policies by their names (`models/README.md`): the table, or `context` for those that are told table and player, for all
-/// tables like `match`; and what was rewarded. A constant would stand in the program once for every codegen unit that reads it.
+/// The bundled policies by name (`models/README.md`). A name consists of the table, or `context` for policies with a context (for all
+/// tables like `match`), and the reward. It is a static because a constant would be in the program once per codegen unit that reads it.
 static BUNDLED: [(&str, &[u8]); 9] = [
     ("match-r3", include_bytes!("../../../../models/match-r3.safetensors")),
     ("match-one-cushion", include_bytes!("../../../../models/match-one-cushion.safetensors")),
@@ -30,163 +30,164 @@ static BUNDLED: [(&str, &[u8]); 9] = [
     ("context-three-cushion", include_bytes!("../../../../models/context-three-cushion.safetensors")),
 ];
 
-/// The bundled policy's file for a table, or `context`, and a rule.
-fn bundled_file(whose: &str, rule: Rule) -> Option<&'static [u8]> {
-    bundled_bytes(&format!("{whose}-{}", Reward::for_rule(rule)))
+/// Returns the bundled policy file for a table's name, or `context`, and a rule.
+fn bundled_file(table: &str, rule: Rule) -> Option<&'static [u8]> {
+    bundled_bytes(&format!("{table}-{}", Reward::for_rule(rule)))
 }
 
-/// The names of the bundled policies.
+/// Returns the names of the bundled policies.
 pub fn bundled_names() -> impl Iterator<Item = &'static str> {
     BUNDLED.iter().map(|(name, _)| *name)
 }
 
-/// The bundled file of this name.
+/// Returns the bundled file called `name`.
 pub(in crate::learning) fn bundled_bytes(name: &str) -> Option<&'static [u8]> {
     BUNDLED.iter().find(|(bundled, _)| *bundled == name).map(|(_, bytes)| *bytes)
 }
 
-/// Where a policy comes from.
+/// Origin of a policy: the run that trained it, and its evaluation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Origin {
-    /// Name of the table that it was trained on.
+    /// Name of the table on which it was trained.
     pub table: String,
-    /// What it was rewarded for.
+    /// The reward function.
     pub reward: Reward,
-    /// What its actions mean (`ActionSpace::meaning`).
+    /// Meaning of its actions (`ActionSpace::meaning`).
     pub actions: String,
     /// Version of the input features (`Inputs::version`).
     pub features: String,
     /// Seed of the run.
     pub seed: u64,
-    /// Shots that it practised.
+    /// Shots played in training.
     pub shots: u64,
-    /// Day on which it was written, or on which its run was started, UTC, as 2026-11-20.
+    /// Day on which the file was written or its run was started, UTC, as 2026-11-20.
     pub date: String,
     /// Version of carom that trained it.
     pub version: String,
     /// Mean reward of its first choice on the run's held-out layouts.
     pub held_out_reward: f64,
-    /// Platt scaling from the critic's logit to the probability that is reported.
+    /// Platt scaling from the critic's logit to the reported probability.
     #[serde(default)]
     pub calibration: Calibration,
     /// Settings of the run.
     pub hyperparameters: Hyperparameters,
 }
 
-/// What a policy's file says beside the weights.
+/// The JSON note of a policy file, next to the weights.
 #[derive(Serialize)]
 struct Note<'a> {
-    /// First, so that it is found ([`write_checksum`]).
+    /// Must be the first field, because [`write_checksum`] finds it by the opening brace.
     policy_checksum: &'static str,
     #[serde(flatten)]
     origin: &'a Origin,
 }
 
-/// Why a policy cannot be used.
+/// A policy cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum PolicyError {
     /// The file cannot be read.
     #[error("the policy file {path} cannot be read: {reason}")]
     Read {
-        /// Its path.
+        /// Path of the file.
         path: String,
-        /// What the system says.
+        /// Error of the operating system.
         reason: std::io::Error,
     },
     /// The file's content is not a policy.
     #[error("{origin} is not a policy that carom can use: {reason}; train one with `carom train`")]
     Content {
-        /// Path, or which bundled policy.
+        /// Path, or description of the bundled policy.
         origin: String,
-        /// What is wrong.
+        /// Reason.
         reason: WeightsError,
     },
     /// Some of the file's bytes have changed since it was written.
     #[error(
-        "{origin} is damaged: its content does not fit its checksum; copy it anew, or train one with `carom train`"
+        "{origin} is damaged: its content does not fit its checksum; copy it again, or train one with `carom train`"
     )]
     Damaged {
-        /// Its path.
+        /// Path of the file.
         origin: String,
     },
-    /// The policy speaks of other features or actions.
+    /// The policy has other features or actions.
     #[error("{origin} has {what} \"{found}\", this version of carom needs \"{expected}\"; train it again")]
     Version {
-        /// Path, or which bundled policy.
+        /// Path, or description of the bundled policy.
         origin: String,
-        /// What differs.
+        /// "features" or "actions".
         what: &'static str,
-        /// What the file has.
+        /// Version in the file.
         found: String,
-        /// What is needed.
+        /// Version that this program needs.
         expected: String,
     },
 }
 
 impl Policy {
-    /// The policy that comes with the program for `rule` on `table`, if there is one. A user's table of the same name is
-    /// another table: no policy has ever played on it.
+    /// Returns the bundled policy for `rule` on the preset `table`, if there is one. `None` for a user's table that only has the name of a
+    /// preset: no policy was trained on it.
     ///
     /// # Errors
-    /// Where the bundled file is damaged, which a test rules out.
+    /// Fails if the bundled file is damaged, which a test excludes.
     pub fn bundled(table: &Table, rule: Rule) -> Option<Result<Self, PolicyError>> {
         Table::preset(&table.name).ok().filter(|preset| preset == table)?;
         let bytes = bundled_file(&table.name, rule)?;
         Some(Self::from_bytes(bytes, &format!("the bundled policy for {rule} on \"{}\"", table.name)))
     }
 
-    /// The policy that comes with the program for `rule` on this table: for a player who `errs` rather one that is told who plays, and
-    /// for one who does not, rather this table's own, or that of `match` if it is told the table.
+    /// Returns the bundled policy that suits `rule`, `table` and the player best. For a player who `errs` this is the policy with a
+    /// context, else the table's own. For a player without errors it is the table's own, else that of `match` if it has a context, else
+    /// the policy with a context.
     ///
     /// # Errors
-    /// As [`Policy::bundled`].
+    /// The same as [`Policy::bundled`].
     pub fn bundled_for(table: &Table, rule: Rule, errs: bool) -> Option<Result<Self, PolicyError>> {
         let own = || Self::bundled(table, rule);
-        let told = |bytes| Self::from_bytes(bytes, &format!("the bundled policy for {rule} on tables like \"match\""));
-        let of_player = || bundled_file("context", rule).filter(|_| knows(table)).map(told);
+        let read = |bytes| Self::from_bytes(bytes, &format!("the bundled policy for {rule} on tables like \"match\""));
+        let with_context = || bundled_file("context", rule).filter(|_| knows(table)).map(read);
         if errs {
-            return of_player().or_else(own);
+            return with_context().or_else(own);
         }
         let of_match = || {
             let policy = Self::bundled(&Table::default(), rule).filter(|_| knows(table))?;
             policy.as_ref().map_or(true, Self::has_context).then_some(policy)
         };
-        own().or_else(of_match).or_else(of_player)
+        own().or_else(of_match).or_else(with_context)
     }
 
-    /// The bundled policy in the file of this name.
+    /// Returns the bundled policy called `name`.
     ///
     /// # Errors
-    /// As [`Policy::bundled`].
+    /// The same as [`Policy::bundled`].
     pub fn bundled_called(name: &str) -> Option<Result<Self, PolicyError>> {
         bundled_bytes(name).map(|bytes| Self::from_bytes(bytes, name))
     }
 
-    /// What the bundled file with these networks is called; `None` where they are no bundled ones.
+    /// Returns the name of this policy among the bundled ones; `None` if it is not one of them.
     pub fn bundled_name(&self) -> Option<&'static str> {
-        // Seed, shots and settings tell them apart.
+        // Seed, shots and settings identify a policy.
         let is_this =
             |bytes| Reader::new(bytes).is_ok_and(|file| file.note().is_ok_and(|note: Origin| note == self.origin));
         BUNDLED.iter().find(|(_, bytes)| is_this(bytes)).map(|(name, _)| *name)
     }
 
-    /// A checksum of the networks and of what their file says of them: equal ones play equally.
+    /// Returns a checksum of the networks and their metadata: policies with equal checksums play equally.
     ///
     /// # Errors
-    /// As [`Writer::finish`].
+    /// The same as [`Writer::finish`].
     pub fn checksum(&self) -> Result<String, WeightsError> {
         Ok(checksum(&self.to_bytes()?))
     }
 
-    /// Reads a policy from a file.
+    /// Loads a policy from a file.
     ///
     /// # Errors
-    /// Where the file is missing, damaged, from another program, or for other features or actions.
+    /// Fails if the file is missing, damaged, from another program, or for other features or actions.
     pub fn load(path: &Path) -> Result<Self, PolicyError> {
         Self::load_with_bytes(path).map(|(policy, _)| policy)
     }
 
-    /// The same, and the bytes that it was read from: a run may have replaced the file before it is read again.
+    /// Loads a policy and returns the file's bytes, too: a run may replace the file before the caller could read it again.
     pub(super) fn load_with_bytes(path: &Path) -> Result<(Self, Vec<u8>), PolicyError> {
         let origin = path.display().to_string();
         let bytes =
@@ -194,8 +195,8 @@ impl Policy {
         Ok((Self::of_file(&bytes, &origin)?, bytes))
     }
 
-    /// The policy in the bytes of a file that somebody may have changed: of a changed weight nothing else would tell. Those that earlier
-    /// versions wrote have no checksum.
+    /// Parses a policy file after checking its checksum: nothing else would reveal a changed weight. Files of earlier versions have no
+    /// checksum.
     pub(in crate::learning) fn of_file(bytes: &[u8], name: &str) -> Result<Self, PolicyError> {
         if is_whole(OF_POLICY, bytes) == Some(false) {
             return Err(PolicyError::Damaged { origin: name.to_owned() });
@@ -203,7 +204,7 @@ impl Policy {
         Self::from_bytes(bytes, name)
     }
 
-    /// The policy in a file's bytes; `name` is what errors call the file.
+    /// Parses a policy file without checking its checksum; error messages call the file `name`.
     fn from_bytes(bytes: &[u8], name: &str) -> Result<Self, PolicyError> {
         let content = |reason| PolicyError::Content { origin: name.to_owned(), reason };
         let reader = Reader::new(bytes).map_err(content)?;
@@ -219,7 +220,7 @@ impl Policy {
         Ok(Self { networks, origin })
     }
 
-    /// The bytes of a policy file, with half the digits of the weights: success does not depend on the others.
+    /// Returns the bytes of a policy file, with weights in half precision: full precision does not improve the success.
     pub(in crate::learning) fn to_bytes(&self) -> Result<Vec<u8>, WeightsError> {
         let mut writer = Writer::default();
         for (name, network) in [("actor", &self.networks.actor), ("critic", &self.networks.critic)] {
@@ -242,7 +243,7 @@ mod tests {
     fn is_shared<T: Send + Sync>(_: &T) {}
 
     #[test]
-    fn every_bundled_policy_reads_and_says_what_it_is_for() {
+    fn every_bundled_policy_loads_and_states_its_table_and_reward() {
         for table in ["match", "thesis"] {
             let preset = Table::preset(table).unwrap();
             for rule in Rule::ALL {
@@ -262,7 +263,7 @@ mod tests {
         ] {
             for rule in Rule::ALL {
                 let policy = Policy::bundled_for(table, rule, errs).unwrap().unwrap();
-                // That for three cushions on `match` is told the table, too.
+                // The policy for three cushions on `match` has a context, too.
                 assert_eq!(policy.has_context(), has_context || rule == Rule::ThreeCushion);
                 assert!(policy.knows(table));
                 assert_eq!(policy.origin().reward, Reward::for_rule(rule));
@@ -296,17 +297,17 @@ mod tests {
     }
 
     #[test]
-    fn a_changed_byte_is_noticed_wherever_it_stands_and_files_of_earlier_versions_are_read() {
+    fn any_changed_byte_is_detected_and_files_of_earlier_versions_are_read() {
         let policy = bundled();
         let bytes = policy.to_bytes().unwrap();
         let read = |bytes: &[u8]| Policy::of_file(bytes, "it");
         assert_eq!(read(&bytes).unwrap().origin, policy.origin);
         let header = 8 + usize::from(bytes[0]) + 256 * usize::from(bytes[1]);
-        // The header, and here and there a weight.
+        // Changes bytes of the header and some of the weights.
         for index in (0..header).step_by(5).chain((header..bytes.len()).step_by(bytes.len() / 50)) {
             let mut damaged = bytes.clone();
             damaged[index] ^= 1;
-            // Where the checksum's own name is changed, there is none, and all else is as it was.
+            // A change in the checksum's field name removes the checksum and leaves the rest intact.
             assert!(
                 read(&damaged).is_err() || index < header && read(&damaged).unwrap().origin == policy.origin,
                 "{index}"
@@ -315,8 +316,8 @@ mod tests {
         }
         let mut damaged = bytes;
         *damaged.last_mut().unwrap() ^= 1;
-        let said = read(&damaged).unwrap_err().to_string();
-        assert!(said.starts_with("it is damaged"), "{said}");
+        let message = read(&damaged).unwrap_err().to_string();
+        assert!(message.starts_with("it is damaged"), "{message}");
         let earlier = bundled_file("match", Rule::StraightRail).unwrap();
         assert_eq!(is_whole(OF_POLICY, earlier), None);
         assert!(read(earlier).is_ok());

@@ -1,4 +1,4 @@
-//! The policies that a user has kept, by their names.
+//! The user's library of policies: saves policy files under names and finds them.
 
 use std::{
     io,
@@ -8,47 +8,47 @@ use std::{
 use super::{Policy, file::PolicyError};
 use crate::storage::{NAME_RULE, is_name, write_atomic};
 
-/// What the files are called after their names.
+/// Extension of the files.
 const EXTENSION: &str = "safetensors";
 
-/// The word for the policies that the program brings along, where one is chosen by its name.
+/// The reserved name that selects the bundled policies.
 pub const BUNDLED: &str = "bundled";
 
-/// Why a policy cannot be kept.
+/// A policy cannot be saved in the library.
 #[derive(Debug, thiserror::Error)]
 pub enum KeepError {
-    /// No file could be called so.
+    /// The name is not valid.
     #[error("\"{0}\" is no name for a policy; accepted are {NAME_RULE}")]
     Name(String),
-    /// The program calls its own ones so.
-    #[error("\"{BUNDLED}\" is what the bundled policies are called; take another name")]
+    /// The name is reserved for the bundled policies.
+    #[error("\"{BUNDLED}\" is reserved for the bundled policies; use another name")]
     Bundled,
-    /// There is one of that name.
-    #[error("there is a policy \"{0}\" already")]
+    /// A policy of this name exists.
+    #[error("a policy \"{0}\" already exists")]
     Taken(String),
-    /// It is no policy that can be used.
+    /// The file is not a usable policy.
     #[error(transparent)]
     Policy(#[from] PolicyError),
     /// The file cannot be written.
     #[error("{path}: {reason}")]
     File {
-        /// The file.
+        /// Path of the file.
         path: String,
-        /// What the system says.
+        /// Error of the operating system.
         reason: io::Error,
     },
 }
 
-/// The policy that is kept under `name` in `folder`, if there is one.
+/// Returns the path of the policy `name` in `folder`, if it exists.
 pub fn find(folder: &Path, name: &str) -> Option<PathBuf> {
     Some(file(folder, name)).filter(|kept| is_name(name) && kept.exists())
 }
 
-/// Keeps the policy in the file `policy` under `name` in `folder`, and returns where. One of the same name is replaced only
-/// if `replaces` says so.
+/// Copies the policy file `policy` to `folder` under `name` and returns the new path. Replaces a policy of the same name only
+/// if `replaces`.
 ///
 /// # Errors
-/// [`KeepError`]; what was kept before is then untouched.
+/// [`KeepError`]; an existing policy is then unchanged.
 pub fn keep(folder: &Path, policy: &Path, name: &str, replaces: bool) -> Result<PathBuf, KeepError> {
     if !is_name(name) {
         return Err(KeepError::Name(name.to_owned()));

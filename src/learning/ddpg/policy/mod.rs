@@ -1,4 +1,4 @@
-//! A trained agent as a player: shots for a layout out of one pass through its networks, without the simulator.
+//! A trained agent as a policy: it proposes shots for a layout by one pass through its networks, without the simulator.
 
 pub mod calibration;
 pub mod file;
@@ -17,7 +17,7 @@ use crate::{
             context::knows,
             networks::Networks,
             observation::Observation,
-            ways::{cue_inputs, playable},
+            paths::{cue_inputs, playable},
         },
         evaluation::{CONTACT_STEPS, Score},
     },
@@ -26,8 +26,8 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Proposals for a layout at most, the best ones: as many as nine heads make for the straight ways to a ball.
-const MOST_PROPOSALS: usize = 36;
+/// Largest number of proposals for a layout; only the best are kept. Nine heads make as many for the straight paths to a ball.
+const MAX_PROPOSALS: usize = 36;
 
 /// A shot that a policy proposes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +38,7 @@ pub struct Proposal {
     pub success: f64,
 }
 
-/// Trained networks, ready to play. Cheap to clone and to share between threads.
+/// Trained networks that propose shots. Cheap to clone and to share between threads.
 #[derive(Clone, Debug)]
 pub struct Policy {
     pub(in crate::learning) networks: Networks,
@@ -46,60 +46,61 @@ pub struct Policy {
 }
 
 impl Policy {
-    /// Where this policy comes from.
+    /// Origin of this policy.
     pub const fn origin(&self) -> &Origin {
         &self.origin
     }
 
-    /// Whether it is told the table's constants and the player's errors, and its probabilities are those of this player there.
+    /// Whether the table's constants and the player's errors are inputs, so that probabilities are those of this player on this table.
     pub const fn has_context(&self) -> bool {
         self.origin.hyperparameters.context
     }
 
-    /// Whether its probabilities are those of a player with this skill: it is told the skill, and has practised with such players.
+    /// Whether its probabilities are valid for a player with this skill: the skill is an input, and training included such players.
     pub fn speaks_of(&self, skill: &Skill) -> bool {
         self.has_context() && (self.origin.hyperparameters.perfect < 1.0 || skill.scale() == 0.0)
     }
 
-    /// Whether it has practised on tables like this one.
+    /// Whether it was trained on tables like this one.
     pub fn knows(&self, table: &Table) -> bool {
         self.origin.table == table.name || (self.has_context() && knows(table))
     }
 
-    /// The stroke that the critic likes best for a player of this skill; only one with a context asks whose it is.
+    /// Returns the stroke with the highest probability of success for a player of this skill. Only a policy with a context uses the skill.
     pub fn propose(&self, table: &Table, layout: &Layout, skill: &Skill) -> CueInputs {
         self.proposals(table, layout, skill)[0].cue
     }
 
-    /// Every head's stroke for either object ball on either side, or the likeliest of those that go by a cushion, too; the critic's
-    /// favourite first. There is at least one. The cue is raised where it has to be; strokes for which it has no room at all have no chance, and come last.
+    /// Returns the proposals for a layout, at least one, the most probable first. These are every head's strokes for either object ball on
+    /// either side; for policies with paths by a cushion, the most probable of those and of the strokes by a cushion. The cue is raised as
+    /// far as rails and balls require. Strokes without room at any elevation have a probability of 0 and come last.
     ///
     /// # Panics
-    /// Never, as [`Policy::proposals_for`].
+    /// Never, for the reason given at [`Policy::proposals_for`].
     pub fn proposals(&self, table: &Table, layout: &Layout, skill: &Skill) -> Vec<Proposal> {
         let mut all = self.proposals_for(table, std::slice::from_ref(layout), skill);
         all.pop().expect("a layout has proposals")
     }
 
-    /// [`Policy::proposals`] for many layouts in one pass.
+    /// Returns [`Policy::proposals`] for many layouts in one pass.
     ///
     /// # Panics
-    /// Never: the networks' sizes are checked when they are loaded, and candle refuses nothing else.
+    /// Never: the networks' sizes are checked at loading, and candle has no other reason to fail.
     pub fn proposals_for(&self, table: &Table, layouts: &[Layout], skill: &Skill) -> Vec<Vec<Proposal>> {
-        let (known, inputs, errors) = (Arc::new(table.clone()), self.origin.hyperparameters.inputs(), skill.scale());
-        let proposals = self.networks.proposals(inputs, layouts.iter().map(|layout| (&known, layout, errors)));
+        let (shared, inputs, errors) = (Arc::new(table.clone()), self.origin.hyperparameters.inputs(), skill.scale());
+        let proposals = self.networks.proposals(inputs, layouts.iter().map(|layout| (&shared, layout, errors)));
         let proposals = proposals.expect("the sizes of the networks were checked when they were loaded");
         let success = |logit: f32| {
             let success = self.origin.calibration.probability(f64::from(logit), errors);
-            // What is not a number must neither win nor upset the order.
+            // NaN must neither win nor disturb the order.
             if success.is_nan() { 0.0 } else { success }
         };
         let best = |(layout, proposals): (&Layout, Vec<(Observation, Action, f32)>)| {
-            let told = proposals.into_iter().map(|(observation, action, logit)| (observation, action, success(logit)));
-            let mut own: Vec<_> = told.collect();
-            own.sort_by(|(.., a), (.., b)| b.total_cmp(a));
-            own.truncate(MOST_PROPOSALS);
-            let strokes = own.into_iter().map(|(observation, action, success)| {
+            let rated = proposals.into_iter().map(|(observation, action, logit)| (observation, action, success(logit)));
+            let mut rated: Vec<_> = rated.collect();
+            rated.sort_by(|(.., a), (.., b)| b.total_cmp(a));
+            rated.truncate(MAX_PROPOSALS);
+            let strokes = rated.into_iter().map(|(observation, action, success)| {
                 match playable(table, layout, &observation, action) {
                     Ok(cue) => Proposal { cue, success },
                     Err(_) => Proposal { cue: cue_inputs(table, &observation, action), success: 0.0 },
@@ -112,7 +113,7 @@ impl Policy {
         layouts.iter().zip(proposals).map(best).collect()
     }
 
-    /// What it earns with one shot on every layout.
+    /// Plays one shot on every layout and returns the score.
     pub(in crate::learning) fn score(&self, table: &Table, reward: Reward, layouts: &[Layout]) -> Score {
         let mut played = Vec::with_capacity(layouts.len());
         // Small batches stay in the processor's cache.
@@ -126,9 +127,9 @@ impl Policy {
     }
 }
 
-/// Whether any of the proposals earns at least one, where the first earns so much and the `others` are these.
+/// Whether any proposal earns a reward of 1 or more: the first, whose reward is `first`, or one of the `others`.
 pub fn any_earns(table: &Table, reward: Reward, layout: &Layout, first: f64, others: &[Proposal]) -> bool {
-    // On the `thesis` table a few proposals would take all the time, and next to none of those earn anything.
+    // With a limit on contact steps: on the `thesis` table a few proposals would take all the time, and hardly any of them earns anything.
     first >= 1.0 || others.iter().any(|proposal| reward.with_room(table, layout, &proposal.cue, CONTACT_STEPS) >= 1.0)
 }
 
@@ -150,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn proposals_are_valid_strokes_ordered_by_their_chance() {
+    fn proposals_are_valid_strokes_sorted_by_probability() {
         let table = Table::default();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(11);
         let layouts: Vec<_> = (0..20).map(|_| Layout::random(&table, &mut rng)).collect();
@@ -170,12 +171,12 @@ mod tests {
     fn a_proposal_for_which_the_cue_has_no_room_counts_as_missed() {
         let (table, reward) = (Table::default(), Reward::ThreeCushion);
         let policy = Policy::bundled(&table, Rule::ThreeCushion).unwrap().unwrap();
-        // On this one of the layouts that runs are measured on only a stroke without room would make the point.
+        // On this held-out layout only a stroke without room would make the point.
         let layouts = &held_out_layouts(&table, 583, HELD_OUT_SEED)[582..];
         let proposals = policy.proposals(&table, &layouts[0], &Skill::PERFECT);
         let made = proposals.iter().filter(|proposal| reward.of(&table, &layouts[0], &proposal.cue) >= 1.0);
         let has_room: Vec<bool> = made.map(|proposal| has_room(&table, &layouts[0], &proposal.cue)).collect();
-        assert!(has_room.contains(&false) && !has_room.contains(&true), "another policy wants another layout");
+        assert!(has_room.contains(&false) && !has_room.contains(&true), "a new policy needs another test layout");
         assert_eq!(policy.score(&table, reward, layouts).best_of_k, 0.0);
     }
 
@@ -189,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn layouts_that_make_no_sense_still_give_strokes() {
+    fn invalid_layouts_still_give_strokes() {
         let policy = bundled();
         let table = Table::default();
         for layout in [[DVec2::NAN; 3], [DVec2::ZERO; 3], [DVec2::INFINITY; 3]] {
@@ -199,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn some_strokes_for_players_who_err_meet_a_cushion_first() {
+    fn some_strokes_for_players_with_errors_hit_a_cushion_first() {
         let table = Table::default();
         let policy = Policy::bundled_for(&table, Rule::ThreeCushion, true).unwrap().unwrap();
         let meets_rail_first = |layout: &Layout, cue: &CueInputs| {

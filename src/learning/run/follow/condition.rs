@@ -1,4 +1,4 @@
-//! How a run is, as far as one can see from outside.
+//! The condition of a run as seen from outside, by its files and its lock.
 
 use std::{fmt, time::Duration};
 
@@ -6,16 +6,16 @@ use serde::{Serialize, Serializer};
 
 use crate::learning::run::status::Phase;
 
-/// Silence after which a run that trains or waits is stalled: it should have said something each second.
+/// Time without a heartbeat after which a run that trains or is paused counts as stalled; a heartbeat is due every second.
 const HEARTBEAT_TIMEOUT: Duration = Duration::from_secs(15);
 
-/// The same while it plays the held-out layouts, which may be many.
+/// The same timeout while the run plays the held-out layouts, which may be many.
 const MEASURING_TIMEOUT: Duration = Duration::from_secs(600);
 
-/// Locking and writing `state.json` are two steps; for so long their disagreement means nothing.
+/// Grace period in which the lock and `state.json` may disagree, because a run changes them in two steps.
 const FRESH: Duration = Duration::from_secs(2);
 
-/// How a run is.
+/// The condition of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Condition {
     /// Nothing is known yet.
@@ -23,25 +23,25 @@ pub enum Condition {
     Unknown,
     /// There is no run in the folder yet.
     Missing,
-    /// As it says itself.
+    /// The run's own status is right.
     Is(Phase),
-    /// Its process is there and has written nothing for so long, in whole seconds.
+    /// Its process exists and has written nothing for this time, in whole seconds.
     Stalled(Duration),
-    /// Its process is gone without having said so: it was killed, or the machine stopped.
+    /// Its process ended without writing a final status: it was killed, or the machine stopped.
     Died,
-    /// It is not finished and no process works on it; how it ended is not known, and it is called stopped.
+    /// It is not finished and no process works on it. It is unknown how it ended; it is displayed as stopped.
     Interrupted,
     /// Its folder has been removed.
     Removed,
 }
 
 impl Condition {
-    /// Whether the other one is the same, however long a run has been stalled.
+    /// Whether both conditions are the same, apart from the time for which a run has been stalled.
     pub fn is_like(self, other: Self) -> bool {
         self == other || matches!((self, other), (Self::Stalled(_), Self::Stalled(_)))
     }
 
-    /// In a word, for lists and for programs.
+    /// Returns the condition in one word, for lists and for programs.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Is(Phase::Training | Phase::Measuring | Phase::Stopping) => "running",
@@ -52,7 +52,7 @@ impl Condition {
         }
     }
 
-    /// Whether a process works on it.
+    /// Whether a process works on the run.
     pub const fn is_at_work(self) -> bool {
         match self {
             Self::Is(phase) => !phase.is_over(),
@@ -61,7 +61,7 @@ impl Condition {
         }
     }
 
-    /// Whether nothing more will come unless the run is resumed.
+    /// Whether the run has ended and will write nothing more unless it is resumed.
     pub const fn is_over(self) -> bool {
         match self {
             Self::Is(phase) => phase.is_over(),
@@ -91,53 +91,53 @@ impl Serialize for Condition {
     }
 }
 
-/// What is seen of a run from outside.
+/// Observations of a run from outside.
 #[derive(Clone, Debug, Default)]
 pub struct Signs {
-    /// Whether its folder is there.
+    /// Whether its folder exists.
     pub is_there: bool,
-    /// Whether it has been.
+    /// Whether its folder existed at any earlier look.
     pub was_there: bool,
-    /// Whether there is anything to go on from.
+    /// Whether the folder contains a checkpoint.
     pub is_run: bool,
-    /// Whether a process holds its lock, if that can be known.
-    pub is_held: Option<bool>,
-    /// What it says of itself.
+    /// Whether a process holds its lock; `None` if the system does not tell.
+    pub is_locked: Option<bool>,
+    /// Phase in its status file.
     pub phase: Option<Phase>,
-    /// How long it has said nothing new.
+    /// Time since its status file last changed.
     pub silent: Duration,
-    /// Shots played as of its last line.
+    /// Shots played at its last line of metrics.
     pub shots: Option<u64>,
     /// Shots planned.
     pub planned: Option<u64>,
 }
 
-/// What follows from what is seen.
+/// Infers the condition of a run from the observations.
 pub fn condition(signs: &Signs) -> Condition {
-    let Signs { is_there, was_there, is_run, is_held, phase, silent, shots, planned } = *signs;
-    let held = is_held == Some(true);
+    let Signs { is_there, was_there, is_run, is_locked, phase, silent, shots, planned } = *signs;
+    let locked = is_locked == Some(true);
     match phase {
         _ if !is_there && was_there => Condition::Removed,
         _ if !is_there => Condition::Missing,
-        // Somebody has taken it up again and has not said anything yet.
-        Some(phase) if phase.is_over() && held && silent >= FRESH => Condition::Is(Phase::Training),
+        // Another process has resumed the run and has not written its status yet.
+        Some(phase) if phase.is_over() && locked && silent >= FRESH => Condition::Is(Phase::Training),
         Some(phase) if phase.is_over() => Condition::Is(phase),
         Some(phase) => {
             let is_measured = matches!(phase, Phase::Measuring | Phase::Stopping);
             let timeout = if is_measured { MEASURING_TIMEOUT } else { HEARTBEAT_TIMEOUT };
-            // One that is told to stop saves before it is measured: a second signal, which ends it at once, has stopped it.
+            // A run in the phase Stopping is already saved, so a second signal that ends it at once has merely stopped it.
             let gone = if phase == Phase::Stopping { Condition::Is(Phase::Stopped) } else { Condition::Died };
-            match is_held {
+            match is_locked {
                 // In whole seconds, so that a condition changes once a second, and not with every look.
                 Some(true) if silent >= timeout => Condition::Stalled(Duration::from_secs(silent.as_secs())),
                 Some(false) if silent >= FRESH => gone,
-                // Where there are no locks, silence is all there is to tell by.
+                // Without locks, only the silence shows that the process is gone.
                 None if silent >= timeout => gone,
                 _ => Condition::Is(phase),
             }
         }
-        // A run that has just begun, or of a carom that said nothing of itself.
-        None if held => Condition::Is(Phase::Training),
+        // A run that has just begun, or one of an early version without a status file.
+        None if locked => Condition::Is(Phase::Training),
         None if shots.is_some_and(|shots| planned.is_some_and(|planned| shots >= planned)) => {
             Condition::Is(Phase::Finished)
         }
@@ -150,32 +150,32 @@ pub fn condition(signs: &Signs) -> Condition {
 mod tests {
     use super::*;
 
-    fn signs(phase: Option<Phase>, is_held: Option<bool>, silent: u64) -> Signs {
+    fn signs(phase: Option<Phase>, is_locked: Option<bool>, silent: u64) -> Signs {
         let silent = Duration::from_millis(1000 * silent + 300);
-        Signs { is_there: true, was_there: true, is_run: true, is_held, phase, silent, ..Signs::default() }
+        Signs { is_there: true, was_there: true, is_run: true, is_locked, phase, silent, ..Signs::default() }
     }
 
     #[test]
-    fn a_run_is_as_it_says_until_it_is_silent_or_its_process_is_gone() {
-        let at = |phase, is_held, silent| condition(&signs(Some(phase), is_held, silent));
-        let (held, free) = (Some(true), Some(false));
+    fn the_status_counts_until_it_is_silent_or_its_process_is_gone() {
+        let at = |phase, is_locked, silent| condition(&signs(Some(phase), is_locked, silent));
+        let (locked, free) = (Some(true), Some(false));
         for phase in [Phase::Training, Phase::Paused, Phase::Measuring] {
-            assert_eq!(at(phase, held, 5), Condition::Is(phase));
+            assert_eq!(at(phase, locked, 5), Condition::Is(phase));
             assert_eq!(at(phase, free, 5), Condition::Died);
-            assert_eq!(at(phase, free, 1), Condition::Is(phase), "it has just begun to hold the lock");
+            assert_eq!(at(phase, free, 1), Condition::Is(phase), "it has just taken the lock");
         }
-        assert_eq!(at(Phase::Stopping, held, 40), Condition::Is(Phase::Stopping), "it is measured");
+        assert_eq!(at(Phase::Stopping, locked, 40), Condition::Is(Phase::Stopping), "the evaluation takes long");
         assert_eq!(at(Phase::Stopping, free, 5), Condition::Is(Phase::Stopped), "a second signal has ended it");
-        assert_eq!(at(Phase::Training, held, 40), Condition::Stalled(Duration::from_secs(40)));
-        assert_eq!(at(Phase::Measuring, held, 40), Condition::Is(Phase::Measuring));
-        assert_eq!(at(Phase::Measuring, held, 700), Condition::Stalled(Duration::from_secs(700)));
+        assert_eq!(at(Phase::Training, locked, 40), Condition::Stalled(Duration::from_secs(40)));
+        assert_eq!(at(Phase::Measuring, locked, 40), Condition::Is(Phase::Measuring));
+        assert_eq!(at(Phase::Measuring, locked, 700), Condition::Stalled(Duration::from_secs(700)));
         assert_eq!(at(Phase::Stopped, free, 9999), Condition::Is(Phase::Stopped));
-        assert_eq!(at(Phase::Stopped, held, 0), Condition::Is(Phase::Stopped), "it is about to let go of the lock");
-        assert_eq!(at(Phase::Stopped, held, 9), Condition::Is(Phase::Training), "it has been taken up again");
+        assert_eq!(at(Phase::Stopped, locked, 0), Condition::Is(Phase::Stopped), "it is about to release the lock");
+        assert_eq!(at(Phase::Stopped, locked, 9), Condition::Is(Phase::Training), "it has been resumed");
     }
 
     #[test]
-    fn without_locks_silence_tells() {
+    fn without_locks_silence_means_that_the_process_is_gone() {
         let at = |phase, silent| condition(&signs(Some(phase), None, silent));
         assert_eq!(at(Phase::Training, 5), Condition::Is(Phase::Training));
         assert_eq!(at(Phase::Training, 20), Condition::Died);
@@ -183,12 +183,12 @@ mod tests {
     }
 
     #[test]
-    fn runs_that_say_nothing_of_themselves_are_judged_by_their_lock_and_their_lines() {
+    fn the_condition_without_a_status_file_follows_from_the_lock_and_the_lines() {
         assert_eq!(condition(&signs(None, Some(true), 0)), Condition::Is(Phase::Training));
         let with = |shots, planned| condition(&Signs { shots, planned, ..signs(None, Some(false), 0) });
         assert_eq!(with(Some(10), Some(10)), Condition::Is(Phase::Finished));
         assert_eq!(with(Some(9), Some(10)), Condition::Interrupted);
-        assert_eq!(with(None, None), Condition::Interrupted, "nothing but a checkpoint");
+        assert_eq!(with(None, None), Condition::Interrupted, "only a checkpoint");
         let empty = Signs { is_run: false, ..signs(None, None, 0) };
         assert_eq!(condition(&empty), Condition::Missing);
         assert_eq!(condition(&Signs::default()), Condition::Missing);

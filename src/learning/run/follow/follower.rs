@@ -1,4 +1,4 @@
-//! Looks at a run's files again and again, and tells what has changed.
+//! Polls a run's files and reports what has changed.
 
 use std::{
     io,
@@ -23,10 +23,10 @@ use crate::{
     storage::Lock,
 };
 
-/// Time between two looks at what changes seldom, and at the lock: each look at the lock holds it for an instant.
+/// Time between two looks at the lock and at files that change seldom. Each look at the lock takes it for an instant.
 const SELDOM: Duration = Duration::from_secs(1);
 
-/// Looks at a run's files. It only reads them, so any number may follow one run.
+/// Polls a run's files. It only reads them, so any number of followers may follow one run.
 #[derive(Debug, Default)]
 pub struct Follower {
     folder: PathBuf,
@@ -35,27 +35,28 @@ pub struct Follower {
     config: Option<Stamp>,
     status: Option<Stamp>,
     examples: Option<Stamp>,
-    /// When what the run says of itself was last seen to change, and how old it was then; nothing before it has said anything.
-    heard: Option<(Instant, Duration)>,
+    /// When a change of the status file was last seen, and how old the file was then; `None` before the first status.
+    status_changed: Option<(Instant, Duration)>,
     /// Lines of metrics read.
     lines: u64,
-    /// Shots played, and shots as of the last line of metrics, as the run says itself.
-    said: u64,
+    /// Shots played, and shots at the last line of metrics, according to the status file.
+    played: u64,
     logged: u64,
     signs: Signs,
     condition: Condition,
-    /// What is wrong with each file, in the order in which it is reported.
+    /// Problem of each file, in the order of the notices.
     troubles: [Option<String>; 4],
-    told: Vec<String>,
+    /// The notices as last reported.
+    reported: Vec<String>,
 }
 
 impl Follower {
-    /// A follower of the run in `folder`, which need not be there yet.
+    /// Creates a follower of the run in `folder`, which need not exist yet.
     pub fn new(folder: &Path) -> Self {
         Self { folder: folder.to_owned(), tail: Tail::new(&folder.join(METRICS)), ..Self::default() }
     }
 
-    /// Looks once; `None` where nothing has changed. Never fails: what is wrong becomes a notice.
+    /// Looks once; `None` if nothing has changed. Never fails: problems become notices.
     pub fn look(&mut self) -> Option<Update> {
         let mut update = Update::default();
         if self.seldom.is_none_or(|last| last.elapsed() >= SELDOM) {
@@ -64,7 +65,7 @@ impl Follower {
         }
         self.look_at_status(&mut update);
         let is_there = self.look_at_metrics(&mut update);
-        self.signs.silent = self.heard.map_or(Duration::ZERO, |(seen, age)| age + seen.elapsed());
+        self.signs.silent = self.status_changed.map_or(Duration::ZERO, |(seen, age)| age + seen.elapsed());
         let now = condition(&self.signs);
         if now != self.condition {
             self.condition = now;
@@ -72,21 +73,21 @@ impl Follower {
         }
         self.troubles[2] = self.trouble_of_metrics(is_there);
         let notices: Vec<String> = self.troubles.iter().flatten().cloned().collect();
-        if notices != self.told {
-            self.told.clone_from(&notices);
+        if notices != self.reported {
+            self.reported.clone_from(&notices);
             update.notices = Some(notices);
         }
         (update != Update::default()).then_some(update)
     }
 
-    /// How the run is as of the last look, where so many of the planned shots are known to have been played.
+    /// Returns the run's condition at the last look, given the known numbers of shots played and planned.
     pub(in crate::learning::run) fn condition_after(&self, shots: u64, planned: u64) -> Condition {
         condition(&Signs { shots: Some(shots), planned: Some(planned), ..self.signs.clone() })
     }
 
-    /// What changes once a minute or never.
+    /// Looks at what changes once a minute or never.
     fn look_seldom(&mut self, update: &mut Update) {
-        self.signs.is_held = Lock::is_held(&self.folder);
+        self.signs.is_locked = Lock::is_held(&self.folder);
         self.signs.is_run = holds_checkpoints(&self.folder);
         self.signs.is_there = self.folder.is_dir();
         self.signs.was_there |= self.signs.is_there;
@@ -98,12 +99,12 @@ impl Follower {
                     self.signs.planned = Some(config.plan.shots);
                     self.troubles[0] = config.newer_version().map(|version| {
                         format!(
-                            "the run is of carom {version}, which is newer than this one: not all of it may be shown"
+                            "the run was started by carom {version}, which is newer than this one: some of it may not be shown"
                         )
                     });
                     update.config = Some(Box::new(config));
                 }
-                // Nobody reads what is not there.
+                // A missing file is no problem.
                 Err(_) if stamp.is_none() => self.troubles[0] = None,
                 Err(error) => {
                     let reason = config::unreadable(&self.folder, &error);
@@ -128,18 +129,18 @@ impl Follower {
         }
         let is_first = self.status.is_none();
         self.status = stamp;
-        // A look at a run that has said nothing for an hour finds it an hour silent.
+        // At the first look, the age of the file counts: a run without heartbeat for an hour has been silent for an hour.
         let age = stamp.filter(|_| is_first).map_or(Duration::ZERO, |stamp| stamp.age());
-        self.heard = Some((Instant::now(), age));
+        self.status_changed = Some((Instant::now(), age));
         match RunStatus::read(&self.folder) {
             Ok(status) => {
                 self.signs.phase = Some(status.phase);
-                (self.said, self.logged) = (status.shots, status.logged);
+                (self.played, self.logged) = (status.shots, status.logged);
                 self.troubles[1] = None;
                 update.status = Some(status);
             }
             Err(_) if stamp.is_none() => {
-                // A run that goes on has cut lines off that its checkpoint does not know, and will say how many there are.
+                // A resumed run has removed the lines after its checkpoint, and its next status will contain their number.
                 (self.signs.phase, self.logged) = (None, 0);
                 self.troubles[1] = None;
             }
@@ -147,7 +148,7 @@ impl Follower {
         }
     }
 
-    /// Reads what is new; `false` where there is no file.
+    /// Reads new lines; `false` if there is no file.
     fn look_at_metrics(&mut self, update: &mut Update) -> io::Result<bool> {
         let (mut is_afresh, mut records) = (false, Vec::new());
         let is_there = self.tail.look(&mut is_afresh, &mut records);
@@ -172,13 +173,13 @@ impl Follower {
                 Some(format!("{METRICS} has been removed; what was read before is still shown"))
             }
             Ok(false) if is_behind => {
-                Some(format!("{METRICS} is missing: there is nothing to show of the {} shots played", self.said))
+                Some(format!("{METRICS} is missing: there is nothing to show of the {} shots played", self.played))
             }
             Ok(_) => match self.tail.unreadable {
                 0 if self.condition.is_over() && self.tail.is_torn() => {
                     Some(format!("the last line of {METRICS} is cut off and is left out"))
                 }
-                0 if is_behind => Some(metrics::cut_off(read, self.said)),
+                0 if is_behind => Some(metrics::cut_off(read, self.played)),
                 0 => None,
                 1 => Some(format!("1 line of {METRICS} cannot be read and is left out")),
                 lines => Some(format!("{lines} lines of {METRICS} cannot be read and are left out")),
@@ -195,7 +196,7 @@ mod tests {
     use crate::learning::run::{follow::Followed, metrics::Record};
 
     #[test]
-    fn lines_are_missed_only_if_the_run_has_written_them() {
+    fn missing_lines_are_reported_only_if_the_run_has_written_them() {
         let folder = tempfile::tempdir().unwrap();
         let notices = |read: u64, logged: u64| {
             let line = Record { shots: read, ..Record::default() };
@@ -205,13 +206,13 @@ mod tests {
             followed.apply(Follower::new(folder.path()).look().unwrap());
             followed.notices
         };
-        // More has been played since the last line; and an earlier version says nothing of lines.
+        // No notice if shots were played since the last line, or if an earlier version has not stored the number of logged shots.
         assert_eq!((notices(2880, 2880), notices(960, 0)), (vec![], vec![]));
         assert_eq!(
             notices(960, 2880),
             ["metrics.jsonl has been emptied or cut off: it ends after 960 of the 3072 shots played"]
         );
-        // Before a run says something that goes on, lines that it has cut off are not missed.
+        // No notice while a resumed run has removed lines but has not written its status yet.
         let (mut follower, mut followed) = (Follower::new(folder.path()), Followed::new(folder.path()));
         followed.apply(follower.look().unwrap());
         assert_eq!(followed.notices.len(), 1);

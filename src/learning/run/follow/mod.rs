@@ -1,4 +1,4 @@
-//! Following a run from outside, by its files alone: while it is at work, after it has ended, and whatever befalls them.
+//! Follows a run from outside by its files alone: during training, after its end, and even if files are damaged or removed.
 
 mod condition;
 mod follower;
@@ -21,75 +21,75 @@ use super::{
 };
 use crate::printing::shell_word;
 
-/// What is known of a run.
+/// The known state of a followed run.
 #[derive(Clone, Debug, Default)]
 pub struct Followed {
-    /// Its folder.
+    /// The run's folder.
     pub folder: PathBuf,
-    /// What it is; unknown where its configuration cannot be read.
+    /// The configuration; `None` if it cannot be read.
     pub config: Option<Config>,
-    /// What it has reported.
+    /// The metrics.
     pub history: History,
-    /// What it says of itself; nothing where it has not started, or an earlier carom trained it.
+    /// The run's own status; `None` if the run has not started or was trained by an early version.
     pub status: Option<RunStatus>,
-    /// How it is, as far as one can see from outside.
+    /// The condition as seen from outside.
     pub condition: Condition,
-    /// Its latest shots on held-out layouts.
+    /// The latest example shots on held-out layouts.
     pub examples: Option<Examples>,
-    /// Sentences on what is wrong with its files now.
+    /// Sentences about current problems with its files.
     pub notices: Vec<String>,
 }
 
-/// What has changed since the last look. Whatever is `None` is as it was.
+/// Changes of a run since the last look. A field that is `None` has not changed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Update {
-    /// Its configuration.
+    /// The configuration.
     pub config: Option<Box<Config>>,
-    /// Whether the lines that have come are all that it has reported: they were read from the beginning (again).
+    /// Whether `records` are all lines of the run, because the file was read from its beginning (again).
     pub begins: bool,
-    /// Lines that have come.
+    /// New lines of metrics.
     pub records: Vec<Record>,
-    /// What it says of itself.
+    /// The run's own status.
     pub status: Option<RunStatus>,
-    /// How it is.
+    /// The condition as seen from outside.
     pub condition: Option<Condition>,
-    /// Its latest shots.
+    /// The latest example shots.
     pub examples: Option<Examples>,
-    /// All sentences on its files.
+    /// All sentences about problems with its files.
     pub notices: Option<Vec<String>>,
 }
 
 impl Followed {
-    /// A run of which nothing is known yet.
+    /// Creates the state of a run of which nothing is known yet.
     pub fn new(folder: &Path) -> Self {
         Self { folder: folder.to_owned(), ..Self::default() }
     }
 
-    /// Shots played, as far as is known.
+    /// Returns the shots played, as far as is known.
     pub fn shots(&self) -> u64 {
-        let told = self.status.as_ref().map_or(0, |status| status.shots);
-        self.history.last().map_or(told, |record| record.shots.max(told))
+        let in_status = self.status.as_ref().map_or(0, |status| status.shots);
+        self.history.last().map_or(in_status, |record| record.shots.max(in_status))
     }
 
-    /// What it earned at its last measurement on held-out layouts.
+    /// Returns the mean reward of the last evaluation on held-out layouts.
     pub fn held_out(&self) -> Option<f64> {
-        let told = self.status.as_ref().and_then(|status| status.held_out_reward);
-        told.or_else(|| self.history.last_of(Quantity::HeldOut))
+        let in_status = self.status.as_ref().and_then(|status| status.held_out_reward);
+        in_status.or_else(|| self.history.last_of(Quantity::HeldOut))
     }
 
-    /// The most that it has earned on held-out layouts.
+    /// Returns the highest mean reward on held-out layouts so far.
     pub fn best(&self) -> Option<f64> {
         self.history.best().into_iter().chain(self.held_out()).max_by(f64::total_cmp)
     }
 
-    /// Time until all shots have been played, if it goes on as on average so far; none while it does not train.
+    /// Estimates the time until all shots are played, from the mean speed so far; `None` if the run is over or has played no shot.
     pub fn time_left(&self) -> Option<Duration> {
         let status = self.status.as_ref().filter(|_| !self.condition.is_over())?;
         let left = self.config.as_ref()?.plan.shots.saturating_sub(status.shots);
         Duration::try_from_secs_f64(left as f64 * status.seconds / status.shots as f64).ok()
     }
 
-    /// How it is, in a sentence that says what to do.
+    /// Describes the condition in a sentence that also states what to do.
     pub fn sentence(&self) -> String {
         let folder = self.folder.display();
         let shots = self.shots();
@@ -97,14 +97,14 @@ impl Followed {
         let go_on = format!("go on with: carom train --resume {}", shell_word(&self.folder.to_string_lossy()));
         match self.condition {
             Condition::Unknown => format!("looking at {folder}"),
-            Condition::Missing => format!("{folder} holds no run yet"),
+            Condition::Missing => format!("{folder} contains no run yet"),
             Condition::Is(Phase::Failed) => {
                 let reason = self.status.as_ref().and_then(|status| status.reason.as_deref());
                 format!("the run has failed{after}: {}", reason.unwrap_or("no reason was given"))
             }
             Condition::Is(Phase::Stopped) => {
-                // What is measured at a stop has no line of metrics, which must not depend on where a run was stopped.
-                // A second signal leaves that of the measurement before.
+                // The evaluation at a stop has no line of metrics, because the lines must not depend on where a run was stopped.
+                // After a second signal, the status contains the reward of the evaluation before.
                 let status = self.status.as_ref().filter(|status| status.phase == Phase::Stopped);
                 let reward = status.and_then(|status| status.held_out_reward);
                 let reward = reward.map_or_else(String::new, |reward| format!(", held-out reward {reward:.4}"));
@@ -112,19 +112,19 @@ impl Followed {
             }
             Condition::Is(phase) => format!("the run is {}{after}", phase.name()),
             Condition::Stalled(time) => format!(
-                "the run is stalled{after}: its process is there and has written nothing for {} s; it may have been \
+                "the run is stalled{after}: its process exists but has written nothing for {} s; it may have been \
                  suspended, or its disk may be slow",
                 time.as_secs()
             ),
             Condition::Died => {
-                format!("the run died{after}: its process is gone without a word, killed or with the machine; {go_on}")
+                format!("the run died{after}: its process was killed, or the machine stopped; {go_on}")
             }
             Condition::Interrupted => format!("the run was stopped{after}; {go_on}"),
             Condition::Removed => format!("{folder} has been removed"),
         }
     }
 
-    /// Takes what has changed.
+    /// Applies an update.
     pub fn apply(&mut self, update: Update) {
         let Update { config, begins, records, status, condition, examples, notices } = update;
         if let Some(config) = config {

@@ -1,4 +1,4 @@
-//! Whether a file has changed, found without reading it.
+//! Detects whether a file has changed, without reading it.
 
 use std::{
     fs::Metadata,
@@ -8,7 +8,7 @@ use std::{
 
 use crate::platform;
 
-/// What tells one state of a file from the next.
+/// Metadata that differ between two states of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stamp {
     modified: Option<SystemTime>,
@@ -18,12 +18,12 @@ pub struct Stamp {
 }
 
 impl Stamp {
-    /// That of the file at `path`; none where there is no file.
+    /// Returns the stamp of the file at `path`; `None` if there is no file.
     pub fn of(path: &Path) -> Option<Self> {
         std::fs::metadata(path).ok().map(|data| Self::from(&data))
     }
 
-    /// How long ago the file was written last; nothing where the system does not tell.
+    /// Returns the time since the file was last written; zero if the system does not provide it.
     pub fn age(&self) -> Duration {
         self.modified.and_then(|modified| SystemTime::now().duration_since(modified).ok()).unwrap_or_default()
     }

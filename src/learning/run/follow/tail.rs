@@ -1,4 +1,4 @@
-//! The end of a file of metrics that another process writes: only whole lines, each once, whatever happens to the file.
+//! Reads new lines of a metrics file that another process writes: only complete lines, each once, even if the file is cut off or replaced.
 
 use std::{
     fs::File,
@@ -9,29 +9,29 @@ use std::{
 use super::stamp::Stamp;
 use crate::{learning::run::metrics::Record, storage};
 
-/// Bytes that are read at a time; no line of ours is longer than a thousandth of it.
+/// Bytes that are read at a time; no line of metrics is longer than a thousandth of it.
 const CHUNK: usize = 1 << 20;
 
-/// Bytes before the place that has been read up to which are compared before more is read: a file that was cut off and has
-/// grown again would be taken for the same otherwise.
+/// Number of the last read bytes that are compared before more is read. Without this check a file that was cut off and has
+/// grown again would count as the same.
 const MARK: usize = 256;
 
-/// Reads a file that grows.
+/// Reader of a growing file.
 #[derive(Debug, Default)]
 pub struct Tail {
     path: PathBuf,
-    /// Bytes of whole lines read.
+    /// Bytes of complete lines read.
     offset: u64,
-    /// The last of these bytes.
+    /// The last [`MARK`] of these bytes.
     mark: Vec<u8>,
-    /// The file as it was last read.
+    /// The stamp of the file when it was last read.
     stamp: Option<Stamp>,
-    /// Lines that are no records of this version.
+    /// Number of lines that are not records of this version.
     pub unreadable: u64,
 }
 
 impl Tail {
-    /// Of the file at `path`, from its beginning.
+    /// Creates a reader of the file at `path`, from its beginning.
     pub fn new(path: &Path) -> Self {
         Self { path: path.to_owned(), ..Self::default() }
     }
@@ -41,8 +41,8 @@ impl Tail {
         self.stamp.is_some_and(|stamp| self.offset < stamp.length)
     }
 
-    /// Adds what is new to `records`; `false` where there is no file. What was read before an error is there, too. What was read of a
-    /// file that is another now counts no more: then `is_afresh`, and the records are all that there are.
+    /// Adds new records to `records`, including those before a read error. Returns `false` if there is no file. If the file was cut off or
+    /// replaced, sets `is_afresh` and adds all its records; those read earlier are then obsolete.
     pub fn look(&mut self, is_afresh: &mut bool, records: &mut Vec<Record>) -> io::Result<bool> {
         let stamp = Stamp::of(&self.path);
         if stamp == self.stamp {
@@ -55,19 +55,19 @@ impl Tail {
             }
             file => file?,
         };
-        // Taken from the file that is read: another may stand in its place by now.
+        // Taken from the opened file, because another one may have replaced it by now.
         let stamp = Stamp::from(&file.metadata()?);
         if !self.is_the_same(&mut file, stamp.length)? {
             *self = Self::new(&self.path);
             *is_afresh = true;
         }
         self.read(&mut file, records)?;
-        // Not before: what could not be read is tried again.
+        // Set only after a successful read, so that a failed one is repeated.
         self.stamp = Some(stamp);
         Ok(true)
     }
 
-    /// Whether the file still begins with what has been read of it.
+    /// Whether the file still contains the bytes read last.
     fn is_the_same(&self, file: &mut File, length: u64) -> io::Result<bool> {
         if length < self.offset {
             return Ok(false);
@@ -88,7 +88,7 @@ impl Tail {
             }
             let end = match buffer[start..].iter().rposition(|byte| *byte == b'\n') {
                 Some(end) => start + end + 1,
-                // A line without an end is waited for, but not for ever: nothing of ours is so long.
+                // Waits for the end of an incomplete line, up to a length that no line of metrics has.
                 None if buffer.len() >= 4 * CHUNK => buffer.len(),
                 None => continue,
             };
@@ -121,7 +121,7 @@ mod tests {
         )
     }
 
-    /// A new folder, the path of a file in it, and that file's tail.
+    /// A new folder, the path of a file in it, and a reader of that file.
     fn fresh() -> (tempfile::TempDir, PathBuf, Tail) {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("metrics.jsonl");
@@ -129,7 +129,7 @@ mod tests {
         (folder, path, tail)
     }
 
-    /// Whether the file was read afresh, and its new lines; `None` where there is no file.
+    /// Whether the file was read from its beginning again, and its new lines; `None` if there is no file.
     fn look(tail: &mut Tail) -> Option<(bool, Vec<u64>)> {
         let (mut is_afresh, mut records) = (false, Vec::new());
         let is_there = tail.look(&mut is_afresh, &mut records).unwrap();
@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn only_whole_lines_are_taken_and_each_once() {
+    fn only_complete_lines_are_read_and_each_once() {
         let (_folder, path, mut tail) = fresh();
         assert_eq!(look(&mut tail), None);
         let (first, second) = (line(1), line(2));
@@ -152,13 +152,13 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_was_cut_off_or_removed_is_read_afresh() {
+    fn a_file_that_was_cut_off_or_removed_is_read_from_its_beginning() {
         let (_folder, path, mut tail) = fresh();
         fs::write(&path, line(1) + &line(2) + &line(3)).unwrap();
         assert_eq!(look(&mut tail), Some((false, vec![1, 2, 3])));
         fs::write(&path, line(1)).unwrap();
         assert_eq!(look(&mut tail), Some((true, vec![1])));
-        // Cut off and grown again between two looks: longer than before, and yet another file.
+        // The file was cut off and has grown again between two looks: it is longer than before but not the same.
         fs::write(&path, line(7) + &line(8)).unwrap();
         assert_eq!(look(&mut tail), Some((true, vec![7, 8])));
         fs::remove_file(&path).unwrap();
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_read_is_tried_again() {
+    fn a_failed_read_is_repeated() {
         let (_folder, path, mut tail) = fresh();
         std::fs::create_dir(&path).unwrap();
         for _ in 0..2 {

@@ -1,5 +1,4 @@
-//! The ways of the cue ball to the first ball, straight or by a cushion: the stroke of an action by one of them, and how the ball
-//! arrives.
+//! The cue ball's paths to the first ball, straight or by a cushion: the stroke of an action on such a path, and the ball's arrival.
 
 use glam::DVec2;
 
@@ -15,68 +14,68 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// The ways to the first ball in an observation.
+/// The paths to the first ball in an observation.
 #[derive(Clone, Debug)]
-pub struct Ways<'a> {
+pub struct Paths<'a> {
     pub table: &'a Table,
     pub observation: &'a Observation,
-    /// Its lines from ball to ball.
+    /// The observation's lines from ball to ball.
     pub lines: Lines,
     by_rail: Option<ByRail<'a>>,
 }
 
-impl<'a> Ways<'a> {
+impl<'a> Paths<'a> {
     pub fn of(table: &'a Table, observation: &'a Observation) -> Self {
         Self { table, observation, lines: observation.lines(table), by_rail: ByRail::of(table, observation) }
     }
 
-    /// How the cue ball arrives after the stroke of an action; slopes of a way by a cushion only where they are asked for. Where there
-    /// is no such way, the cushion is taken to be a mirror.
+    /// Computes the cue ball's arrival after the stroke of an action; slopes of a path by a cushion only if `slopes`. If no path by the
+    /// cushion is found, the cushion counts as a mirror.
     pub fn approach(&self, action: &Meaning, slopes: bool) -> Approach {
-        if let Some(approach) = self.by_rail.as_ref().and_then(|ways| ways.approach(action, slopes)) {
+        if let Some(approach) = self.by_rail.as_ref().and_then(|paths| paths.approach(action, slopes)) {
             return approach;
         }
         let (table, line) = (self.table, self.lines.to_first);
         let contact = FirstContact::of(table, action, line.distance);
-        // The course turns left of the line to the first ball. That the ball is aimed a little to the side where it swerves is left
-        // out here: typically less than a degree, 10 for the strongest massés.
+        // The course turns to the left of the line to the first ball. The correction of the aim for the swerve is neglected here:
+        // typically less than a degree, 10 degrees for the strongest massés.
         let sin_turn = action.offset * (2.0 * table.radius / line.distance);
         let course = DualVector { x: sin_turn.cosine(), y: sin_turn + contact.turn }.normalised();
         Approach { contact, course: course.rotated(line.direction), by_rail: [Dual::constant(0.0); RAIL_FEATURES] }
     }
 
-    /// The direction in which the ball leaves the cue by an action, rad on the table.
+    /// Returns the direction in which the ball leaves the cue in the stroke of an action, rad on the table.
     fn direction(&self, action: &Meaning) -> f64 {
-        if let Some(ways) = &self.by_rail {
-            return ways.direction(action);
+        if let Some(paths) = &self.by_rail {
+            return paths.direction(action);
         }
         let (table, line) = (self.table, self.lines.to_first);
         let swerve = FirstContact::of(table, action, line.distance).swerve.value;
-        let aside = 2.0 * table.radius * action.offset.value - swerve;
-        let turn = (aside / line.distance).clamp(-1.0, 1.0).asin();
+        let side_distance = 2.0 * table.radius * action.offset.value - swerve;
+        let turn = (side_distance / line.distance).clamp(-1.0, 1.0).asin();
         self.observation.angle_on_table(DVec2::from_angle(turn).rotate(line.direction))
     }
 }
 
-/// The stroke that carries out `action` in `observation`.
+/// Returns the stroke that carries out `action` in `observation`.
 pub fn cue_inputs(table: &Table, observation: &Observation, action: Action) -> CueInputs {
     let meaning = Meaning::of(table, action);
     let [left, up] = meaning.tip;
     let a = observation.side_on_table(left.value);
     CueInputs {
-        // Adding nought makes a negative nought positive, which people read better.
+        // Adding zero turns a negative zero into a positive one, which is easier to read.
         a: a + 0.0,
         b: up.value,
         theta: meaning.theta.value,
-        phi: Ways::of(table, observation).direction(&meaning) - squirt(table, a),
+        phi: Paths::of(table, observation).direction(&meaning) - squirt(table, a),
         speed: meaning.speed.value,
     }
 }
 
-/// The stroke that carries out `action` in an `observation` of `layout`, with the cue raised as far as rails and balls make it.
+/// Returns the stroke that carries out `action` in an `observation` of `layout`, with the cue raised as far as rails and balls require.
 ///
 /// # Errors
-/// Where the cue has no room at any elevation.
+/// Fails if the cue has no room at any elevation.
 pub fn playable(
     table: &Table,
     layout: &Layout,
@@ -95,7 +94,7 @@ mod tests {
 
     #[test]
     fn the_aiming_line_passes_the_first_ball_at_the_offset_on_the_side_of_the_view() {
-        // Where balls fly, the thesis' fixed elevation would make them hop.
+        // Without flight, because the thesis' fixed elevation would make balls hop.
         let table = Table { flight: None, ..Table::default() };
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
         for _ in 0..100 {
@@ -106,7 +105,7 @@ mod tests {
                 cue.validate().unwrap();
                 assert_eq!((cue.a, cue.b, cue.theta), (0.0, 0.0, 10_f64.to_radians()));
                 let to_ball = layout.balls[1 + (index & 1)] - layout.balls[0];
-                // Positive where the ball's centre lies on the right of the aiming line.
+                // Positive if the ball's centre is on the right of the aiming line.
                 let passed = -DVec2::from_angle(cue.phi).perp_dot(to_ball) / (2.0 * table.radius);
                 let side = if index & 2 == 0 { 1.0 } else { -1.0 };
                 assert!((passed * side - Meaning::of(&table, action).offset.value).abs() < 1e-12);
@@ -115,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn no_action_oversteps_the_miscue_limit_and_what_is_no_number_still_gives_a_stroke() {
+    fn no_action_exceeds_the_miscue_limit_and_nan_still_gives_a_stroke() {
         for name in crate::table::PRESETS {
             let table = Table::preset(name).unwrap();
             let observation = Observation::new(&Layout::opening(&table), 0);
@@ -130,23 +129,23 @@ mod tests {
     }
 
     #[test]
-    fn a_mirrored_view_gets_the_mirrored_stroke_and_way() {
+    fn a_mirrored_observation_gets_the_mirrored_stroke_and_path() {
         let table = Table::default();
         let layout = Layout::new([DVec2::new(0.3, 0.1), DVec2::new(-0.5, 0.3), DVec2::new(0.2, -0.4)]);
         let mirrored = Layout::new(layout.balls.map(|ball| DVec2::new(ball.x, -ball.y)));
         for (rail, elevation) in std::iter::once((None, 0.4)).chain(Rail::ALL.map(|rail| (Some(rail), -1.0))) {
             let action = [0.2, 0.5, 0.6, -0.3, elevation];
-            let [(one, way), (other, other_way)] = [(layout, 0), (mirrored, 2)].map(|(layout, index)| {
+            let [(one, path), (other, other_path)] = [(layout, 0), (mirrored, 2)].map(|(layout, index)| {
                 let observation = Observation { rail, ..Observation::new(&layout, index) };
-                let ways = Ways::of(&table, &observation);
-                let Approach { contact, course, by_rail } = ways.approach(&Meaning::of(&table, action), false);
+                let paths = Paths::of(&table, &observation);
+                let Approach { contact, course, by_rail } = paths.approach(&Meaning::of(&table, action), false);
                 let numbers = [contact.side, course.x, course.y].into_iter().chain(by_rail);
                 (cue_inputs(&table, &observation, action), numbers.map(|number| number.value).collect::<Vec<_>>())
             });
             assert!((one.phi + other.phi).abs() < if rail.is_some() { 1e-9 } else { 1e-12 } && one.a > 0.2);
             assert_eq!((one.a, one.b, one.theta, one.speed), (-other.a, other.b, other.theta, other.speed));
-            let is_same = way.iter().zip(&other_way).all(|(one, other)| (one - other).abs() < 1e-9);
-            assert!(is_same, "{rail:?}: {way:?} {other_way:?}");
+            let is_same = path.iter().zip(&other_path).all(|(one, other)| (one - other).abs() < 1e-9);
+            assert!(is_same, "{rail:?}: {path:?} {other_path:?}");
         }
     }
 }
