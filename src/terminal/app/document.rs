@@ -15,17 +15,18 @@ const TYPING: &str = "
 | keys | what they do |
 |---|---|
 | `← →` | move the cursor |
-| `Ctrl-← →`, `Alt-← →` | move it by a word |
-| `Home`, `End` | to the beginning, to the end |
-| `Backspace`, `Delete` | delete the character before the cursor, the one at it |
-| `Ctrl-w`, `Ctrl-u` | delete the word before the cursor, all before it |
+| `Ctrl-← →`, `Alt-← →` | move the cursor by a word |
+| `Home`, `End` | move the cursor to the beginning, to the end |
+| `Backspace`, `Delete` | delete the character before the cursor, at the cursor |
+| `Ctrl-w`, `Ctrl-u` | delete the word before the cursor, everything before it |
 ";
 
 /// Returns a Markdown table of all keys, page by page; the keys common to all pages come last, once.
 pub fn document() -> String {
     let mut text = String::from(
-        "# Keys\n\nWritten from the program's own tables by `cargo run --release --example picture -- docs/`. Keys of your own: F5, \
-         then Tab; or `[keys]` in the file that `carom config` prints.\n",
+        "# Keys\n\nThis page is for users of the screens: it lists all keys, page by page. To assign your own keys, press F5, then Tab, or \
+         edit `[keys]` in the file that `carom config` prints.\n\nThe page is generated from the program's key bindings by \
+         `cargo run --release --example picture -- docs/`.\n",
     );
     let pages: Vec<Vec<Bound>> = KeyContext::PAGES.iter().map(|(place, _)| listed(*place).collect()).collect();
     let is_everywhere =
