@@ -1,4 +1,4 @@
-//! What each action does to the state.
+//! Implementation of the coach page's key actions: how each action changes the state of the page.
 
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ use crate::{
 };
 
 impl CoachPage {
-    /// Why a binding may not be used now; `None` where it may.
+    /// Returns the reason why a key binding is disabled now; `None` if it is enabled.
     pub fn disabled_reason(&self, when: CoachCondition) -> Option<&'static str> {
         let refuse = |refused: bool, reason| refused.then_some(reason);
         let thinking = refuse(self.pending.is_some(), "the coach is thinking; Esc stops it");
@@ -62,12 +62,12 @@ impl CoachPage {
         }
     }
 
-    /// Does what an enabled binding asks for.
+    /// Performs the action of an enabled key binding.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         self.drop_ball();
         let effect = self.act(action);
         self.renew();
-        // Whatever has changed, the closer look is at the shot that is shown now.
+        // The action may have changed the displayed shot: the background analysis must follow it.
         let study = self.study();
         effect.or(study)
     }
@@ -75,7 +75,7 @@ impl CoachPage {
     fn act(&mut self, action: Action) -> Option<Effect> {
         let terms = self.query.terms();
         match action {
-            // The keys are for colours.
+            // The number keys select balls by colour, not by role.
             Action::Select(ball) => self.select(self.cue_ball().ordered([0, 1, 2])[ball]),
             Action::SelectOther(balls) => self.select((self.selected + BALLS).saturating_add_signed(balls) % BALLS),
             Action::Move(x, y, scale) => self.move_ball(DVec2::new(f64::from(x), f64::from(y)), scale),
@@ -131,25 +131,25 @@ impl CoachPage {
             Action::TypeStroke => self.ask_stroke(),
             Action::StrokeBack => return self.travel_stroke(OwnStroke::undo),
             Action::StrokeAgain => return self.travel_stroke(OwnStroke::redo),
-            // The app goes on with what was practised.
+            // The app resumes the practice session.
             Action::Resume => drop(self.resume()),
             Action::Bundled => {
                 self.take_query(&self.table().clone(), CoachQuery { policy: None, ..self.query.clone() });
             }
             Action::Playback(key) => self.play(key),
-            // The app opens another page.
+            // The app opens the other page.
             Action::OpenDrills | Action::OpenFilms | Action::OpenTraining => {}
         }
         None
     }
 
-    /// The match against the coach that an earlier session has left, the latest; it no longer waits there then.
+    /// Takes the latest unfinished match against the coach out of the earlier sessions.
     pub fn take_match(&mut self) -> Option<Session> {
         let of = |before: &mut SavedSession| before.practice.take_if(|practice| practice.is_against_coach());
         self.before.iter_mut().find_map(of)
     }
 
-    /// The opponent's turn: the other ball is the cue ball, and all stay where they lie.
+    /// Gives the turn to the opponent: the other ball becomes the cue ball, and all balls keep their positions.
     fn take_other_ball(&mut self) {
         let cue_ball = self.cue_ball().other();
         let layout = self.layout().for_the_opponent();
@@ -159,7 +159,7 @@ impl CoachPage {
         self.message = Some(Message::plain(format!("{cue_ball} is the cue ball now; Enter asks the coach")));
     }
 
-    /// Puts the balls on their spots; where they are there already, the cue ball goes to the other side of the opponent's.
+    /// Puts the balls in the opening position. If they are there already, moves the cue ball to the other side of the opponent's ball.
     fn open(&mut self) {
         let side = self.layout().opening_side(self.table()).map_or(Side::Left, Side::other);
         let layout = Layout::opening_on(self.table(), side);
@@ -184,7 +184,7 @@ impl CoachPage {
         self.place_balls();
     }
 
-    /// Leaves the shot, which is paused, and a stroke of the player's own beside it.
+    /// Returns to placing balls: pauses the shot and discards the player's own stroke.
     fn place_balls(&mut self) {
         self.leave_example();
         self.own_stroke = None;
@@ -192,12 +192,12 @@ impl CoachPage {
         self.mode = Mode::Placing;
     }
 
-    /// The jump of the shot, while it is to be shown from the side; a shot without one has none.
+    /// The height profile of the shot's jump; `None` if the side view is off or no ball jumps.
     pub fn profile(&self) -> Option<&Profile> {
         self.shot().filter(|_| self.is_from_side)?.profile(self.table())
     }
 
-    /// Shows the jump from the side, or no longer; where no ball jumps it says so.
+    /// Turns the side view of the jump on or off. If no ball jumps, shows a message instead.
     fn turn_side_view(&mut self) {
         self.is_from_side = !self.is_from_side;
         if self.is_from_side && self.profile().is_none() {
@@ -232,14 +232,14 @@ impl CoachPage {
         }
     }
 
-    /// Puts the balls elsewhere, as a step that can be taken back. The shot was for where they lay.
+    /// Puts the balls in new positions, as an undoable step. The shot disappears because it belongs to the old positions.
     pub(super) fn place(&mut self, layout: Layout) {
         self.drop_ball();
         self.history.push(self.snapshot(layout));
         self.rest();
     }
 
-    /// The same table and policy with the balls elsewhere, on which there is no advice yet.
+    /// Returns a snapshot with the same table, policy and cue ball, a new layout and no advice.
     pub(super) fn snapshot(&self, layout: Layout) -> Snapshot {
         let Snapshot { table, policy, cue_ball, .. } = self.history.present();
         Snapshot { policy: policy.clone(), cue_ball: *cue_ball, ..Snapshot::new(Arc::clone(table), layout) }
@@ -258,12 +258,12 @@ impl CoachPage {
         self.travelled(left, self.history.present().terms);
     }
 
-    /// A step was taken back or made again, which changes what is asked for from the first terms to the second. What has been
-    /// chosen since stays.
+    /// Updates the state after an undo or redo. The step changes the query from the first terms to the second. Terms that the user
+    /// has chosen since then are kept.
     fn travelled(&mut self, left: Snapshot, terms: Option<[Terms; 2]>) {
         let present = self.history.present_mut();
         if (&left.table, left.layout, left.cue_ball) == (&present.table, present.layout, present.cue_ball) {
-            // The balls are the same, and so is all that was answered about them.
+            // The balls have not moved, so the advice on them is still valid.
             present.advised = left.advised;
         }
         if left.cue_ball != present.cue_ball {
@@ -278,16 +278,16 @@ impl CoachPage {
         self.say_terms(before, false);
     }
 
-    /// Another shot is on the table, or none.
+    /// Resets mode and playback after the displayed shot has changed or disappeared.
     pub(super) fn rest(&mut self) {
         self.mode = Mode::Placing;
         self.playback.jump(0.0);
         self.renew();
     }
 
-    /// Whatever has changed, what goes with the shot is of the one that is shown now.
+    /// Brings everything that depends on the displayed shot up to date.
     fn renew(&mut self) {
-        // A stroke that is about other balls, another question or another shot is forgotten.
+        // Drop the player's own stroke if it belongs to another layout, query or shot.
         if self.what_if().is_none() {
             self.own_stroke = None;
         }

@@ -1,4 +1,4 @@
-//! Others who look on: what the player lets them see of this table, and the same table as they see it.
+//! Spectators: sharing this table with others, and showing the shared table of another player.
 
 use std::{path::PathBuf, sync::Arc};
 
@@ -14,38 +14,38 @@ use crate::{
     },
 };
 
-/// What stands before all that the status line says while others may look on.
+/// Prefix of the status line while the table is shared.
 const SHOWN: &str = "shown to others";
 
-/// Who else is at the table.
+/// Sharing state of the table.
 #[derive(Debug)]
 pub enum Company {
-    /// Nobody.
+    /// The table is private.
     Alone,
-    /// Others may look on.
+    /// The table is shared with spectators.
     Others,
-    /// Somebody whose table it is: it is looked at, and nothing else.
+    /// The page shows the table of another player, read-only.
     Host(Followed),
 }
 
-/// Somebody else whose table this page shows.
+/// Another player whose table this page shows.
 #[derive(Debug)]
 pub struct Followed {
-    /// Their name.
+    /// The other player's name.
     pub name: String,
-    /// The folder in which they show their table.
+    /// The folder in which the other player's program writes the shared table.
     pub folder: PathBuf,
-    /// What is seen of it.
+    /// The latest state of the shared table.
     seen: Seen,
 }
 
 impl Followed {
-    /// Nothing is seen yet.
+    /// Creates the state before the shared table has been read.
     pub const fn new(name: String, folder: PathBuf) -> Self {
         Self { name, folder, seen: Seen::Nothing }
     }
 
-    /// Why there is nothing to see; `None` where there is.
+    /// The reason why there is no table to show; `None` if there is one.
     pub fn emptiness(&self) -> Option<String> {
         let name = &self.name;
         match &self.seen {
@@ -57,7 +57,7 @@ impl Followed {
         }
     }
 
-    /// What they do, where a shot does not say it.
+    /// A sentence on what the other player is doing; `None` if the displayed shot makes that clear.
     pub fn doing(&self) -> Option<String> {
         let Seen::Table(seen) = &self.seen else { return None };
         let name = &self.name;
@@ -71,7 +71,7 @@ impl Followed {
 }
 
 impl CoachPage {
-    /// Somebody else whose table this is.
+    /// The player whose table this page follows; `None` if the table is the user's own.
     pub const fn followed(&self) -> Option<&Followed> {
         match &self.company {
             Company::Host(followed) => Some(followed),
@@ -79,12 +79,12 @@ impl CoachPage {
         }
     }
 
-    /// Whether others may look on.
+    /// Whether the table is shared with spectators.
     const fn is_shown(&self) -> bool {
         matches!(self.company, Company::Others)
     }
 
-    /// Lets others see the table, or no longer.
+    /// Starts or stops sharing the table with spectators.
     pub(super) fn turn_shown(&mut self) {
         self.company = if self.is_shown() { Company::Alone } else { Company::Others };
         self.message = Some(match (&self.player, self.is_shown()) {
@@ -93,14 +93,15 @@ impl CoachPage {
         });
     }
 
-    /// Others see nothing of it from now on.
+    /// Stops sharing the table.
     pub fn hide(&mut self) {
         self.company = Company::Alone;
-        // It said the contrary.
+        // The message may say that the table is shared.
         self.message = None;
     }
 
-    /// What others may see, while they may; where another screen is open, the table as it was left.
+    /// The state that spectators see; `None` if the table is not shared. `is_open` tells whether this page is the open one; otherwise
+    /// spectators see the table as the player has left it.
     pub fn shown_table(&self, is_open: bool) -> Option<ShownTable> {
         if !self.is_shown() {
             return None;
@@ -135,17 +136,17 @@ impl CoachPage {
         })
     }
 
-    /// What the status line says, with a word that others may look on where they may.
+    /// The message of the status line, with a prefix while the table is shared.
     pub(super) fn marked(&self, message: Message) -> Message {
         if self.is_shown() { message.prefixed(SHOWN) } else { message }
     }
 
-    /// Shows the table of somebody else from now on.
+    /// Switches the page to the shared table of another player.
     pub fn follow(&mut self, name: String, folder: PathBuf) {
         self.company = Company::Host(Followed::new(name, folder));
     }
 
-    /// Something else is seen of the table that is followed.
+    /// Handles a new state of the followed table.
     pub fn see(&mut self, seen: Seen) {
         let Company::Host(followed) = &mut self.company else { return };
         followed.seen = seen.clone();
@@ -176,7 +177,7 @@ impl CoachPage {
             let proposal = Proposal { shot, made, risk: None, next: None, is_early };
             let advice = Advice { proposals: vec![proposal], seed: 1, effort: None, found: None };
             snapshot.advised.extend(AdviceState::new(self.query.clone(), advice));
-            // The closer look is the player's own.
+            // Only the other player's own program analyses the shot.
             if let Some(advised) = snapshot.advised.first_mut() {
                 advised.choices[advised.chosen].is_studied = true;
             }

@@ -1,4 +1,4 @@
-//! The panel that says for whom and by which rule the coach answers, while there is no shot to tell of.
+//! The panel that shows the player skill and the rule of the query, as long as there is no shot.
 
 use ratatui::layout::Rect;
 
@@ -25,7 +25,7 @@ pub fn draw_asked(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     write_paragraphs(&paragraphs, text, ui);
 }
 
-/// Who plays, as one says it of a person.
+/// Describes the player of this skill as a person, with an article.
 fn whom(skill: Skill) -> String {
     match named_skill(skill) {
         None => player_words(skill).replacen("me", "you", 1).replacen("my", "your", 1),
@@ -35,7 +35,7 @@ fn whom(skill: Skill) -> String {
     }
 }
 
-/// What players call the game by this rule.
+/// The game with this rule, as players call it.
 const fn game(rule: Rule) -> &'static str {
     match rule {
         Rule::StraightRail => "straight rail",
