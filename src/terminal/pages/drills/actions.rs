@@ -1,4 +1,4 @@
-//! What each key does to the library and the records, and what is done with answers.
+//! Implementation of the drill page's key actions on the library and the records, and of the answers to its questions.
 
 use crate::{
     drills::{Category, Exercise, Goal, Session, Venue, decode, encode, exam},
@@ -15,7 +15,7 @@ use crate::{
 };
 
 impl DrillsPage {
-    /// Why a binding may not be used now; `None` where it may.
+    /// Returns the reason why a key binding is disabled now; `None` if it is enabled.
     pub fn disabled_reason(&self, when: DrillCondition) -> Option<&'static str> {
         let refuse = |refused: bool, reason| refused.then_some(reason);
         match when {
@@ -39,7 +39,7 @@ impl DrillsPage {
         }
     }
 
-    /// Does what an enabled binding asks for.
+    /// Performs the action of an enabled key binding.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
             Action::Back => self.back(),
@@ -93,7 +93,7 @@ impl DrillsPage {
         let exam = self.turn.as_mut().filter(|turn| is_exercise && turn.session.is_exam() && !turn.session.is_over());
         if let Some(exam) = exam {
             exam.finish_watching();
-            // One that has not begun is left as it is.
+            // An exam without attempts needs no confirmation.
             let made = exam.newest().attempts.len();
             if made > 0 {
                 self.question = Some(Question::Leave(made, exam.session.exercises.len()));
@@ -113,7 +113,7 @@ impl DrillsPage {
         }
     }
 
-    /// Back to the library, or to the coach where that is left too.
+    /// Returns to the library, or to the coach page if the library is left too.
     fn leave_page(&mut self) {
         let is_left = self.is_left();
         self.leave_turn();
@@ -136,11 +136,11 @@ impl DrillsPage {
         Some(Effect::Drill(tasks))
     }
 
-    /// Begins a session of these exercises and opens the page of the first.
+    /// Starts a session of these exercises and opens the page of the first one.
     pub(super) fn begin(&mut self, goal: Goal, exercises: Vec<Exercise>) -> Effect {
         let seed = self.seed();
         let mut session = Session::new(goal, Venue::Program, exercises, self.player.skill, seed);
-        // An exam's averages are for the tables of its exercises.
+        // The expected scores of an exam hold only for the tables and positions of its exercises.
         if goal != Goal::Exam {
             session.shifted = self.options.shifted;
             session.table.clone_from(&self.own_table);
@@ -148,10 +148,10 @@ impl DrillsPage {
         Effect::Drill(self.practise(session))
     }
 
-    /// Opens the page of what is to be played next in a session; gives what is to be found out for it.
+    /// Opens the page of the next exercise of a session. Returns the background tasks for it.
     pub(super) fn practise(&mut self, session: Session) -> Vec<DrillTask> {
         if !session.is_exam() {
-            // What comes after it is repeated alike, wherever the session was left.
+            // The next exercise uses the same options, even if this session is resumed from an earlier run of the program.
             self.options = RepetitionOptions { goal: session.goal, shifted: session.shifted, ..self.options };
         }
         match Turn::new(session) {
@@ -171,7 +171,7 @@ impl DrillsPage {
         match exam::draw(self.catalogue.library.exercises(), level, seed) {
             Ok(exercises) => {
                 let effect = self.begin(Goal::Exam, exercises);
-                // A page says first what comes; the key that chose the exam plays no stroke of it.
+                // A page describes the exam before it begins, so that the key that chose it cannot play a stroke.
                 if self.page() == DrillContext::Exercise {
                     self.exam_level = level;
                     self.pages = vec![DrillContext::Library, DrillContext::Exam];
@@ -182,7 +182,7 @@ impl DrillsPage {
         }
     }
 
-    /// Opens the page of a filmed shot, so many after the marked one, and has its stroke fitted.
+    /// Opens the page of the filmed shot that is `shots` after the marked one, and requests the fit of its stroke.
     fn open_film(&mut self, shots: isize) -> Option<Effect> {
         let Some(filmed) = self.film.begin(shots) else {
             let end = if shots > 0 { "last" } else { "first" };
@@ -197,11 +197,11 @@ impl DrillsPage {
 
     fn open_records(&mut self) -> Effect {
         self.pages.push(DrillContext::Record);
-        // Games and matches from an exercise are no repetitions of it.
+        // Games and matches that start from an exercise do not count as repetitions of it.
         let is_repeated = |turn: &&Turn| !turn.session.is_exam() && !turn.session.is_game();
         let name = self.turn.as_ref().filter(is_repeated).map(|turn| turn.exercise.name.clone());
         self.records.open(name);
-        // Another program may have noted something.
+        // Another instance of the program may have recorded something.
         Effect::Drill(vec![self.load()])
     }
 
@@ -276,7 +276,7 @@ impl DrillsPage {
             Question::GiveUp(action, ..) => return self.act(*action),
         };
         answer.unwrap_or_else(|sentence| {
-            // What was typed stays, to be mended.
+            // The typed text stays for a correction.
             self.question = Some(question);
             self.refuse(sentence)
         })
