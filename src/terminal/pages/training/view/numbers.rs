@@ -1,4 +1,4 @@
-//! The panel of a run's numbers.
+//! The panel with the numbers of a watched run.
 
 use std::path::Path;
 
@@ -21,9 +21,9 @@ use crate::{
     },
 };
 
-/// Most columns of a name and its value.
+/// Maximum width of a name with its value, columns.
 const WIDE: u16 = 30;
-/// What stands where nothing is known.
+/// Text for an unknown value.
 const UNKNOWN: &str = "-";
 
 /// Draws the panel.
@@ -40,7 +40,7 @@ pub fn draw(training: &TrainingPage, watch: &Watch, area: Rect, ui: &mut Ui) {
     let inner = draw_legend(watch, inner, ui);
     let mut columns = columns(watch);
     if !watch.is_at_work() {
-        // What is not known now will not be.
+        // The run has ended, so unknown values stay unknown.
         for rows in &mut columns {
             rows.retain(|(_, value)| value != UNKNOWN);
         }
@@ -48,7 +48,7 @@ pub fn draw(training: &TrainingPage, watch: &Watch, area: Rect, ui: &mut Ui) {
     let [left, right] = columns;
     let width = (inner.width.saturating_sub(3) / 2).min(WIDE);
     let lines = left.len().max(right.len());
-    // Air above, where there is some.
+    // A blank row above, if there is room.
     let top = inner.y + u16::from(usize::from(inner.height) > lines + 2);
     for (rows, x) in [(left, inner.x + 1), (right, inner.x + width + 3)] {
         for ((name, value), y) in rows.into_iter().zip(top..inner.bottom()) {
@@ -58,7 +58,7 @@ pub fn draw(training: &TrainingPage, watch: &Watch, area: Rect, ui: &mut Ui) {
     }
 }
 
-/// Whose curve is which, and how far the run is that this one is compared with; gives the rest of the panel.
+/// Draws the legend of a comparison: the sign of each run's curve, and the progress of the other run. Returns the rest of the panel.
 fn draw_legend(watch: &Watch, area: Rect, ui: &mut Ui) -> Rect {
     let Some(other) = &watch.other else { return area };
     let named = |whose, named: &Named| {
@@ -79,15 +79,15 @@ fn draw_legend(watch: &Watch, area: Rect, ui: &mut Ui) -> Rect {
     Rect { y: area.y + rows, height: area.height - rows, ..area }
 }
 
-/// What the held-out layouts measure.
+/// Name of the quantity that is measured on the held-out layouts.
 fn measured(run: &Named) -> &'static str {
     if run.is_share() { "success" } else { "reward" }
 }
 
 type Row = (&'static str, String);
 
-/// Names and values: how far the run is and how fast it goes, and what it has learnt with what. In either the most
-/// important come first, for not all find room everywhere.
+/// Two columns of names and values: progress and speed, then results and settings. In both the most important come first, because
+/// small screens have no room for all.
 fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     let run = &watch.own.run;
     let (status, last) = (run.status.as_ref(), run.history.last());
@@ -150,7 +150,7 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     ]
 }
 
-/// A learning rate in as few digits as say something.
+/// Formats a learning rate with two significant digits.
 fn rate(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
 }
