@@ -1,4 +1,4 @@
-//! What each key of the calibration's page does, and why it may not be used now.
+//! Implementation of the calibration page's key actions, and their conditions.
 
 use crate::{
     calibration::{Calibration, Edit, Entries},
@@ -13,11 +13,11 @@ use crate::{
     },
 };
 
-/// Longest name of a table, bytes.
+/// Maximum length of a table's name, bytes.
 const LONGEST: usize = 60;
 
 impl CalibrationPage {
-    /// Why a binding may not be used now; `None` where it may.
+    /// Returns the reason why a key binding is disabled now; `None` if it is enabled.
     pub fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
         let sheet = self.sheet();
         let (can, reason) = match when {
@@ -49,7 +49,7 @@ impl CalibrationPage {
         (!can).then_some(reason)
     }
 
-    /// Does what an enabled binding asks for.
+    /// Performs the action of an enabled key binding.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
             Action::Back => self.is_left = true,
@@ -102,7 +102,7 @@ impl CalibrationPage {
                 return Some(Effect::Calibrate(vec![CalibrationTask::Read(self.sheet().path.clone())]));
             }
             Action::Save => {
-                // What was saved before has its name already.
+                // A table that was saved before keeps its name.
                 let saved = self.saved.as_ref().filter(|_| !self.is_daily).and_then(|path| path.file_stem());
                 let today = if self.is_daily { " today" } else { "" };
                 let name = saved
@@ -131,7 +131,7 @@ impl CalibrationPage {
         }
     }
 
-    /// Says that a test is left out, or taken in again, and asks what the others say.
+    /// Reports that a test is left out or included again, and requests a new evaluation of the entries.
     fn say_left_out(&mut self, test: &str, is_out: bool) -> Effect {
         let said = if is_out {
             format!("{test} is left out, with what is entered of it, until the program ends")
@@ -171,7 +171,7 @@ impl CalibrationPage {
         }
     }
 
-    /// Goes to the next mark of the form, or keeps the stroke. What is odd stays to be mended.
+    /// Moves to the next mark of the form, or saves the stroke after the last one. An implausible value stays for a correction.
     fn keep(&mut self, mut form: Form) -> Option<Effect> {
         let mut edit = None;
         let odd = form.oddity(&self.table).filter(|_| !form.is_sent);
@@ -198,7 +198,7 @@ impl CalibrationPage {
         edit.map(|edit| self.edit(edit, false))
     }
 
-    /// Saves the table that was found under a name.
+    /// Saves the calibrated table under a name.
     fn save(&mut self, name: &str, replaces: bool) -> Option<Effect> {
         let found = self.sheet().found()?;
         let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_');

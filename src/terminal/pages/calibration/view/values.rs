@@ -1,4 +1,4 @@
-//! All that was found: the table's values, which marks look misread, and what to play next.
+//! The panel with all results: the table's values, the marks that look misread, and the best next test.
 
 use ratatui::{
     layout::{Position, Rect},
@@ -14,23 +14,23 @@ use crate::{
     },
 };
 
-/// Columns at which the values and the word for how well they are known end, and where the words for a constant begin.
+/// Right ends of the values and of the word for their accuracy, and the first column of a constant's description.
 const VALUE_END: u16 = 36;
 const KNOWN_END: u16 = 46;
 const WORDS: u16 = 48;
-/// Columns that the words need, but for those of a single rail.
+/// Width that the descriptions need, columns, except those of a single rail.
 const WORDS_ROOM: usize = 30;
-/// Where the value and the word for it end if the words have no room: what the constant is called then stands before them.
+/// Right ends of the value and of the word for its accuracy if the description has no room. The constant's name is then before them.
 const NARROW_VALUE_END: u16 = 37;
 const NARROW_KNOWN_END: u16 = 47;
 
-/// A row of the part.
+/// A row of the panel.
 enum Row<'a> {
     Constant(&'a Change, &'static str),
     Text(String, Style),
 }
 
-/// Draws it, a page at a time where it is longer than its room.
+/// Draws the panel, one page at a time if it does not fit.
 pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let found = page.sheet().found();
     let width = usize::from(area.width.saturating_sub(2));
@@ -39,7 +39,7 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
         .flat_map(|(words, style)| wrap(&words, width).into_iter().map(move |line| Row::Text(line, style)));
     let constants =
         found.into_iter().flat_map(|found| found.constants.iter().map(|one| Row::Constant(one, found.known(one))));
-    // What makes all values unsure stands before them.
+    // If the strokes contradict each other, the warnings come before the values.
     let rows: Vec<Row> = if found.is_some_and(Calibration::is_contradictory) {
         said.chain(constants).collect()
     } else {
@@ -59,7 +59,7 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     }
 }
 
-/// What is odd about the entries, then what the marks say.
+/// The implausible values among the entries, then the results.
 fn said(page: &CalibrationPage, found: Option<&Calibration>, ui: &Ui) -> Vec<(String, Style)> {
     let sheet = page.sheet();
     let mut said: Vec<(String, Style)> = Vec::new();
@@ -99,7 +99,7 @@ fn draw_constant(one: &Change, known: &str, area: Rect, ui: &mut Ui) {
     write_right(ui.buffer, area.x, area.x + known_end, area.y, known, style);
 }
 
-/// Writes what a constant is called in so many columns: the short words for it, and behind them its name where that has room.
+/// Writes the short description of a constant in `room` columns, followed by its name if that fits.
 pub fn draw_called(one: &Change, room: usize, style: Style, at: Position, ui: &mut Ui) {
     let words = one.short_words();
     if words.is_empty() {
@@ -112,7 +112,7 @@ pub fn draw_called(one: &Change, room: usize, style: Style, at: Position, ui: &m
     }
 }
 
-/// What is said of the marks.
+/// The sentences on the results.
 pub fn sentences(page: &CalibrationPage, found: &Calibration, ui: &Ui) -> Vec<(String, Style)> {
     let mut said: Vec<(String, Style)> = Vec::new();
     let stroke = |trial: usize, test: &str| {
