@@ -129,14 +129,14 @@ impl Target {
 }
 
 /// Returns the index `steps` after `from` in a list of `count` elements, with wrap-around.
-const fn around(from: usize, steps: isize, count: usize) -> usize {
+const fn wrapping_index(from: usize, steps: isize, count: usize) -> usize {
     (from.cast_signed() + steps).rem_euclid(count.cast_signed()).cast_unsigned()
 }
 
 /// Returns the element `steps` after `from`, with wrap-around; the first element if `all` does not contain `from`.
 fn neighbour<T: Clone + PartialEq>(all: &[T], from: T, steps: isize) -> T {
     let Some(place) = all.iter().position(|one| *one == from) else { return all.first().cloned().unwrap_or(from) };
-    all[around(place, steps, all.len())].clone()
+    all[wrapping_index(place, steps, all.len())].clone()
 }
 
 /// Returns the skill after `now` in this order: the named skills, the user's saved `own` skill if there is one, and the skill of

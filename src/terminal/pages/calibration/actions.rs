@@ -7,7 +7,7 @@ use crate::{
         CalibrationAction as Action, CalibrationCondition as Condition, CalibrationTask, Effect,
         pages::{
             Page,
-            calibration::{CalibrationPage, Question, Side, form::Form, sheet::Back},
+            calibration::{CalibrationPage, Question, Side, form::Form, sheet::UndoStep},
         },
         ui::{Message, TextField},
     },
@@ -24,15 +24,15 @@ impl CalibrationPage {
             Condition::Always => (true, ""),
             Condition::Known => (
                 sheet.trouble.is_none(),
-                "the file of entries cannot be read: mend it, or N keeps it aside and begins anew",
+                "the file of entries cannot be read: repair it, or N moves it aside and starts again",
             ),
             Condition::Stroke => (sheet.marked_stroke().is_some(), "no stroke of this test is entered yet"),
             Condition::Entered => {
                 let is_entered = sheet.entries.as_ref().is_some_and(|entries| !entries.trials.is_empty());
                 (is_entered || sheet.trouble.is_some(), "nothing is entered yet")
             }
-            Condition::Undo => (!sheet.back.is_empty(), "nothing to undo yet; Delete removes the marked stroke"),
-            Condition::Found if sheet.is_asking() => (false, "the values are being worked out; one moment"),
+            Condition::Undo => (!sheet.undo_stack.is_empty(), "nothing to undo yet; Delete removes the marked stroke"),
+            Condition::Found if sheet.is_asking() => (false, "the values are being computed; one moment"),
             Condition::Found if !sheet.odd(&self.table).is_empty() => {
                 (false, "an entry looks wrong (see values): edit or delete it first")
             }
@@ -41,10 +41,9 @@ impl CalibrationPage {
             }
             Condition::Found => (sheet.found().is_some(), "nothing is entered yet that a table could follow from"),
             Condition::Saved => (self.saved.is_some(), "save the table first (s), or choose a saved one by name in F5"),
-            Condition::Daily => (
-                self.table.doubt.is_some(),
-                "a check of the day needs a table that was calibrated before: save one and play on it",
-            ),
+            Condition::Daily => {
+                (self.table.doubt.is_some(), "a check of the day needs a calibrated table: save one and play on it")
+            }
         };
         (!can).then_some(reason)
     }
@@ -58,8 +57,8 @@ impl CalibrationPage {
             Action::Page(pages) => self.sheet_mut().move_mark(10 * pages),
             Action::Best => self.mark_best(),
             Action::LeaveOut => {
-                let is_out = self.sheet_mut().turn_left_out();
-                return Some(self.say_left_out(self.sheet().test().name, is_out));
+                let is_out = self.sheet_mut().toggle_left_out();
+                return Some(self.report_left_out(self.sheet().test().name, is_out));
             }
             Action::Stroke(by) => self.sheet_mut().move_stroke(by),
             Action::Enter => {
@@ -77,11 +76,11 @@ impl CalibrationPage {
                 return Some(self.edit(edit, false));
             }
             Action::Undo => {
-                let edit = match self.sheet_mut().back.pop()? {
-                    Back::Edit(edit) => edit,
-                    Back::Turn(test) => {
-                        let is_out = self.sheet_mut().turn(test);
-                        return Some(self.say_left_out(test, is_out));
+                let edit = match self.sheet_mut().undo_stack.pop()? {
+                    UndoStep::Edit(edit) => edit,
+                    UndoStep::LeaveOut(test) => {
+                        let is_out = self.sheet_mut().toggle_test(test);
+                        return Some(self.report_left_out(test, is_out));
                     }
                 };
                 let said = match &edit {
@@ -112,7 +111,7 @@ impl CalibrationPage {
             Action::Use => self.for_use.clone_from(&self.saved),
             Action::Anew => self.question = Some(Question::Anew),
             Action::Field(_) | Action::Tape | Action::FarEnd => self.change_form(action),
-            Action::Answer(false) => self.put_aside(),
+            Action::Answer(false) => self.close_question(),
             Action::Answer(true) => return self.yes(),
         }
         None
@@ -124,7 +123,7 @@ impl CalibrationPage {
             Action::Field(by) => form.step(by),
             Action::FarEnd => form.far_end = !form.far_end,
             _ => {
-                if let Err(sentence) = form.turn_tape() {
+                if let Err(sentence) = form.toggle_tape() {
                     self.message = Some(Message::warning(sentence));
                 }
             }
@@ -132,7 +131,7 @@ impl CalibrationPage {
     }
 
     /// Reports that a test is left out or included again, and requests a new evaluation of the entries.
-    fn say_left_out(&mut self, test: &str, is_out: bool) -> Effect {
+    fn report_left_out(&mut self, test: &str, is_out: bool) -> Effect {
         let said = if is_out {
             format!("{test} is left out, with what is entered of it, until the program ends")
         } else {

@@ -3,7 +3,7 @@
 use crate::{
     calibration::{Entry, RAILS, TAPED, Test, Unit, Written},
     table::Table,
-    terminal::{StrokeDraft, pages::around, ui::TextField},
+    terminal::{StrokeDraft, pages::wrapping_index, ui::TextField},
 };
 
 /// Maximum length of a typed mark, bytes.
@@ -68,7 +68,7 @@ impl Form {
 
     /// Moves to another field, with wrap-around.
     pub fn step(&mut self, by: isize) {
-        self.field = around(self.field, by, self.fields.len());
+        self.field = wrapping_index(self.field, by, self.fields.len());
     }
 
     /// Whether the form contains unsaved changes.
@@ -124,15 +124,15 @@ impl Form {
     ///
     /// # Errors
     /// Returns a message if the active field is not a position, or is empty.
-    pub fn turn_tape(&mut self) -> Result<(), String> {
+    pub fn toggle_tape(&mut self) -> Result<(), String> {
         let (name, field) = &mut self.fields[self.field];
         let is_place = self.test.marks.iter().any(|mark| mark.name == *name && mark.unit() == Unit::Diamonds);
         if !is_place {
-            return Err(format!("a tape measures places, and {name} is none"));
+            return Err(format!("a tape measures positions, and {name} is not one"));
         }
         let value = field.text().split(['±', '~']).next().unwrap_or_default().trim().to_owned();
         if value.is_empty() {
-            return Err(format!("type the place first: nothing is typed of {name} yet"));
+            return Err(format!("type the position first: {name} is empty"));
         }
         let was_taped = field.text().ends_with(TAPED);
         let text = if was_taped { value } else { format!("{value} ~ {TAPED}") };
@@ -148,7 +148,7 @@ impl Form {
             return format!("{name}: how many short rails the ball has met{usual} = ");
         }
         let Some(mark) = self.test.marks.iter().find(|mark| mark.name == *name) else { return String::new() };
-        let how = self.sure(table).unwrap_or_else(|| match mark.unit() {
+        let how = self.accuracy_words(table).unwrap_or_else(|| match mark.unit() {
             Unit::Diamonds => "diamonds by eye, 725 mm by tape".to_owned(),
             Unit::Seconds => "seconds".to_owned(),
         });
@@ -157,7 +157,7 @@ impl Form {
     }
 
     /// The assumed accuracy of the typed mark in words; `None` if the value is implausible or not typed yet.
-    fn sure(&self, table: &Table) -> Option<String> {
+    fn accuracy_words(&self, table: &Table) -> Option<String> {
         let (name, field) = &self.fields[self.field];
         let mut entry = Entry { test: self.test.name.to_owned(), rails: Some(0), ..Entry::default() };
         entry.take(name, field.text()).ok()?;
@@ -207,13 +207,13 @@ mod tests {
         let table = Table::default();
         let mut form = form("slow-roll", &["9.6", "5.4"]);
         assert!(form.question(&table).contains("right to 0.2 s"), "{}", form.question(&table));
-        assert_eq!(form.turn_tape().unwrap_err(), "a tape measures places, and time is none");
+        assert_eq!(form.toggle_tape().unwrap_err(), "a tape measures positions, and time is not one");
         form.step(1);
         assert!(form.question(&table).contains("by eye, right to 0.1 diamonds"), "{}", form.question(&table));
-        form.turn_tape().unwrap();
+        form.toggle_tape().unwrap();
         assert!(form.question(&table).contains("by tape, right to 5 mm"), "{}", form.question(&table));
         assert!(form.entry(&table).unwrap().readings(&table).0[1].sure < 0.02);
-        form.turn_tape().unwrap();
+        form.toggle_tape().unwrap();
         assert_eq!(form.typed().text(), "5.4");
         form.step(-2);
         assert!(form.is_at_the_end() && form.question(&table).contains("short rails"));

@@ -108,7 +108,7 @@ pub const TESTS: &[Binding<A, W>] = &[
     bind(Calibration, W::Always, &[key(PageDown, A::Page(1)), key(PageUp, A::Page(-1))], None, "mark a test ten on or back; of the values, turn the page")
         .each(&["mark a test ten on; of the values, the next page", "mark a test ten back; of the values, the page before"]),
     bind(Calibration, W::Always, &[key(Tab, A::Turn)], Some(("values", 1)), "the table's values so far, and which marks look misread; again for the test"),
-    bind(Calibration, W::Always, &[letter('n', A::Best)], Some(("best next", 1)), "mark the test of which one more stroke tells most"),
+    bind(Calibration, W::Always, &[letter('n', A::Best)], Some(("best next", 1)), "mark the test whose next stroke tells most"),
     bind(Calibration, W::Undo, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
     bind(Calibration, W::Stroke, &[letter('e', A::Amend)], Some(("edit", 1)), "change what was entered of the marked stroke"),
     bind(Calibration, W::Stroke, &[key(Left, A::Stroke(-1)), key(Right, A::Stroke(1)), letter('h', A::Stroke(-1)), letter('l', A::Stroke(1))],
@@ -118,8 +118,8 @@ pub const TESTS: &[Binding<A, W>] = &[
     bind(Calibration, W::Always, &[letter('x', A::LeaveOut)], Some(("leave out", 1)), "leave the test out with its strokes, take it in again"),
     bind(Calibration, W::Found, &[letter('s', A::Save)], Some(("save", 1)), "save the table under a name"),
     bind(Calibration, W::Saved, &[letter('p', A::Use)], Some(("play on it", 1)), "play on the saved table, here and at every start"),
-    bind(Calibration, W::Daily, &[letter('d', A::Daily)], Some(("check of the day", 1)), "two strokes that say how the table plays today; back to all tests"),
-    bind(Calibration, W::Entered, &[letter('N', A::Anew)], None, "begin anew; what was entered is kept beside the file"),
+    bind(Calibration, W::Daily, &[letter('d', A::Daily)], Some(("check of the day", 1)), "two strokes that show how the table plays today; back to all tests"),
+    bind(Calibration, W::Entered, &[letter('N', A::Anew)], None, "start again; the entries are kept next to the file"),
     bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the coach"),
 ];
 

@@ -59,7 +59,7 @@ pub struct CalibrationPage {
     /// The open form or question.
     pub question: Option<Question>,
     /// Drafts of forms that were left incomplete, the latest last.
-    aside: Vec<StrokeDraft>,
+    drafts: Vec<StrokeDraft>,
     /// The panel next to the list of tests.
     pub side: Side,
     /// Page number in the table's values, from 0; taken modulo the number of pages.
@@ -87,7 +87,7 @@ impl CalibrationPage {
             table: Table::default(),
             units: Units::default(),
             question: None,
-            aside: Vec::new(),
+            drafts: Vec::new(),
             side: Side::Test,
             values_page: 0,
             message: None,
@@ -113,19 +113,19 @@ impl CalibrationPage {
         self.table.clone_from(table);
         if self.is_daily && table.doubt.is_none() {
             // A check of the day needs a calibrated table. An incomplete form is kept.
-            self.put_aside();
+            self.close_question();
             self.is_daily = false;
         }
     }
 
     /// Closes the open form or question. An incomplete form is kept as a draft.
-    fn put_aside(&mut self) {
-        self.aside.extend(self.typed_in_part());
+    fn close_question(&mut self) {
+        self.drafts.extend(self.incomplete_form());
         self.question = None;
     }
 
     /// The draft of the open form, if that is incomplete.
-    fn typed_in_part(&self) -> Option<StrokeDraft> {
+    fn incomplete_form(&self) -> Option<StrokeDraft> {
         match &self.question {
             Some(Question::Marks(form)) if form.is_begun() && !form.is_sent => Some(form.draft(self.is_daily)),
             _ => None,
@@ -148,7 +148,7 @@ impl CalibrationPage {
 
     /// The latest incomplete form, for the next session.
     pub fn draft(&self) -> Option<StrokeDraft> {
-        self.typed_in_part().or_else(|| self.aside.last().cloned())
+        self.incomplete_form().or_else(|| self.drafts.last().cloned())
     }
 
     /// Opens `form`, or the draft of the same form if there is one.
@@ -156,7 +156,7 @@ impl CalibrationPage {
         let is_same = |draft: &StrokeDraft| {
             draft.is_daily == self.is_daily && draft.test == form.test.name && draft.amends == form.amends
         };
-        let left = self.aside.iter().position(is_same).map(|place| self.aside.remove(place));
+        let left = self.drafts.iter().position(is_same).map(|place| self.drafts.remove(place));
         let left = left.and_then(Form::from_draft);
         self.side = Side::Test;
         self.question = Some(Question::Marks(left.unwrap_or(form)));
@@ -192,7 +192,7 @@ impl CalibrationPage {
                     return self.judge();
                 }
                 Err(sentence) => {
-                    let sentence = format!("{sentence}; N keeps the file aside and begins anew");
+                    let sentence = format!("{sentence}; N moves the file aside and starts again");
                     let sheet = self.sheet_mut();
                     (sheet.entries, sheet.trouble) = (None, Some(sentence.clone()));
                     self.message = Some(Message::warning(sentence));

@@ -14,11 +14,11 @@ pub const UNNAMED: &str = "own";
 
 /// An undo step.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Back {
+pub enum UndoStep {
     /// A change of the entries in the file.
     Edit(Edit),
     /// Leaving this test out, or including it again.
-    Turn(&'static str),
+    LeaveOut(&'static str),
 }
 
 /// A file of entries with its evaluation.
@@ -35,13 +35,13 @@ pub struct Sheet {
     /// The latest evaluation of the entries; `None` until there is one.
     pub judged: Option<Box<Judged>>,
     /// The reason why the entries could not be evaluated.
-    pub unjudged: Option<String>,
+    pub evaluation_error: Option<String>,
     /// Index of the marked test.
     pub mark: usize,
     /// Index of the marked stroke of that test; `None` for the last one.
     stroke: Option<usize>,
     /// The undo stack.
-    pub back: Vec<Back>,
+    pub undo_stack: Vec<UndoStep>,
     /// Tests that the player does not want to play.
     left_out: Vec<&'static str>,
     /// The numbers of the last requested and of the last received evaluation.
@@ -123,14 +123,14 @@ impl Sheet {
     }
 
     /// Leaves the marked test and its entries out, or includes them again. Returns whether the test is left out now.
-    pub fn turn_left_out(&mut self) -> bool {
+    pub fn toggle_left_out(&mut self) -> bool {
         let name = self.test().name;
-        self.back.push(Back::Turn(name));
-        self.turn(name)
+        self.undo_stack.push(UndoStep::LeaveOut(name));
+        self.toggle_test(name)
     }
 
     /// Leaves a test out or includes it again, without an undo step. Returns whether the test is left out now.
-    pub fn turn(&mut self, name: &'static str) -> bool {
+    pub fn toggle_test(&mut self, name: &'static str) -> bool {
         let count = self.left_out.len();
         self.left_out.retain(|one| *one != name);
         let is_out = self.left_out.len() == count;
@@ -180,7 +180,7 @@ impl Sheet {
         self.trouble = None;
         self.stroke = None;
         if let Some((back, false)) = back {
-            self.back.push(Back::Edit(back));
+            self.undo_stack.push(UndoStep::Edit(back));
         }
         if is_added && self.missing(self.test().name) == 0 {
             let later = self.tests().skip(self.mark + 1).chain(self.tests());
@@ -238,7 +238,7 @@ impl Sheet {
             return;
         }
         self.answered = number;
-        (self.judged, self.unjudged) = match judged {
+        (self.judged, self.evaluation_error) = match judged {
             Ok(judged) => (Some(judged), None),
             Err(sentence) => (self.judged.take(), Some(sentence)),
         };
@@ -286,17 +286,17 @@ mod tests {
             sheet.take(entries, Some((Edit::TakeOut(count - 1, entry.clone()), false)));
         };
         sheet.take(Entries::default(), None);
-        assert!(sheet.back.is_empty());
+        assert!(sheet.undo_stack.is_empty());
         add(&mut sheet, 1);
         assert_eq!((sheet.test().name, sheet.stroke()), ("slow-roll", 0));
         sheet.move_mark(1);
-        assert!(sheet.turn_left_out());
+        assert!(sheet.toggle_left_out());
         sheet.move_mark(-1);
         add(&mut sheet, 2);
         assert_eq!(sheet.test().name, "lag", "slow-back is left out");
         assert_eq!(sheet.count(), (2, 19));
-        assert_eq!(sheet.back.pop(), Some(Back::Edit(Edit::TakeOut(1, entry.clone()))));
-        assert_eq!(sheet.back.pop(), Some(Back::Turn("slow-back")));
+        assert_eq!(sheet.undo_stack.pop(), Some(UndoStep::Edit(Edit::TakeOut(1, entry.clone()))));
+        assert_eq!(sheet.undo_stack.pop(), Some(UndoStep::LeaveOut("slow-back")));
     }
 
     #[test]
@@ -306,8 +306,8 @@ mod tests {
         let first = sheet.judge(&Table::default()).unwrap().number;
         let second = sheet.judge(&Table::default()).unwrap().number;
         sheet.answer(first, Err("late".into()));
-        assert!(sheet.is_asking() && sheet.unjudged.is_none());
+        assert!(sheet.is_asking() && sheet.evaluation_error.is_none());
         sheet.answer(second, Err("now".into()));
-        assert_eq!((sheet.is_asking(), sheet.unjudged.as_deref()), (false, Some("now")));
+        assert_eq!((sheet.is_asking(), sheet.evaluation_error.as_deref()), (false, Some("now")));
     }
 }

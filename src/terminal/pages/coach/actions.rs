@@ -51,7 +51,7 @@ impl CoachPage {
             ),
             CoachCondition::Undoable => refuse(!self.history.can_undo(), "there is nothing to take back"),
             CoachCondition::Interrupted => refuse(
-                self.before.is_empty() && self.left_exams.is_empty(),
+                self.earlier_sessions.is_empty() && self.left_exams.is_empty(),
                 "no unfinished exam or earlier session; F3 shows what you practise",
             ),
             CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled networks are asked already"),
@@ -66,7 +66,7 @@ impl CoachPage {
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         self.drop_ball();
         let effect = self.act(action);
-        self.renew();
+        self.refresh();
         // The action may have changed the displayed shot: the background analysis must follow it.
         let study = self.study();
         effect.or(study)
@@ -82,7 +82,7 @@ impl CoachPage {
             Action::Step(steps) => self.choose_step(self.step.saturating_add_signed(steps)),
             Action::TurnQuarters => {
                 self.quarters = !self.quarters;
-                self.say_step();
+                self.report_step();
             }
             Action::TypePositions => self.ask_positions(),
             Action::NextSystem => self.next_lesson(),
@@ -92,7 +92,7 @@ impl CoachPage {
                 let layout = Layout::random(&self.history.present().table, &mut self.rng);
                 self.place(layout);
             }
-            Action::Undo if self.what_if().is_some() => return self.play_back(),
+            Action::Undo if self.what_if().is_some() => return self.undo_own_stroke(),
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),
             Action::Recommend => return Some(self.ask()),
@@ -101,36 +101,38 @@ impl CoachPage {
             Action::Answer(false) => self.question = None,
             Action::Cancel => self.cancel(),
             Action::PlaceBalls => self.place_balls(),
-            Action::Continue if self.what_if().is_some() => return self.play_on(),
-            Action::Continue => return self.go_on(),
-            Action::NextRule => self.ask_for(Terms { rule: neighbour(&Rule::ALL, terms.rule, 1), ..terms }),
+            Action::Continue if self.what_if().is_some() => return self.play_next_own_stroke(),
+            Action::Continue => return self.continue_from_end(),
+            Action::NextRule => self.choose_terms(Terms { rule: neighbour(&Rule::ALL, terms.rule, 1), ..terms }),
             Action::NextSkill => {
-                let skill = next_skill(terms.skill, self.own, self.of_settings.skill);
-                self.ask_for(Terms { skill, ..terms });
+                let skill = next_skill(terms.skill, self.own, self.settings_terms.skill);
+                self.choose_terms(Terms { skill, ..terms });
             }
-            Action::TurnPlan => self.ask_for(Terms { plan: !terms.plan, ..terms }),
-            Action::NextFirstMet => self.ask_for(Terms { first: neighbour(&FirstMet::ALL, terms.first, 1), ..terms }),
+            Action::TurnPlan => self.choose_terms(Terms { plan: !terms.plan, ..terms }),
+            Action::NextFirstMet => {
+                self.choose_terms(Terms { first: neighbour(&FirstMet::ALL, terms.first, 1), ..terms });
+            }
             Action::TurnNumbers => self.is_in_numbers = !self.is_in_numbers,
             Action::TurnEvents => {
                 self.has_all_events = !self.has_all_events;
                 let words = if self.has_all_events { "all events are listed" } else { "contacts only are listed" };
                 self.message = Some(Message::plain(words));
             }
-            Action::TurnSideView => self.turn_side_view(),
-            Action::TurnShown => self.turn_shown(),
+            Action::TurnSideView => self.toggle_side_view(),
+            Action::TurnShown => self.toggle_sharing(),
             Action::NextInfoPanel if self.shot().is_none() && self.pending.is_none() => {
                 self.message =
-                    Some(Message::plain("without a shot the panel tells where the balls lie; Enter asks the coach"));
+                    Some(Message::plain("without a shot the panel shows the ball positions; Enter asks the coach"));
             }
             Action::NextInfoPanel => self.info = neighbour(&InfoPanel::ALL, self.info, 1),
             Action::Shot(shots) => self.choose(|advised| advised.turn(shots)),
             Action::Show(shot) => self.choose(|advised| advised.show(shot)),
-            Action::WhatIf => return self.take_over(0),
+            Action::WhatIf => return self.start_own_stroke(0),
             Action::LeaveStroke => self.leave_own_stroke(),
             Action::Stroke(change) => return self.change_stroke(change),
             Action::TypeStroke => self.ask_stroke(),
-            Action::StrokeBack => return self.travel_stroke(OwnStroke::undo),
-            Action::StrokeAgain => return self.travel_stroke(OwnStroke::redo),
+            Action::StrokeBack => return self.step_stroke_history(OwnStroke::undo),
+            Action::StrokeAgain => return self.step_stroke_history(OwnStroke::redo),
             // The app resumes the practice session.
             Action::Resume => drop(self.resume()),
             Action::Bundled => {
@@ -146,7 +148,7 @@ impl CoachPage {
     /// Takes the latest unfinished match against the coach out of the earlier sessions.
     pub fn take_match(&mut self) -> Option<Session> {
         let of = |before: &mut SavedSession| before.practice.take_if(|practice| practice.is_against_coach());
-        self.before.iter_mut().find_map(of)
+        self.earlier_sessions.iter_mut().find_map(of)
     }
 
     /// Gives the turn to the opponent: the other ball becomes the cue ball, and all balls keep their positions.
@@ -194,14 +196,14 @@ impl CoachPage {
 
     /// The height profile of the shot's jump; `None` if the side view is off or no ball jumps.
     pub fn profile(&self) -> Option<&Profile> {
-        self.shot().filter(|_| self.is_from_side)?.profile(self.table())
+        self.shot().filter(|_| self.has_side_view)?.profile(self.table())
     }
 
     /// Turns the side view of the jump on or off. If no ball jumps, shows a message instead.
-    fn turn_side_view(&mut self) {
-        self.is_from_side = !self.is_from_side;
-        if self.is_from_side && self.profile().is_none() {
-            self.is_from_side = false;
+    fn toggle_side_view(&mut self) {
+        self.has_side_view = !self.has_side_view;
+        if self.has_side_view && self.profile().is_none() {
+            self.has_side_view = false;
             self.message = Some(Message::plain(no_jump_words(self.table())));
         }
     }
@@ -209,10 +211,10 @@ impl CoachPage {
     fn choose_step(&mut self, step: usize) {
         self.step = step.min(STEPS.len() - 1);
         self.quarters = false;
-        self.say_step();
+        self.report_step();
     }
 
-    fn say_step(&mut self) {
+    fn report_step(&mut self) {
         self.message = Some(Message::plain(format!("one step is {}", self.step_words())));
     }
 
@@ -236,7 +238,7 @@ impl CoachPage {
     pub(super) fn place(&mut self, layout: Layout) {
         self.drop_ball();
         self.history.push(self.snapshot(layout));
-        self.rest();
+        self.reset_playback();
     }
 
     /// Returns a snapshot with the same table, policy and cue ball, a new layout and no advice.
@@ -249,18 +251,18 @@ impl CoachPage {
         let left = self.history.present().clone();
         self.history.undo();
         let terms = left.terms.map(|[before, after]| [after, before]);
-        self.travelled(left, terms);
+        self.after_undo_or_redo(left, terms);
     }
 
     fn redo(&mut self) {
         let left = self.history.present().clone();
         self.history.redo();
-        self.travelled(left, self.history.present().terms);
+        self.after_undo_or_redo(left, self.history.present().terms);
     }
 
     /// Updates the state after an undo or redo. The step changes the query from the first terms to the second. Terms that the user
     /// has chosen since then are kept.
-    fn travelled(&mut self, left: Snapshot, terms: Option<[Terms; 2]>) {
+    fn after_undo_or_redo(&mut self, left: Snapshot, terms: Option<[Terms; 2]>) {
         let present = self.history.present_mut();
         if (&left.table, left.layout, left.cue_ball) == (&present.table, present.layout, present.cue_ball) {
             // The balls have not moved, so the advice on them is still valid.
@@ -274,23 +276,23 @@ impl CoachPage {
         if let Some(change) = terms {
             self.query = self.query.with(before.with_change(change));
         }
-        self.rest();
-        self.say_terms(before, false);
+        self.reset_playback();
+        self.report_terms(before, false);
     }
 
     /// Resets mode and playback after the displayed shot has changed or disappeared.
-    pub(super) fn rest(&mut self) {
+    pub(super) fn reset_playback(&mut self) {
         self.mode = Mode::Placing;
         self.playback.jump(0.0);
-        self.renew();
+        self.refresh();
     }
 
     /// Brings everything that depends on the displayed shot up to date.
-    fn renew(&mut self) {
+    fn refresh(&mut self) {
         // Drop the player's own stroke if it belongs to another layout, query or shot.
         if self.what_if().is_none() {
             self.own_stroke = None;
         }
-        self.renew_lesson();
+        self.refresh_lesson();
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::{
     coach::{Recommendation, Why},
-    terminal::{Advice, CoachQuery, Proposal, ShotAnalysis, pages::around},
+    terminal::{Advice, CoachQuery, Proposal, ShotAnalysis, pages::wrapping_index},
 };
 
 /// Advice on a layout.
@@ -68,6 +68,6 @@ impl AdviceState {
 
     /// Cycles through the shots: forwards if `shots` is positive, wrapping at the end.
     pub fn turn(&mut self, shots: isize) {
-        self.chosen = around(self.chosen, shots, self.choices.len());
+        self.chosen = wrapping_index(self.chosen, shots, self.choices.len());
     }
 }

@@ -43,7 +43,7 @@ impl CoachPage {
         }
         self.drag = Some(Drag { is_begun: true, ..drag });
         self.message = None;
-        self.rest();
+        self.reset_playback();
         self.study()
     }
 

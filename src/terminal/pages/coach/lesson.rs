@@ -67,9 +67,9 @@ impl CoachPage {
     }
 
     /// Updates the lesson to the displayed shot and the current table.
-    pub(super) fn renew_lesson(&mut self) {
+    pub(super) fn refresh_lesson(&mut self) {
         let Some(lesson) = &self.lesson else { return };
-        let current = self.of_shot(system_of(&lesson.guide));
+        let current = self.guide_of_shot(system_of(&lesson.guide));
         let is_other = !Arc::ptr_eq(&lesson.table, &self.history.present().table)
             || lesson.is_of_shot != current.is_some()
             || current.is_some_and(|guide| *guide != lesson.guide);
@@ -80,14 +80,14 @@ impl CoachPage {
         }
     }
 
-    fn of_shot(&self, system: Option<System>) -> Option<&Guide> {
+    fn guide_of_shot(&self, system: Option<System>) -> Option<&Guide> {
         self.guide().filter(|guide| system_of(guide) == system)
     }
 
     /// Returns the lesson on a system, or on the parallel shift if `None`. A shift always belongs to the shot; a system can also be
     /// shown with an example.
     fn lesson_on(&self, system: Option<System>) -> Option<Lesson> {
-        let own = self.of_shot(system).cloned();
+        let own = self.guide_of_shot(system).cloned();
         let is_of_shot = own.is_some();
         let guide = own.or_else(|| Applied::example(system?, self.table()).map(Guide::System))?;
         let table = Arc::clone(&self.history.present().table);

@@ -43,8 +43,8 @@ pub use advised::{AdviceState, Choice};
 use dragging::Drag;
 use question::Question;
 use request::{Pending, Studying};
-use spectators::Company;
 pub use spectators::Followed;
+use spectators::Sharing;
 
 /// Mode of the coach page: what the arrow keys do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -121,24 +121,24 @@ pub struct CoachPage {
     /// Whether all events are listed; otherwise contacts only.
     pub has_all_events: bool,
     /// Whether a jump is also shown from the side.
-    is_from_side: bool,
+    has_side_view: bool,
     /// The units for displayed values.
     pub units: Units,
     /// The player's name, under which others can follow the table; `None` if the program was started without one.
     pub player: Option<Player>,
     /// Whether the table is shared with spectators or belongs to another player.
-    company: Company,
+    sharing: Sharing,
     /// The player's own stroke; `None` if there is none.
     own_stroke: Option<own_stroke::Own>,
     history: History<Snapshot>,
     /// The mouse drag in progress; it moves the selected ball.
     drag: Option<Drag>,
     /// The query terms from the settings, without later changes by keys.
-    of_settings: Terms,
+    settings_terms: Terms,
     /// The query terms at the start of this session.
-    of_start: Terms,
+    start_terms: Terms,
     /// Saved sessions that have not been resumed, the latest first.
-    before: Vec<SavedSession>,
+    earlier_sessions: Vec<SavedSession>,
     /// Whether a saved session has been resumed.
     has_gone_back: bool,
     /// Unfinished exams that have not been resumed, the latest last.
@@ -146,7 +146,7 @@ pub struct CoachPage {
     /// The question that is open over the table.
     question: Option<Question>,
     /// The name of the position that is being saved to disk.
-    writing: Option<String>,
+    saving_name: Option<String>,
     /// The lesson on a diamond system that is displayed.
     lesson: Option<lesson::Lesson>,
     step: usize,
@@ -154,10 +154,10 @@ pub struct CoachPage {
     quarters: bool,
     /// Thinking time of the coach, and the upper limit for that setting.
     budget: Duration,
-    most: Duration,
+    max_budget: Duration,
     pending: Option<Pending>,
     studying: Option<Studying>,
-    questions: u64,
+    job_count: u64,
     rng: Xoshiro256PlusPlus,
 }
 
@@ -178,28 +178,28 @@ impl CoachPage {
             info: InfoPanel::default(),
             is_in_numbers: false,
             has_all_events: false,
-            is_from_side: false,
+            has_side_view: false,
             units: Units::default(),
             player: None,
-            company: Company::Alone,
+            sharing: Sharing::Private,
             own_stroke: None,
             history: History::new(Snapshot::new(Arc::new(table), layout)),
             drag: None,
-            of_settings: CoachQuery::default().terms(),
-            of_start: CoachQuery::default().terms(),
-            before: Vec::new(),
+            settings_terms: CoachQuery::default().terms(),
+            start_terms: CoachQuery::default().terms(),
+            earlier_sessions: Vec::new(),
             has_gone_back: false,
             left_exams: Vec::new(),
             question: None,
-            writing: None,
+            saving_name: None,
             lesson: None,
             step: FIRST_STEP,
             quarters: false,
             budget: Duration::from_millis(Settings::default().think_ms),
-            most: Duration::MAX,
+            max_budget: Duration::MAX,
             pending: None,
             studying: None,
-            questions: 0,
+            job_count: 0,
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         })
     }
@@ -208,16 +208,16 @@ impl CoachPage {
     /// session and earlier ones that have not been resumed, if they differ from the current state.
     pub fn offer(&mut self, last: Option<SavedSession>) {
         if let Some((last, set)) = last.as_ref().and_then(|last| Some((last, last.settings?))) {
-            self.query = self.query.with(self.of_settings.with_change([set, last.terms()]));
+            self.query = self.query.with(self.settings_terms.with_change([set, last.terms()]));
         }
-        self.of_start = self.query.terms();
+        self.start_terms = self.query.terms();
         let is_elsewhere = |last: &SavedSession| {
             last.layout != *self.layout() || last.table != *self.table() || last.practice.is_some()
         };
         let mut before = last.map_or_else(Vec::new, SavedSession::with_former);
         before.retain(is_elsewhere);
-        self.before = before;
-        let words = match self.before.first() {
+        self.earlier_sessions = before;
+        let words = match self.earlier_sessions.first() {
             None => return,
             Some(SavedSession { practice: Some(practice), .. }) if practice.is_exam() || practice.is_game() => {
                 format!("c goes on with the {} of the last session", practice.goal.name())
@@ -234,23 +234,24 @@ impl CoachPage {
         if self.followed().is_some() || !is_begun {
             return None;
         }
-        let of_before = self.before.first().and_then(|before| before.practice.as_ref());
+        let of_before = self.earlier_sessions.first().and_then(|before| before.practice.as_ref());
         let mut exams = practised.into_iter().chain(self.left_exams.iter().rev()).chain(of_before);
         let practice = exams.find(|session| session.is_exam()).or(practised).or(game);
         let ended = |practice: Option<&Session>| {
             let (table, terms) = (self.table().clone(), self.query.terms());
-            SavedSession::new(table, *self.layout(), self.cue_ball(), terms, practice.cloned()).under(self.of_settings)
+            SavedSession::new(table, *self.layout(), self.cue_ball(), terms, practice.cloned())
+                .under(self.settings_terms)
         };
         // A saved session holds one practice session. Each further unfinished exam or game is saved as an earlier session of its own.
         let others = self.left_exams.iter().rev().chain(game);
         let others = others.filter(|other| practice.is_none_or(|practice| practice.id != other.id));
-        let former = others.map(|other| ended(Some(other))).chain(self.before.iter().cloned());
+        let former = others.map(|other| ended(Some(other))).chain(self.earlier_sessions.iter().cloned());
         Some(ended(practice).followed_by(former.collect()))
     }
 
     /// Whether the user has changed anything since the start.
     fn is_begun(&self) -> bool {
-        self.history.can_undo() || !self.history.present().advised.is_empty() || self.query.terms() != self.of_start
+        self.history.can_undo() || !self.history.present().advised.is_empty() || self.query.terms() != self.start_terms
     }
 
     /// Resumes the unfinished exam, or the last saved session. Returns its practice session, if it has one.
@@ -258,17 +259,17 @@ impl CoachPage {
         if let Some(exam) = self.left_exams.pop() {
             return Some(exam);
         }
-        if self.before.is_empty() {
+        if self.earlier_sessions.is_empty() {
             return None;
         }
-        let last = self.before.remove(0);
+        let last = self.earlier_sessions.remove(0);
         // A session that stores its settings had its terms restored at the start; keys may have changed them since then.
         let terms = if last.settings.is_some() { self.query.terms() } else { last.terms() };
         let query = CoachQuery { policy: self.policy_on(&last.table), ..self.query.with(terms) };
         let its_rule = if last.rule == query.rule { String::new() } else { format!(", under the rule {}", last.rule) };
         self.take(&last.table, last.layout, last.cue_ball, query);
         let which = if std::mem::replace(&mut self.has_gone_back, true) { "that earlier" } else { "the last" };
-        let more = if self.before.is_empty() { "" } else { "; c goes back to the one before" };
+        let more = if self.earlier_sessions.is_empty() { "" } else { "; c goes back to the one before" };
         let said = format!("this is where {which} session ended{its_rule}; Enter asks the coach{more}");
         self.message = Some(Message::good(said));
         last.practice
@@ -276,17 +277,17 @@ impl CoachPage {
 
     /// Limits the coach's thinking time, whatever the setting is.
     pub fn think_at_most(&mut self, most: Duration) {
-        self.most = most;
+        self.max_budget = most;
         self.budget = self.budget.min(most);
     }
 
     /// Applies all settings at the start.
     pub fn take_settings(&mut self, settings: &Settings) {
         let Settings { rule, skill, doubt, plan, jumps, .. } = *settings;
-        self.of_settings = Terms { rule, skill, plan, first: FirstMet::Any };
-        self.of_start = self.of_settings;
-        self.query = CoachQuery { doubt, jumps, ..self.query.with(self.of_settings) };
-        self.budget = Duration::from_millis(settings.think_ms).min(self.most);
+        self.settings_terms = Terms { rule, skill, plan, first: FirstMet::Any };
+        self.start_terms = self.settings_terms;
+        self.query = CoachQuery { doubt, jumps, ..self.query.with(self.settings_terms) };
+        self.budget = Duration::from_millis(settings.think_ms).min(self.max_budget);
         self.units = settings.units;
         self.set_step(settings.step_mm);
         self.playback.set_speed(settings.speed);
@@ -297,7 +298,7 @@ impl CoachPage {
     /// # Errors
     /// Returns a message if the table cannot be read. The other settings are applied nevertheless.
     pub fn take_changes(&mut self, before: &Settings, settings: &Settings) -> Result<(), String> {
-        self.budget = Duration::from_millis(settings.think_ms).min(self.most);
+        self.budget = Duration::from_millis(settings.think_ms).min(self.max_budget);
         self.units = settings.units;
         if before.step_mm != settings.step_mm {
             self.set_step(settings.step_mm);
@@ -306,21 +307,21 @@ impl CoachPage {
             self.playback.set_speed(settings.speed);
         }
         let set = |terms: Terms| Terms {
-            rule: other(terms.rule, before.rule, settings.rule),
-            skill: other(terms.skill, before.skill, settings.skill),
-            plan: other(terms.plan, before.plan, settings.plan),
+            rule: changed_or_current(terms.rule, before.rule, settings.rule),
+            skill: changed_or_current(terms.skill, before.skill, settings.skill),
+            plan: changed_or_current(terms.plan, before.plan, settings.plan),
             ..terms
         };
-        self.of_settings = set(self.of_settings);
+        self.settings_terms = set(self.settings_terms);
         let query = CoachQuery {
-            doubt: other(self.query.doubt, before.doubt, settings.doubt),
-            jumps: other(self.query.jumps, before.jumps, settings.jumps),
+            doubt: changed_or_current(self.query.doubt, before.doubt, settings.doubt),
+            jumps: changed_or_current(self.query.jumps, before.jumps, settings.jumps),
             ..self.query.with(set(self.query.terms()))
         };
         if query != self.query {
             self.cancel();
             self.query = query;
-            self.rest();
+            self.reset_playback();
         }
         if before.table != settings.table {
             self.take_table(&settings.table()?);
@@ -343,9 +344,10 @@ impl CoachPage {
     /// Switches to the policy and rule of `query` on `table`. Balls that the user has placed keep their positions if these are possible on
     /// the table.
     pub fn take_query(&mut self, table: &Table, query: CoachQuery) {
-        let lies = *self.layout();
-        let stays = self.table() == table || lies.opening_side(self.table()).is_none() && lies.validate(table).is_ok();
-        let layout = if stays { lies } else { Layout::opening(table) };
+        let current = *self.layout();
+        let stays =
+            self.table() == table || current.opening_side(self.table()).is_none() && current.validate(table).is_ok();
+        let layout = if stays { current } else { Layout::opening(table) };
         let news = format!("the coach plays with {}; Enter asks it", query.name());
         let CoachQuery { skill, doubt, plan, jumps, first, .. } = self.query;
         self.take(table, layout, self.cue_ball(), CoachQuery { skill, doubt, plan, jumps, first, ..query });
@@ -381,7 +383,7 @@ impl CoachPage {
         let terms = Some([self.query.terms(), query.terms()]).filter(|[before, after]| before != after);
         self.history.push(Snapshot { policy: query.policy.clone(), cue_ball, terms, ..Snapshot::new(table, layout) });
         self.query = query;
-        self.rest();
+        self.reset_playback();
     }
 
     /// The current table.
@@ -437,7 +439,7 @@ impl CoachPage {
     }
 
     /// The shot to describe in words: the one that is about to be played.
-    pub fn told(&self) -> Option<&Proposal> {
+    pub fn described_shot(&self) -> Option<&Proposal> {
         let is_told = self.mode == Mode::Watching && self.playback.time == 0.0 && self.lesson.is_none();
         self.proposal().filter(|_| is_told)
     }
@@ -478,6 +480,6 @@ impl CoachPage {
 }
 
 /// Returns `after` if the setting has changed, else the current value `now`.
-fn other<T: Copy + PartialEq>(now: T, before: T, after: T) -> T {
+fn changed_or_current<T: Copy + PartialEq>(now: T, before: T, after: T) -> T {
     if before == after { now } else { after }
 }

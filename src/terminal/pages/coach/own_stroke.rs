@@ -52,7 +52,7 @@ impl CoachPage {
 
     /// Starts the player's own stroke from the coach's shot, or aimed full at a ball if there is none. `played_on` is the number of own
     /// strokes before this one.
-    pub(super) fn take_over(&mut self, played_on: usize) -> Option<Effect> {
+    pub(super) fn start_own_stroke(&mut self, played_on: usize) -> Option<Effect> {
         let situation = self.situation();
         let (cue, what_if) = if let Some(coach) = self.proposal().map(|proposal| Arc::clone(&proposal.shot)) {
             (coach.cue, Ok(WhatIf::new(coach, situation)))
@@ -79,21 +79,21 @@ impl CoachPage {
     }
 
     /// Continues with the layout after the player's own stroke and starts the next stroke.
-    pub(super) fn play_on(&mut self) -> Option<Effect> {
+    pub(super) fn play_next_own_stroke(&mut self) -> Option<Effect> {
         let end = self.what_if()?.shot.recording.final_layout();
         if let Err(error) = end.validate(self.table()) {
             return self.refuse(error);
         }
         let played_on = self.played_on() + 1;
         self.place(end);
-        self.take_over(played_on)
+        self.start_own_stroke(played_on)
     }
 
     /// Puts the balls back to the positions before the player's last own stroke.
-    pub(super) fn play_back(&mut self) -> Option<Effect> {
+    pub(super) fn undo_own_stroke(&mut self) -> Option<Effect> {
         let played_on = self.played_on().checked_sub(1)?;
         self.undo();
-        self.take_over(played_on)
+        self.start_own_stroke(played_on)
     }
 
     /// Discards the player's own stroke; the coach's shot stays unchanged.
@@ -102,7 +102,7 @@ impl CoachPage {
         if self.proposal().is_some() {
             self.watch_from_the_stroke();
         } else {
-            self.rest();
+            self.reset_playback();
         }
     }
 
@@ -126,7 +126,7 @@ impl CoachPage {
     ///
     /// # Errors
     /// Returns a message if the words do not describe a possible stroke.
-    pub(super) fn say_stroke(&mut self, words: &str) -> Result<Option<Effect>, String> {
+    pub(super) fn set_stroke_in_words(&mut self, words: &str) -> Result<Option<Effect>, String> {
         let (table, layout, cue_ball) = (Arc::clone(&self.history.present().table), *self.layout(), self.cue_ball());
         let Some(own) = &self.own_stroke else { return Ok(None) };
         let mut stroke = own.stroke.clone();
@@ -135,7 +135,7 @@ impl CoachPage {
     }
 
     /// Undoes or redoes a change of the player's own stroke, as `step` does.
-    pub(super) fn travel_stroke(&mut self, step: impl Fn(&mut OwnStroke) -> bool) -> Option<Effect> {
+    pub(super) fn step_stroke_history(&mut self, step: impl Fn(&mut OwnStroke) -> bool) -> Option<Effect> {
         let mut stroke = self.own_stroke.as_ref()?.stroke.clone();
         step(&mut stroke);
         self.strike(stroke)

@@ -53,7 +53,7 @@ impl CoachPage {
         let said = if is_opening {
             "this is the opening: red has to be met first"
         } else {
-            "the balls lie where it was typed"
+            "the balls are in the typed positions"
         };
         self.message = Some(Message::good(format!("{said}; Enter asks the coach")));
         Ok(())

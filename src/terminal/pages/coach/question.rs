@@ -61,7 +61,7 @@ impl CoachPage {
         let question = self.question.take()?;
         let done = match &question {
             Question::Positions(typed) => self.take_typed(typed.text()).map(|()| None),
-            Question::Stroke(typed) => self.say_stroke(typed.text()),
+            Question::Stroke(typed) => self.set_stroke_in_words(typed.text()),
             Question::Title(typed, position) => {
                 named(typed.text(), position).map(|exercise| Some(self.save(exercise, false)))
             }

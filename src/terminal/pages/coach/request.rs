@@ -53,9 +53,9 @@ impl CoachPage {
     }
 
     pub(super) fn job(&mut self, shot: Option<CueInputs>) -> CoachJob {
-        self.questions += 1;
+        self.job_count += 1;
         CoachJob {
-            id: self.questions,
+            id: self.job_count,
             table: self.table().clone(),
             layout: *self.layout(),
             query: self.query.clone(),
@@ -64,7 +64,7 @@ impl CoachPage {
             found: None,
             stroke: None,
             budget: self.budget,
-            seed: self.questions,
+            seed: self.job_count,
             cancel: Arc::default(),
         }
     }
@@ -99,7 +99,7 @@ impl CoachPage {
                 let query = pending.query.clone();
                 self.pending = None;
                 self.message = if query == self.query {
-                    advice.proposals.first().map(|best| news(best, advice.effort, &query, names))
+                    advice.proposals.first().map(|best| proposal_message(best, advice.effort, &query, names))
                 } else {
                     let [asked, now] = [query.skill, self.query.skill].map(skill_word);
                     Some(Message::plain(format!("this answer is for {asked}; Enter asks for {now}")))
@@ -133,7 +133,7 @@ impl CoachPage {
             }
             _ => {}
         }
-        self.renew_lesson();
+        self.refresh_lesson();
         self.study()
     }
 
@@ -199,14 +199,14 @@ impl CoachPage {
             self.message = Some(match chance(proposal, &advised.query) {
                 // The panel above the list names the player, and the status line has only one row.
                 Some(chance) => Message::good(format!("{words}: {chance}")),
-                None => news(proposal, None, &advised.query, names).prefixed(&words),
+                None => proposal_message(proposal, None, &advised.query, names).prefixed(&words),
             });
         }
         self.leave_example();
         self.watch_from_the_stroke();
     }
 
-    pub(super) fn go_on(&mut self) -> Option<Effect> {
+    pub(super) fn continue_from_end(&mut self) -> Option<Effect> {
         let choice = self.advised()?.choice();
         let (end, next) = (choice.proposal.shot.recording.final_layout(), choice.next.clone());
         if let Err(error) = end.validate(self.table()) {
@@ -214,17 +214,18 @@ impl CoachPage {
         }
         self.place(end);
         let Some(next) = next else { return Some(self.ask()) };
-        self.message = next.proposals.first().map(|best| news(best, None, &self.query, self.cue_ball().names()));
+        self.message =
+            next.proposals.first().map(|best| proposal_message(best, None, &self.query, self.cue_ball().names()));
         self.show(self.query.clone(), next);
         None
     }
 
     /// Changes the query terms and reports the change. A shot for other terms is hidden until these terms are chosen again or the
     /// step is undone.
-    pub(super) fn ask_for(&mut self, terms: Terms) {
+    pub(super) fn choose_terms(&mut self, terms: Terms) {
         let (before, had_shot) = (self.query.terms(), self.proposal().is_some());
         self.change_terms(terms);
-        self.say_terms(before, had_shot);
+        self.report_terms(before, had_shot);
     }
 
     /// Changes the query terms, as an undoable step.
@@ -232,12 +233,12 @@ impl CoachPage {
         let terms = [self.query.terms(), terms];
         self.history.push(Snapshot { terms: Some(terms), ..self.history.present().clone() });
         self.query = self.query.with(terms[1]);
-        self.rest();
+        self.reset_playback();
     }
 
     /// Reports how the query terms differ from `before`, if they do. Shows the shot for the new terms if it is known; otherwise the
     /// message says how to get one.
-    pub(super) fn say_terms(&mut self, before: Terms, had_shot: bool) {
+    pub(super) fn report_terms(&mut self, before: Terms, had_shot: bool) {
         let words = self.query.terms().news_since(before, self.cue_ball().names());
         if words.is_empty() {
             return;
@@ -263,7 +264,12 @@ fn made_words(query: &CoachQuery, chance: &str) -> String {
 }
 
 /// Describes a proposal in a sentence. `names` are the names of the balls, the cue ball first.
-fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery, names: [&'static str; BALLS]) -> Message {
+fn proposal_message(
+    proposal: &Proposal,
+    effort: Option<Effort>,
+    query: &CoachQuery,
+    names: [&'static str; BALLS],
+) -> Message {
     let shot = &proposal.shot;
     let took = effort.map_or(String::new(), |effort| match effort.elapsed.as_millis() {
         0 => ", under 1 ms".to_owned(),
@@ -283,7 +289,7 @@ fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery, names: 
     };
     let cause = match proposal.risk.and_then(|risk| risk.main_cause(proposal.made.map(|made| 1.0 - made.rate))) {
         Some(Cause::Table) => "; the table is the main risk: F7 measures it",
-        Some(Cause::Placing) => "; the balls' places are the main risk",
+        Some(Cause::Placing) => "; the ball positions are the main risk",
         Some(Cause::Hand) | None => "",
     };
     let forbidden = if query.jumps { "" } else { "; jumps are off" };

@@ -41,13 +41,13 @@ impl CoachPage {
 
     /// Saves a position; `replace` allows overwriting one with the same name.
     pub(super) fn save(&mut self, exercise: Box<Exercise>, replace: bool) -> Effect {
-        self.writing = Some(exercise.name.clone());
+        self.saving_name = Some(exercise.name.clone());
         Effect::Drill(vec![DrillTask::SavePosition(exercise, replace)])
     }
 
     /// Whether this page has saved the position `name`. Returns `true` only once per save.
     pub fn has_saved(&mut self, name: &str) -> bool {
-        self.writing.take_if(|writing| writing == name).is_some()
+        self.saving_name.take_if(|saving_name| saving_name == name).is_some()
     }
 
     /// Handles the result of saving a position: `Ok(true)` if it is on the disk, `Ok(false)` if one with the same name exists, or the

@@ -19,13 +19,13 @@ const SHOWN: &str = "shown to others";
 
 /// Sharing state of the table.
 #[derive(Debug)]
-pub enum Company {
+pub enum Sharing {
     /// The table is private.
-    Alone,
+    Private,
     /// The table is shared with spectators.
-    Others,
+    Shared,
     /// The page shows the table of another player, read-only.
-    Host(Followed),
+    Following(Followed),
 }
 
 /// Another player whose table this page shows.
@@ -50,7 +50,7 @@ impl Followed {
         let name = &self.name;
         match &self.seen {
             Seen::Nothing => {
-                Some(format!("{name} shows no table at the moment. It comes back here as soon as they show it again."))
+                Some(format!("{name} shows no table at the moment. It appears here once they show it again."))
             }
             Seen::Damaged => Some(damage_words(name)),
             Seen::Table(_) => None,
@@ -73,20 +73,20 @@ impl Followed {
 impl CoachPage {
     /// The player whose table this page follows; `None` if the table is the user's own.
     pub const fn followed(&self) -> Option<&Followed> {
-        match &self.company {
-            Company::Host(followed) => Some(followed),
+        match &self.sharing {
+            Sharing::Following(followed) => Some(followed),
             _ => None,
         }
     }
 
     /// Whether the table is shared with spectators.
     const fn is_shown(&self) -> bool {
-        matches!(self.company, Company::Others)
+        matches!(self.sharing, Sharing::Shared)
     }
 
     /// Starts or stops sharing the table with spectators.
-    pub(super) fn turn_shown(&mut self) {
-        self.company = if self.is_shown() { Company::Alone } else { Company::Others };
+    pub(super) fn toggle_sharing(&mut self) {
+        self.sharing = if self.is_shown() { Sharing::Private } else { Sharing::Shared };
         self.message = Some(match (&self.player, self.is_shown()) {
             (Some(player), true) => Message::plain(format!("carom follow {player} shows this table")),
             _ => Message::plain("others can no longer see this table"),
@@ -95,7 +95,7 @@ impl CoachPage {
 
     /// Stops sharing the table.
     pub fn hide(&mut self) {
-        self.company = Company::Alone;
+        self.sharing = Sharing::Private;
         // The message may say that the table is shared.
         self.message = None;
     }
@@ -143,12 +143,12 @@ impl CoachPage {
 
     /// Switches the page to the shared table of another player.
     pub fn follow(&mut self, name: String, folder: PathBuf) {
-        self.company = Company::Host(Followed::new(name, folder));
+        self.sharing = Sharing::Following(Followed::new(name, folder));
     }
 
     /// Handles a new state of the followed table.
     pub fn see(&mut self, seen: Seen) {
-        let Company::Host(followed) = &mut self.company else { return };
+        let Sharing::Following(followed) = &mut self.sharing else { return };
         followed.seen = seen.clone();
         self.playback.pause();
         if let Seen::Table(seen) = seen {

@@ -7,7 +7,9 @@ use crate::{
         DrillAction as Action, DrillCondition, DrillContext, DrillTask, Effect,
         pages::{
             Page,
-            drills::{Balls, DrillsPage, Question, RepetitionOptions, Turn, question::LONGEST, turn_actions::some},
+            drills::{
+                Balls, DrillsPage, Question, RepetitionOptions, Turn, question::LONGEST, turn_actions::tasks_effect,
+            },
         },
         ui::{Message, TextField},
         words::player_words,
@@ -22,7 +24,7 @@ impl DrillsPage {
             DrillCondition::Always => None,
             DrillCondition::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; 0 lists all"),
             DrillCondition::MarkedOwn => {
-                refuse(!self.catalogue.is_own(), "bundled exercises stay; only my positions go")
+                refuse(!self.catalogue.is_own(), "bundled exercises cannot be removed, only my positions")
             }
             DrillCondition::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
             DrillCondition::Sought => refuse(!self.catalogue.is_sought(), "no words are looked for"),
@@ -124,10 +126,10 @@ impl DrillsPage {
 
     fn open_marked(&mut self) -> Option<Effect> {
         let exercises = vec![self.catalogue.marked()?.clone()];
-        let Some(place) = self.left.iter().position(|left| left.exercises == exercises) else {
+        let Some(place) = self.unfinished_sessions.iter().position(|left| left.exercises == exercises) else {
             return Some(self.begin(self.options.goal, exercises));
         };
-        let left = self.left.remove(place);
+        let left = self.unfinished_sessions.remove(place);
         let inning = left.inning_words().map(|inning| format!(", {inning}"));
         let after = inning.unwrap_or_else(|| format!(" after {} played", left.attempts.len()));
         let what = left.score_words().unwrap_or_else(|| left.goal.words());
@@ -260,8 +262,8 @@ impl DrillsPage {
             }
             Question::Code(typed) => self.decoded(typed.text()).map(|exercise| save(exercise, false)),
             Question::Stroke(typed) => {
-                let said = self.turn.as_mut()?.say_stroke(typed.text());
-                said.map(some).map_err(|error| error.to_string())
+                let said = self.turn.as_mut()?.set_stroke_in_words(typed.text());
+                said.map(tasks_effect).map_err(|error| error.to_string())
             }
             Question::Replace(exercise) => return save(exercise.clone(), true),
             Question::Remove(name) => return Some(Effect::Drill(vec![DrillTask::RemovePosition(name.clone())])),

@@ -31,7 +31,11 @@ impl DrillsPage {
         // The match must not change the options of the exercises.
         let options = self.options;
         self.options.shifted = false;
-        let left = self.left.iter().rposition(Session::is_against_coach).map(|place| self.left.remove(place));
+        let left = self
+            .unfinished_sessions
+            .iter()
+            .rposition(Session::is_against_coach)
+            .map(|place| self.unfinished_sessions.remove(place));
         let effect = if let Some(left) = left {
             Some(Effect::Drill(self.practise(left)))
         } else if let Some(left) = earlier() {

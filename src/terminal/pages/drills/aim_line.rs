@@ -17,7 +17,7 @@ const STEP: f64 = 0.002;
 #[derive(Clone, Debug, PartialEq)]
 pub struct AimLine {
     /// Positions of its centre, m, from the start to the first contact or to rest.
-    pub places: Vec<DVec2>,
+    pub points: Vec<DVec2>,
     /// The first contact. If it is a cushion, the ball after it is not included.
     pub meeting: Meeting,
     /// The contact point on the cushion; `None` if the first contact is not a cushion.
@@ -44,18 +44,18 @@ impl AimLine {
             Meeting::Rail(rail, _) => Some(RailPoint::on(table, rail, place(end))),
             _ => None,
         };
-        Some(Self { places: times.map(place).collect(), meeting, cushion })
+        Some(Self { points: times.map(place).collect(), meeting, cushion })
     }
 
     /// Length of the path, m.
     pub fn length(&self) -> f64 {
-        self.places.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
+        self.points.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
     }
 
     /// Points on the path with a distance of `spacing` m, except on its last `free` m.
     pub fn dots(&self, spacing: f64, free: f64) -> Vec<DVec2> {
         let (mut dots, mut way, end) = (Vec::new(), 0.0, self.length() - free);
-        for pair in self.places.windows(2) {
+        for pair in self.points.windows(2) {
             let (before, step) = (way, pair[0].distance(pair[1]));
             way += step;
             let next = spacing * (dots.len() + 1) as f64;

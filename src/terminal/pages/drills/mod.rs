@@ -58,7 +58,7 @@ pub struct Player {
     /// The skill that the user has saved as the own one.
     pub own: Option<Skill>,
     /// The skill of the settings.
-    of_settings: Skill,
+    settings_skill: Skill,
     /// The skill on the coach page. Only an explicit choice changes it.
     pub at_coach: Skill,
 }
@@ -66,7 +66,7 @@ pub struct Player {
 impl Player {
     /// Chooses the next skill.
     fn choose_next(&mut self) {
-        self.choose(next_skill(self.skill, self.own, self.of_settings));
+        self.choose(next_skill(self.skill, self.own, self.settings_skill));
     }
 
     /// Chooses `skill`, for the coach page too.
@@ -124,7 +124,7 @@ pub struct DrillsPage {
     /// Whether the stroke is shown in numbers (degrees and speed) instead of the form of the advice.
     pub is_in_numbers: bool,
     /// The table of the settings: a bundled one or a file.
-    of_settings: String,
+    settings_table: String,
     /// The custom table of the coach page, if it has one. Exercises of its size are played on it.
     own_table: Option<Box<Table>>,
     options: RepetitionOptions,
@@ -139,7 +139,7 @@ pub struct DrillsPage {
     /// An unfinished exam that was left, until the app takes it.
     pub left_exam: Option<Session>,
     /// Unfinished runs, games and matches that were left, one for each exercise. Opening the exercise resumes it.
-    left: Vec<Session>,
+    unfinished_sessions: Vec<Session>,
     rng: Xoshiro256PlusPlus,
 }
 
@@ -159,7 +159,7 @@ impl DrillsPage {
             jumps: true,
             units: Units::default(),
             is_in_numbers: false,
-            of_settings: String::new(),
+            settings_table: String::new(),
             own_table: None,
             options: RepetitionOptions { goal: Goal::Free, shifted: false, lengths: Lengths::default() },
             for_coach: None,
@@ -167,15 +167,15 @@ impl DrillsPage {
             exam_level: 0,
             pages: Vec::new(),
             left_exam: None,
-            left: Vec::new(),
+            unfinished_sessions: Vec::new(),
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         }
     }
 
     /// Applies the settings that concern this page.
     pub fn take_settings(&mut self, settings: &Settings) {
-        (self.units, self.jumps, self.player.of_settings) = (settings.units, settings.jumps, settings.skill);
-        self.of_settings.clone_from(&settings.table);
+        (self.units, self.jumps, self.player.settings_skill) = (settings.units, settings.jumps, settings.skill);
+        self.settings_table.clone_from(&settings.table);
         if let Some(turn) = &mut self.turn {
             turn.jumps = settings.jumps;
         }
@@ -223,7 +223,7 @@ impl DrillsPage {
 
     /// The open session, or the last one that was left, if it is not over. An exam counts only after its first stroke.
     pub fn unfinished(&self) -> Option<&Session> {
-        let Some(turn) = &self.turn else { return self.left.last() };
+        let Some(turn) = &self.turn else { return self.unfinished_sessions.last() };
         let has_begun = !turn.session.is_exam() || !turn.session.attempts.is_empty();
         Some(&turn.session).filter(|session| has_begun && !session.is_over())
     }
@@ -243,7 +243,7 @@ impl DrillsPage {
     /// the program, whatever the user does in between.
     pub fn open_game(&self) -> Option<&Session> {
         let open = self.turn.as_ref().filter(|turn| turn.is_under_way()).map(|turn| &turn.session);
-        open.into_iter().chain(self.left.iter().rev()).find(|session| session.is_game())
+        open.into_iter().chain(self.unfinished_sessions.iter().rev()).find(|session| session.is_game())
     }
 
     /// Whether the user has gone back to the coach page.
@@ -281,8 +281,8 @@ impl DrillsPage {
         if let Some(mut turn) = self.turn.take() {
             turn.stop_asking();
             if turn.is_under_way() {
-                self.left.retain(|left| left.exercises != turn.session.exercises);
-                self.left.push(turn.newest().clone());
+                self.unfinished_sessions.retain(|left| left.exercises != turn.session.exercises);
+                self.unfinished_sessions.push(turn.newest().clone());
             }
         }
         self.pages.retain(|page| *page == DrillContext::Library);
@@ -307,7 +307,7 @@ impl DrillsPage {
 /// bundled table or a file). `None` if all are the same.
 fn other_table_words(table: &str, played: &str, set: &str) -> Option<String> {
     if played != table {
-        return Some(format!("on your {played}; what is said of the shot is for {table}"));
+        return Some(format!("on your {played}; the advice is for {table}"));
     }
     let whose = if PRESETS.contains(&set) { "" } else { "your " };
     let name = Path::new(set).file_stem()?.to_string_lossy();
@@ -374,6 +374,6 @@ mod tests {
         assert_eq!(said("textbook").as_deref(), Some("on match, not on textbook"));
         assert_eq!(said("/tables/Tisch 2.toml").as_deref(), Some("on match, not on your Tisch 2"));
         let own = other_table_words("match", "Tisch 2", "/tables/Tisch 2.toml");
-        assert_eq!(own.as_deref(), Some("on your Tisch 2; what is said of the shot is for match"));
+        assert_eq!(own.as_deref(), Some("on your Tisch 2; the advice is for match"));
     }
 }

@@ -81,7 +81,7 @@ impl DrillsPage {
             DrillReport::PositionRemoved(name, outcome) => match outcome {
                 Ok(()) => {
                     let own = self.own().filter(|exercise| exercise.name != name).cloned().collect();
-                    self.take_own(own);
+                    self.set_own_positions(own);
                     self.message = Some(Message::plain(format!("{name} is removed; its results stay")));
                 }
                 Err(sentence) => self.message = Some(Message::warning(format!("{name} is not removed: {sentence}"))),
@@ -110,7 +110,7 @@ impl DrillsPage {
     fn loaded(&mut self, loaded: LoadedRecords) {
         let LoadedRecords { sessions, positions, skill, troubles } = loaded;
         self.book = Book::new(sessions, troubles);
-        self.take_own(positions);
+        self.set_own_positions(positions);
         // The saved skill becomes the current one unless the user has chosen another.
         if let Some(skill) = skill.filter(|_| self.player.own.is_none()) {
             self.player.own = Some(skill);
@@ -179,7 +179,7 @@ impl DrillsPage {
         library.exercises().iter().filter(|exercise| !library.is_bundled(&exercise.name))
     }
 
-    fn take_own(&mut self, own: Vec<Exercise>) {
+    fn set_own_positions(&mut self, own: Vec<Exercise>) {
         let (library, refused) = Library::with_own(own);
         self.catalogue.take(library);
         self.book.troubles.extend(refused.iter().map(ToString::to_string));
@@ -188,7 +188,7 @@ impl DrillsPage {
     fn position_saved(&mut self, exercise: &Exercise) {
         let own = self.own().filter(|own| own.name != exercise.name).cloned();
         let own = own.chain([exercise.clone()]).collect();
-        self.take_own(own);
+        self.set_own_positions(own);
         self.catalogue.show_own(&exercise.name);
         self.message = Some(Message::good(format!("saved as {}", exercise.name)));
     }

@@ -74,11 +74,11 @@ pub struct Turn {
     /// Whether the attempt counts as one with a hint: the model shot was shown since the balls were placed.
     pub with_hint: bool,
     /// Whether a jump is also shown from the side.
-    pub is_from_side: bool,
+    pub has_side_view: bool,
     /// Page number in the text panel, if the text needs several pages; taken modulo the number of pages.
     pub text_page: isize,
     /// The session with all changes, while saving is in progress.
-    ahead: Option<Session>,
+    unsaved: Option<Session>,
     /// The stroke, with its undo history.
     pub(super) stroke: OwnStroke,
     /// The comparison with the model shot; `None` if there is none.
@@ -114,9 +114,9 @@ impl Turn {
             model_shot: ModelShotState::Pending,
             shows_hint: is_coachs,
             with_hint: false,
-            is_from_side: false,
+            has_side_view: false,
             text_page: 0,
-            ahead: None,
+            unsaved: None,
             advice_id: 0,
             cancel: Arc::default(),
         }))
@@ -139,13 +139,13 @@ impl Turn {
     }
 
     /// Sets the stroke from its description in words.
-    pub(super) fn say_stroke(&mut self, words: &str) -> Result<Vec<DrillTask>, SpokenError> {
+    pub(super) fn set_stroke_in_words(&mut self, words: &str) -> Result<Vec<DrillTask>, SpokenError> {
         self.stroke.say(words, &self.table, &self.layout, self.cue_ball)?;
         Ok(self.compare())
     }
 
     /// Undoes or redoes a change of the stroke, as `step` does.
-    pub(super) fn travel(&mut self, step: impl Fn(&mut OwnStroke) -> bool) -> Vec<DrillTask> {
+    pub(super) fn step_history(&mut self, step: impl Fn(&mut OwnStroke) -> bool) -> Vec<DrillTask> {
         step(&mut self.stroke);
         self.compare()
     }
@@ -237,14 +237,14 @@ impl Turn {
 
     /// The height profile of the displayed shot's jump; `None` if the side view is off or no ball jumps.
     pub fn profile(&self) -> Option<&Profile> {
-        self.shot().filter(|_| self.is_from_side)?.profile(&self.table)
+        self.shot().filter(|_| self.has_side_view)?.profile(&self.table)
     }
 
     /// Turns the side view of jumps on or off, and returns a message on it. Without a shot, the choice applies to the next one.
-    pub(super) fn turn_side_view(&mut self) -> String {
-        self.is_from_side = !self.is_from_side;
-        match (self.is_from_side, self.shot()) {
-            (false, _) => "jumps are shown from above alone".to_owned(),
+    pub(super) fn toggle_side_view(&mut self) -> String {
+        self.has_side_view = !self.has_side_view;
+        match (self.has_side_view, self.shot()) {
+            (false, _) => "jumps are shown from above only".to_owned(),
             (true, None) => "jumps are shown from the side too".to_owned(),
             (true, Some(shot)) if shot.profile(&self.table).is_some() => "the jump from the side".to_owned(),
             (true, Some(_)) => no_jump_words(&self.table).to_owned(),
@@ -362,20 +362,20 @@ impl Turn {
 
     /// The session including changes whose saving is in progress.
     pub(super) fn newest(&self) -> &Session {
-        self.ahead.as_ref().unwrap_or(&self.session)
+        self.unsaved.as_ref().unwrap_or(&self.session)
     }
 
     /// Returns the task that saves the changed `session`.
     pub(super) fn save(&mut self, session: Session) -> DrillTask {
         let before = self.newest().attempts.clone();
-        self.ahead = Some(session.clone());
+        self.unsaved = Some(session.clone());
         DrillTask::Save(Box::new(session), before)
     }
 
     /// Whether another instance of the program has continued the session (its version is `stored`) and no save is in progress here.
     pub(super) fn is_behind(&self, stored: &Session) -> bool {
         let (known, stored) = (&self.session.attempts, &stored.attempts);
-        self.is_aiming() && self.ahead.is_none() && known.len() < stored.len() && Attempt::is_prefix(known, stored)
+        self.is_aiming() && self.unsaved.is_none() && known.len() < stored.len() && Attempt::is_prefix(known, stored)
     }
 
     /// Continues with the version of another instance of the program.
@@ -386,9 +386,9 @@ impl Turn {
 
     /// Handles the end of saving a session, successful or not. Requests a new model shot if the next position is a different one.
     pub(super) fn saved(&mut self, session: &Session) -> Vec<DrillTask> {
-        let Some(ahead) = self.ahead.take_if(|ahead| ahead.id == session.id) else { return Vec::new() };
+        let Some(ahead) = self.unsaved.take_if(|ahead| ahead.id == session.id) else { return Vec::new() };
         if ahead != *session {
-            self.ahead = Some(ahead);
+            self.unsaved = Some(ahead);
         }
         self.session = session.clone();
         if self.place_next() { self.ask() } else { Vec::new() }
@@ -404,7 +404,7 @@ impl Turn {
     pub(super) fn begin(&mut self, session: Session) -> Vec<DrillTask> {
         let asks_otherwise = (session.skill, session.is_game()) != (self.session.skill, self.session.is_game());
         self.session = session;
-        self.ahead = None;
+        self.unsaved = None;
         let is_moved = self.place_next();
         if is_moved || asks_otherwise { self.ask() } else { Vec::new() }
     }

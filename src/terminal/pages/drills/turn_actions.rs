@@ -15,7 +15,7 @@ use crate::{
 /// The reason why a key is disabled before the result of a stroke has been shown.
 pub(super) const IS_RUNNING: &str = "the shot is running; Enter skips to its end";
 /// The warning before a stroke is played that the player has not changed.
-const UNCHANGED: &str = "the stroke is unchanged; Space again plays it all the same";
+const UNCHANGED: &str = "the stroke is unchanged; Space again plays it anyway";
 
 impl Turn {
     /// Returns the reason why a key binding is disabled now; `None` if it is enabled.
@@ -56,7 +56,7 @@ impl Turn {
                 Goal::Match { against_coach: true, .. } => {
                     Some("the coach cannot play at a real table; o chooses another goal")
                 }
-                Goal::Match { .. } => Some("a match is played here alone; o chooses another goal"),
+                Goal::Match { .. } => Some("a match is played only here; o chooses another goal"),
                 _ => self.disabled_reason(Condition::Restart),
             },
             (_, Condition::Repeated) => {
@@ -85,10 +85,10 @@ impl Turn {
                 .disabled_reason(Condition::ModelShot)
                 .or_else(|| self.disabled_reason(Condition::Aiming))
                 .or_else(|| self.disabled_reason(Condition::Alone)),
-            (_, Condition::Compared) => refuse(self.what_if().is_none(), "the model shot is not beside your stroke"),
+            (_, Condition::Compared) => refuse(self.what_if().is_none(), "the model shot is not next to your stroke"),
             (Stage::Aiming, Condition::StrokeChanged) => refuse(!self.stroke.can_travel().0, "the stroke is unchanged"),
             (Stage::Aiming, Condition::Set) => {
-                refuse(!self.stroke.can_travel().0, "the stroke is unchanged; Space twice plays it all the same")
+                refuse(!self.stroke.can_travel().0, "the stroke is unchanged; Space twice plays it anyway")
             }
             (Stage::Aiming, Condition::StrokeUndone) => {
                 refuse(!self.stroke.can_travel().1, "no change of the stroke was taken back")
@@ -112,7 +112,7 @@ impl Turn {
     }
 
     /// Creates a new session of the same exercises with these options.
-    fn again(&self, goal: Goal, shifted: bool, venue: Venue, skill: Skill, seed: u64) -> Session {
+    fn new_session(&self, goal: Goal, shifted: bool, venue: Venue, skill: Skill, seed: u64) -> Session {
         let exercises = self.session.exercises.clone();
         let mut session = Session::new(goal, venue, exercises, skill, seed);
         session.shifted = shifted;
@@ -144,13 +144,13 @@ impl DrillsPage {
         let turn = self.turn.as_mut()?;
         match action {
             Action::Stroke(change) => match turn.change_stroke(change) {
-                Ok(tasks) => return some(tasks),
+                Ok(tasks) => return tasks_effect(tasks),
                 Err(error) => self.message = Some(Message::warning(error.to_string())),
             },
             Action::TypeStroke => self.question = Some(Question::Stroke(TextField::new(stroke::LONGEST))),
-            Action::StrokeBack => return some(turn.travel(OwnStroke::undo)),
-            Action::StrokeAgain => return some(turn.travel(OwnStroke::redo)),
-            Action::WhatIf => return some(turn.take_over()),
+            Action::StrokeBack => return tasks_effect(turn.step_history(OwnStroke::undo)),
+            Action::StrokeAgain => return tasks_effect(turn.step_history(OwnStroke::redo)),
+            Action::WhatIf => return tasks_effect(turn.copy_model_shot()),
             Action::LeaveWhatIf => turn.what_if = None,
             Action::Play => return self.play(),
             Action::Next => return self.next(),
@@ -161,7 +161,7 @@ impl DrillsPage {
                 turn.text_page = 0;
                 turn.with_hint |= turn.shows_hint && turn.is_aiming();
             }
-            Action::TurnSideView => self.message = Some(Message::plain(turn.turn_side_view())),
+            Action::TurnSideView => self.message = Some(Message::plain(turn.toggle_side_view())),
             Action::TurnNumbers => self.is_in_numbers = !self.is_in_numbers,
             Action::TurnText(pages) => turn.text_page += pages,
             Action::Shift => {
@@ -169,24 +169,24 @@ impl DrillsPage {
                 let news = if self.options.shifted {
                     "from the second repetition on, each ball is shifted by half a ball"
                 } else {
-                    "the balls lie where the exercise has them"
+                    "the balls are placed as in the exercise"
                 };
                 self.message = Some(Message::plain(news));
-                return some(self.restart(None));
+                return tasks_effect(self.restart(None));
             }
             Action::Goal => {
                 self.options.goal = self.options.lengths.next_goal(turn.session.goal);
-                return some(self.restart_for(self.options.goal, None));
+                return tasks_effect(self.restart_for(self.options.goal, None));
             }
             Action::Count(step) => {
                 let step = i32::try_from(step).unwrap_or(0);
                 self.options.goal = longer(turn.session.goal, step);
-                return some(self.restart_for(self.options.goal, None));
+                return tasks_effect(self.restart_for(self.options.goal, None));
             }
             Action::Player => {
                 self.player.choose_next();
                 self.message = Some(Message::plain(format!("the player: {}", player_words(self.player.skill))));
-                return some(self.restart(None));
+                return tasks_effect(self.restart(None));
             }
             Action::Log(made) => return self.log(made),
             Action::Undo => return self.undo(),
@@ -198,11 +198,11 @@ impl DrillsPage {
     /// Restarts the open exercise if the player has changed. While a stroke is played or watched, the restart comes after it.
     pub(super) fn change_player(&mut self) -> Vec<DrillTask> {
         let is_on_its_way = self.turn.as_ref().is_some_and(|turn| turn.is_waiting() || turn.is_open());
-        if self.is_for_another() && !is_on_its_way { self.restart(None) } else { Vec::new() }
+        if self.has_other_player() && !is_on_its_way { self.restart(None) } else { Vec::new() }
     }
 
     /// Whether the player has changed since the session began. An exam or a run that has begun keeps its player to the end.
-    fn is_for_another(&self) -> bool {
+    fn has_other_player(&self) -> bool {
         let is_other =
             |turn: &Turn| !turn.session.is_exam() && !turn.is_under_way() && turn.session.skill != self.player.skill;
         self.turn.as_ref().is_some_and(is_other)
@@ -223,7 +223,7 @@ impl DrillsPage {
         let is_match = matches!(goal, Goal::Match { .. });
         // Both sides of a match play in the program.
         let venue = if is_match { Venue::Program } else { venue.unwrap_or(turn.newest().venue) };
-        let mut session = turn.again(goal, shifted && !is_match, venue, skill, seed);
+        let mut session = turn.new_session(goal, shifted && !is_match, venue, skill, seed);
         session.table = own_table;
         turn.begin(session)
     }
@@ -248,8 +248,8 @@ impl DrillsPage {
             return None;
         }
         let next = watched.outcome.next.clone();
-        if self.is_for_another() {
-            return some(self.restart(None));
+        if self.has_other_player() {
+            return tasks_effect(self.restart(None));
         }
         let turn = self.turn.as_mut()?;
         match next {
@@ -258,7 +258,7 @@ impl DrillsPage {
                 self.pages = vec![DrillContext::Library, DrillContext::Result];
                 None
             }
-            None => some(self.restart(None)),
+            None => tasks_effect(self.restart(None)),
         }
     }
 
@@ -311,6 +311,6 @@ impl DrillsPage {
 }
 
 /// The effect that runs these tasks; `None` if there are none.
-pub(super) fn some(tasks: Vec<DrillTask>) -> Option<Effect> {
+pub(super) fn tasks_effect(tasks: Vec<DrillTask>) -> Option<Effect> {
     (!tasks.is_empty()).then_some(Effect::Drill(tasks))
 }

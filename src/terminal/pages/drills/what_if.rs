@@ -15,7 +15,7 @@ impl Turn {
     }
 
     /// Copies the model shot into the stroke and starts the comparison. The attempt counts as one with a hint.
-    pub(super) fn take_over(&mut self) -> Vec<DrillTask> {
+    pub(super) fn copy_model_shot(&mut self) -> Vec<DrillTask> {
         let ModelShotState::Known(model_shot) = &self.model_shot else { return Vec::new() };
         let (cue, shot) = (model_shot.advice.cue, Arc::clone(&model_shot.shot));
         self.stroke.set(cue);

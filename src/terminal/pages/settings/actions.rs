@@ -10,8 +10,9 @@ use crate::{
         config::{ENTRIES, Entry},
         keymap::Chord,
         pages::{
-            Page as _, around,
+            Page as _,
             settings::{LONGEST, Question, SettingsPage, TABLE},
+            wrapping_index,
         },
         ui::TextField,
     },
@@ -24,7 +25,7 @@ impl SettingsPage {
             Page::Keys => self.keys.is_changed(&self.settings.keys),
             _ => self.is_changed(self.marked()),
         };
-        (when == SettingsCondition::Changed && !is_changed).then_some("this is as it is by default")
+        (when == SettingsCondition::Changed && !is_changed).then_some("this is the default already")
     }
 
     /// Performs the action of an enabled key binding.
@@ -86,7 +87,7 @@ impl SettingsPage {
                 let count = choices.len();
                 let place = choices.iter().position(|choice| *choice == now);
                 let mut others = (1..=count.cast_signed()).map(|steps| match place {
-                    Some(place) => around(place, steps * step, count),
+                    Some(place) => wrapping_index(place, steps * step, count),
                     None => steps.cast_unsigned() - 1,
                 });
                 // A custom table may be unreadable, so skip choices that are not accepted.

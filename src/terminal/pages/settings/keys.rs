@@ -89,7 +89,7 @@ pub const KEYS: &[Binding<A, W>] = &[
         Some(("page", 2)), "list the keys of another page")
         .each(&["list the keys of the page before", "list the keys of the next page"]),
     bind(OwnKeys, W::Always, lines!(A::Line), Some(("choose", 2)), "mark something else").each(marks!("line")),
-    bind(OwnKeys, W::Changed, &[key(Delete, A::Default), key(Backspace, A::Default)], Some(("default", 1)), "back to the keys that it has by default"),
+    bind(OwnKeys, W::Changed, &[key(Delete, A::Default), key(Backspace, A::Default)], Some(("default", 1)), "back to the default keys"),
     bind(OwnKeys, W::Always, &[key(Tab, A::Turn)], Some(("settings", 1)), "to the settings"),
     BACK,
 ];

@@ -8,7 +8,7 @@ use crate::terminal::{
         Chord, KeyEntry, KeyPage, commands_of,
         remap::{chord as chord_named, name},
     },
-    pages::around,
+    pages::wrapping_index,
 };
 
 /// The list of key bindings, with its marked command.
@@ -48,7 +48,7 @@ impl OwnKeys {
 
     /// Cycles through the pages whose keys are listed, forwards if positive.
     pub fn choose_place(&mut self, pages: isize) {
-        self.page = around(self.page, pages, self.pages.len());
+        self.page = wrapping_index(self.page, pages, self.pages.len());
         self.mark = 0;
     }
 

@@ -2,7 +2,7 @@
 
 use crate::{
     learning::run::quantity::Quantity,
-    terminal::{pages::around, ui::chart::whole},
+    terminal::{pages::wrapping_index, ui::chart::whole},
 };
 
 /// Widths of the smoothing, as fractions of the shown range, and the index of the default. The raw values are visible behind the
@@ -111,7 +111,7 @@ impl Charts {
         let all: Vec<usize> = (0..Quantity::COUNT).filter(|&n| self.shown[n]).collect();
         // If the selected chart has just been hidden, select the first one after it.
         let place = match all.iter().position(|&n| n == self.selected) {
-            Some(place) => around(place, steps, all.len()),
+            Some(place) => wrapping_index(place, steps, all.len()),
             None => all.iter().position(|&n| n > self.selected).unwrap_or(0),
         };
         if let Some(&n) = all.get(place) {

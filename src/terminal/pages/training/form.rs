@@ -14,7 +14,7 @@ use crate::{
     printing::{shell_word, timestamp},
     terminal::{
         Launch,
-        pages::{around, neighbour},
+        pages::{neighbour, wrapping_index},
     },
 };
 
@@ -119,7 +119,7 @@ impl Form {
         self.is_fresh = true;
         match self.field {
             Field::Agent => {
-                self.agent = around(self.agent, step, AGENTS.len());
+                self.agent = wrapping_index(self.agent, step, AGENTS.len());
                 // Weights of another agent do not fit.
                 self.from = None;
             }

@@ -176,7 +176,7 @@ impl TrainingPage {
                     Request::Pause => "the run is asked to pause",
                     Request::GoOn => "the run is asked to go on",
                     Request::Stop => "the run is asked to stop: it measures itself and saves first",
-                    Request::Abandon => "the run is asked to end, and its folder goes",
+                    Request::Abandon => "the run is asked to end; its folder will be deleted",
                 }));
             }
             TrainingReport::Sent(_, Err(sentence)) => {
@@ -237,7 +237,7 @@ impl TrainingPage {
         match outcome {
             Ok(true) => {
                 let call = shell_word(&name);
-                self.message = Some(Message::good(format!("kept; use them by: carom recommend --policy {call}")));
+                self.message = Some(Message::good(format!("kept; use them with: carom recommend --policy {call}")));
             }
             // Ask only if the run is still watched and no question is open; otherwise show a message.
             Ok(false) if self.page() == TrainingContext::Watch && self.question.is_none() => {

@@ -35,7 +35,7 @@ pub struct Replay {
     pub playback: Playback,
     motion: Motion,
     /// Whether the user has stopped the replay, so that only the user can start it again.
-    held: bool,
+    stopped_by_user: bool,
     /// Whether the run was resumed from a point before the set on the screen. Then the next set is newer, whatever its number.
     pub is_outdated: bool,
 }
@@ -50,7 +50,7 @@ impl Replay {
             return;
         }
         self.is_outdated = false;
-        if self.reel.is_some() && (self.motion != Motion::Stopped || self.held) {
+        if self.reel.is_some() && (self.motion != Motion::Stopped || self.stopped_by_user) {
             self.waiting = Some(reel);
         } else {
             self.begin(reel);
@@ -83,11 +83,11 @@ impl Replay {
     pub fn toggle(&mut self) {
         if self.is_playing() {
             self.motion = Motion::Stopped;
-            self.held = true;
+            self.stopped_by_user = true;
             return;
         }
-        self.held = false;
-        if self.is_through() {
+        self.stopped_by_user = false;
+        if self.is_finished() {
             match self.waiting.take() {
                 Some(newer) => self.begin(newer),
                 None => self.show(0),
@@ -106,7 +106,7 @@ impl Replay {
         self.playback.time >= self.duration()
     }
 
-    fn is_through(&self) -> bool {
+    fn is_finished(&self) -> bool {
         let last = self.reel.as_ref().map_or(0, |reel| reel.shots.len().saturating_sub(1));
         self.index >= last && self.is_at_the_end()
     }
@@ -119,7 +119,7 @@ impl Replay {
             self.show(index);
         }
         self.motion = Motion::Stopped;
-        self.held = true;
+        self.stopped_by_user = true;
     }
 
     /// Advances the replay by `seconds`.
@@ -134,7 +134,7 @@ impl Replay {
                 }
             }
             Motion::Resting(left) if left > seconds => self.motion = Motion::Resting(left - seconds),
-            Motion::Resting(_) if !self.is_through() => {
+            Motion::Resting(_) if !self.is_finished() => {
                 self.show(self.index + 1);
                 self.motion = Motion::Playing;
             }

@@ -5,7 +5,7 @@ use ratatui::layout::{Position, Rect};
 use crate::{
     calibration::{Calibration, Change, Entry, NO_BETTER, Test},
     terminal::{
-        pages::calibration::{CalibrationPage, view::values::draw_called},
+        pages::calibration::{CalibrationPage, view::values::draw_constant_name},
         ui::{Ui, columns, draw_title, list, shorten, write_right},
     },
 };
@@ -126,7 +126,7 @@ fn draw_values(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
         let value = format!("{:.4} {sign}{:.4}", one.after, one.after_deviation);
         let room = NAME.max(usize::from(inner.width).saturating_sub(columns(&value) + 4));
         let style = if found.known(one) == NO_BETTER { ui.theme.faint() } else { ui.theme.text() };
-        draw_called(one, room, style, Position::new(inner.x + 2, y), ui);
+        draw_constant_name(one, room, style, Position::new(inner.x + 2, y), ui);
         write_right(ui.buffer, inner.x, inner.right() - 1, y, &value, style);
     }
 }

@@ -67,7 +67,7 @@ fn question(page: &CalibrationPage) -> Option<(String, Option<&TextField>)> {
         }
         Question::Name(field) => ("the table's name = ".to_owned(), Some(field)),
         Question::Replace(name) => (format!("there is a table called {name} already; replace it?"), None),
-        Question::Anew => ("begin anew? What is entered is kept beside the file.".to_owned(), None),
+        Question::Anew => ("start again? The entries are kept next to the file.".to_owned(), None),
     })
 }
 
@@ -76,9 +76,9 @@ fn status_line(page: &CalibrationPage) -> Message {
     let sheet = page.sheet();
     // A toast has shown the error already.
     if sheet.trouble.is_some() {
-        return Message::warning("the entries cannot be read (F6: why); N keeps the file aside and begins anew");
+        return Message::warning("the entries cannot be read (F6: why); N moves the file aside and starts again");
     }
-    if let Some(sentence) = &sheet.unjudged {
+    if let Some(sentence) = &sheet.evaluation_error {
         return Message::warning(sentence.clone());
     }
     if sheet.entries.is_none() {
@@ -86,7 +86,7 @@ fn status_line(page: &CalibrationPage) -> Message {
     }
     let (entered, wanted) = sheet.count();
     match sheet.best() {
-        _ if sheet.is_asking() => Message::plain("working out what the marks say"),
+        _ if sheet.is_asking() => Message::plain("evaluating the marks"),
         Some(best) if entered == 0 => {
             Message::plain(format!("play a test, then Enter; {} helps most ({})", best.test, bits_words(best.bits)))
         }

@@ -93,14 +93,14 @@ fn draw_constant(one: &Change, known: &str, area: Rect, ui: &mut Ui) {
         ui.buffer.set_string(area.x + WORDS, area.y, words, ui.theme.faint());
     } else {
         let room = usize::from(value_end).saturating_sub(2 + columns(&value));
-        draw_called(one, room, style, Position::new(area.x + 1, area.y), ui);
+        draw_constant_name(one, room, style, Position::new(area.x + 1, area.y), ui);
     }
     write_right(ui.buffer, area.x, area.x + value_end, area.y, &value, style);
     write_right(ui.buffer, area.x, area.x + known_end, area.y, known, style);
 }
 
 /// Writes the short description of a constant in `room` columns, followed by its name if that fits.
-pub fn draw_called(one: &Change, room: usize, style: Style, at: Position, ui: &mut Ui) {
+pub fn draw_constant_name(one: &Change, room: usize, style: Style, at: Position, ui: &mut Ui) {
     let words = one.short_words();
     if words.is_empty() {
         ui.buffer.set_string(at.x, at.y, shorten(&one.name, room, ui.caps), style);

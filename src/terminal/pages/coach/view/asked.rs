@@ -18,7 +18,10 @@ pub fn draw_asked(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let inner = draw_title("The coach", area, ui);
     let [skill_key, rule_key] = [CoachAction::NextSkill, CoachAction::NextRule].map(|action| ui.key_of(COACH, &action));
     let paragraphs = [
-        (format!("Its shots are for {} at {}.", whom(coach.query.skill), game(coach.query.rule)), ui.theme.text()),
+        (
+            format!("Its shots are for {} at {}.", player_noun(coach.query.skill), game(coach.query.rule)),
+            ui.theme.text(),
+        ),
         (format!("{skill_key}: how well you play; {rule_key}: the rule."), ui.theme.faint()),
     ];
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
@@ -26,7 +29,7 @@ pub fn draw_asked(coach: &CoachPage, area: Rect, ui: &mut Ui) {
 }
 
 /// Describes the player of this skill as a person, with an article.
-fn whom(skill: Skill) -> String {
+fn player_noun(skill: Skill) -> String {
     match named_skill(skill) {
         None => player_words(skill).replacen("me", "you", 1).replacen("my", "your", 1),
         Some("expert") => "an expert".to_owned(),

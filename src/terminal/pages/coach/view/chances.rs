@@ -48,7 +48,7 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, 
         let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate) + " %");
         write_right(ui.buffer, inner.x, inner.x + CHANCE_END, row, &chance, style);
         let room = usize::from(inner.width.saturating_sub(WORDS));
-        let sort = |proposal: &Proposal, is_exact: bool| sort_words(proposal, is_exact, room, ui);
+        let sort = |proposal: &Proposal, is_exact: bool| shot_summary(proposal, is_exact, room, ui);
         let words = sort(proposal, false);
         let like = |(other, choice): (usize, &Choice)| other != n && sort(&choice.proposal, false) == words;
         let is_unclear = advised.choices.iter().enumerate().any(like);
@@ -153,7 +153,7 @@ pub fn choice_at(advised: &AdviceState, area: Rect, row: u16) -> Option<usize> {
 ///
 /// Thickness and speed are left out if `room` columns do not hold them; ball and pattern are cut with an ellipsis. If `is_exact`, the
 /// speed is in table lengths and comes before the thickness.
-pub fn sort_words(proposal: &Proposal, is_exact: bool, room: usize, ui: &Ui) -> String {
+pub fn shot_summary(proposal: &Proposal, is_exact: bool, room: usize, ui: &Ui) -> String {
     if !proposal.shot.solved {
         return "no point".to_owned();
     }

@@ -148,7 +148,7 @@ fn sentences(guide: &Guide) -> Vec<(String, bool)> {
                 (capital(&shift.correction().unwrap_or_default()), true),
                 ("The dots are the line to the diamond.".to_owned(), false),
                 (shift.rule().to_owned(), false),
-                ("On the rail: the diamond. On the cloth: where the dots come to the third cushion.".to_owned(), false),
+                ("On the rail: the diamond. On the cloth: where the dots reach the third cushion.".to_owned(), false),
             ];
         }
     };

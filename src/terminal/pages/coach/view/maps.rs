@@ -72,7 +72,7 @@ pub fn draw_tip_map(map: &Map, cue: &CueInputs, table: &Table, unit: LengthUnit,
     draw_signs(face, ui, |x, y, _| match () {
         () if x.hypot(y) > 1.0 => None,
         () if tip.covers(x, y) => Some(Sign::Stroke),
-        () => Some(Sign::Outcome(at(map, -x, y))),
+        () => Some(Sign::Outcome(outcome_at(map, -x, y))),
     });
 }
 
@@ -132,7 +132,7 @@ pub fn draw_aim_map(map: &Map, skill: Skill, (unit, in_letters): (LengthUnit, bo
         match () {
             () if is_stroke => Some(Sign::Stroke),
             () if cell == 0.0 && (from_errors - 1.0).abs() <= line => Some(Sign::Errors),
-            () => Some(Sign::Outcome(at(map, -x, y))),
+            () => Some(Sign::Outcome(outcome_at(map, -x, y))),
         }
     });
 }
@@ -186,7 +186,7 @@ fn words_by(rule: Rule, outcome: Outcome, words: &'static str, maps: [&Map; 2]) 
 }
 
 /// The outcome at a point of the map; `x` and `y` go from -1 to 1 at its ends.
-fn at(map: &Map, x: f64, y: f64) -> Outcome {
+fn outcome_at(map: &Map, x: f64, y: f64) -> Outcome {
     let index = |at: f64, count: usize| {
         let place = 0.5 * (at + 1.0) * (count as f64 - 1.0);
         (place.round().max(0.0) as usize).min(count.saturating_sub(1))
@@ -246,7 +246,8 @@ mod tests {
     fn the_corners_of_a_map_are_its_ends() {
         use Outcome::{NoBall, NoStroke, OneBall, Point, TooFewCushions};
         let map = cornered([[NoStroke, NoBall], [OneBall, TooFewCushions]]);
-        let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (0.1, -0.2)].map(|(x, y)| at(&map, x, y));
+        let corners =
+            [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (0.1, -0.2)].map(|(x, y)| outcome_at(&map, x, y));
         assert_eq!(corners, [NoStroke, NoBall, OneBall, TooFewCushions, Point]);
     }
 }

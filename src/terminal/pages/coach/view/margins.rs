@@ -152,7 +152,7 @@ impl Row<'_> {
     }
 
     /// The directions of less and more of the input, each with its sign. Side and direction are positive to the shooter's left.
-    const fn ways(&self) -> [(&'static str, &'static str); 2] {
+    const fn directions(&self) -> [(&'static str, &'static str); 2] {
         match self.margin.input {
             Input::Side | Input::Direction => [("right", "R"), ("left", "L")],
             Input::Height | Input::Elevation => [("lower", "-"), ("higher", "+")],
@@ -171,7 +171,7 @@ impl Row<'_> {
         ui.buffer.set_string(x + 1, y, name, ui.theme.faint());
         // Inches need a third decimal: a hundredth of an inch is a quarter of a millimetre.
         let decimals = if self.unit == LengthUnit::Feet.fine().1 { 3 } else { 2 };
-        for ((margin, (way, _)), end) in self.sizes().into_iter().zip(self.ways()).zip([LESS_END, MORE_END]) {
+        for ((margin, (way, _)), end) in self.sizes().into_iter().zip(self.directions()).zip([LESS_END, MORE_END]) {
             write_right(ui.buffer, x + NAME_END, x + end, y, &size(margin, "", decimals), self.style(ui.theme));
             ui.buffer.set_string(x + end + 1, y, way, ui.theme.faint());
         }
@@ -182,7 +182,7 @@ impl Row<'_> {
         let [_, name] = self.names(ui.caps);
         list::draw_mark(self.is_tightest, x, y, ui);
         ui.buffer.set_string(x + 1, y, name, ui.theme.faint());
-        for ((margin, (_, sign)), end) in self.sizes().into_iter().zip(self.ways()).zip([12, 19]) {
+        for ((margin, (_, sign)), end) in self.sizes().into_iter().zip(self.directions()).zip([12, 19]) {
             write_right(ui.buffer, x + 5, x + end, y, &size(margin, sign, 2), self.style(ui.theme));
         }
         if has_yours {
@@ -219,7 +219,7 @@ mod tests {
         let ways = margins.each_ref().map(|margin| {
             let row =
                 Row { margin, factor: 1.0, unit: "", yours: String::new(), is_tightest: false, in_letters: false };
-            row.ways().map(|(way, _)| way).join(" ")
+            row.directions().map(|(way, _)| way).join(" ")
         });
         assert_eq!(ways, ["right left", "lower higher", "lower higher", "right left", "softer harder"]);
         assert_eq!([0.5, 0.125, 0.934, 2.1994].map(yours), ["0.5", "0.125", "0.93", "2.2"]);

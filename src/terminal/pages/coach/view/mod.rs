@@ -140,7 +140,8 @@ impl PageView for CoachPage {
 /// Position and label of the kiss that spoils the most strokes, with its share of them. Shown before the first proposed shot is played.
 fn kiss_note(coach: &CoachPage) -> Option<(DVec2, String)> {
     let advised = coach.shown().filter(|advised| advised.chosen == 0 && coach.what_if().is_none());
-    let kiss = advised.filter(|_| coach.told().is_some() && coach.info == InfoPanel::Shot)?.why.as_ref()?.kiss?;
+    let kiss =
+        advised.filter(|_| coach.described_shot().is_some() && coach.info == InfoPanel::Shot)?.why.as_ref()?.kiss?;
     let names = coach.cue_ball().names();
     let balls = match kiss.balls {
         [0, other] | [other, 0] => format!("kiss with {}", names[other]),
@@ -164,7 +165,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
         draw_own_stroke(coach, what_if, panes, ui);
         return false;
     }
-    let told = coach.told().filter(|_| chosen == InfoPanel::Shot);
+    let told = coach.described_shot().filter(|_| chosen == InfoPanel::Shot);
     let is_beside = panes.is_beside();
     // Before the stroke, the description also uses the room of panels that matter only later or repeat it.
     let is_wide = !is_beside && !coach.is_in_numbers;
@@ -176,7 +177,8 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
         };
         draw_shot_words(coach, told, area, ui)
     });
-    let explained = coach.shown().filter(|_| is_beside && chosen == InfoPanel::Chances && coach.told().is_some());
+    let explained =
+        coach.shown().filter(|_| is_beside && chosen == InfoPanel::Chances && coach.described_shot().is_some());
     let is_explained = explained.is_some_and(|advised| draw_why(advised, panes.events, ui));
     // If all panels are below the table, the panel "Chances" is among them and shows the explanation.
     let says_why = has_told_why || is_explained || !is_beside;
@@ -247,7 +249,7 @@ fn draw_info(coach: &CoachPage, panel: InfoPanel, says_why: bool, area: Rect, ui
         (None, Some(_)) if is_followed => "only the player sees this",
         (None, None) if is_followed => "no shot yet",
         (None, Some(choice)) if choice.is_studied => FAILED,
-        (None, Some(_)) => "being worked out",
+        (None, Some(_)) => "being computed",
         (None, None) => "no shot yet; Enter asks the coach",
     };
     match panel {
@@ -265,7 +267,7 @@ fn draw_info(coach: &CoachPage, panel: InfoPanel, says_why: bool, area: Rect, ui
 /// Explanation of the ranking of the shot that is about to be played, for a row of `room` columns. `None` if the shot's description is not
 /// displayed or nothing fits.
 fn why_told(coach: &CoachPage, room: usize, ui: &Ui) -> Option<String> {
-    let is_told = coach.info == InfoPanel::Shot && coach.what_if().is_none() && coach.told().is_some();
+    let is_told = coach.info == InfoPanel::Shot && coach.what_if().is_none() && coach.described_shot().is_some();
     why_line(coach.shown().filter(|_| is_told)?, room, ui)
 }
 

@@ -10,7 +10,7 @@ use crate::{
     table::BALLS,
     terminal::{
         Glyphs, Proposal,
-        pages::coach::{Choice, view::chances::sort_words},
+        pages::coach::{Choice, view::chances::shot_summary},
         ui::{Spot, Theme, Ui, draw_lines, draw_nothing, draw_title, wrap},
         words::{fixed, percent},
     },
@@ -29,7 +29,7 @@ const ROWS: usize = 3;
 const SPREAD_WORDS: &str = "half of the made shots stop this close";
 
 /// Text for a shot whose background analysis has failed.
-pub const FAILED: &str = "could not be worked out";
+pub const FAILED: &str = "could not be computed";
 
 /// Draws the panel; without a shot it shows the text `empty`.
 pub fn draw_plan(choice: Option<&Choice>, unit: LengthUnit, empty: &str, area: Rect, ui: &mut Ui) {
@@ -75,7 +75,7 @@ fn shot_words(proposal: &Proposal, room: usize, ui: &Ui) -> String {
     let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate));
     let so_far = if proposal.is_early { "so far " } else { "" };
     let chance = format!("{so_far}{chance} % ");
-    let sort = sort_words(proposal, false, room.saturating_sub(chance.len()), ui);
+    let sort = shot_summary(proposal, false, room.saturating_sub(chance.len()), ui);
     chance + &sort
 }
 

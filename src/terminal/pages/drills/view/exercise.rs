@@ -125,7 +125,7 @@ fn way_spots(turn: &Turn, aim_line: &AimLine, theme: &Theme, caps: Capabilities)
     // The ball at the end would cover the last dots.
     let dots = aim_line.dots(DOT, 1.5 * turn.table.radius).into_iter();
     let ghost = theme.letters()[0].to_ascii_lowercase();
-    let ghost = aim_line.places.last().map(|place| Spot { place: *place, is_ball: true, color, letter: ghost });
+    let ghost = aim_line.points.last().map(|place| Spot { place: *place, is_ball: true, color, letter: ghost });
     let dots = dots.map(|place| Spot { place, is_ball: false, color, letter });
     dots.chain(ghost).filter(|spot| is_on_cloth(turn, spot)).collect()
 }

@@ -13,7 +13,7 @@ use crate::{
             Target,
             drills::{
                 DrillsPage,
-                view::{READABLE, TABLE_ROWS, best_run, draw_header, draw_preview, percent_words, places_words},
+                view::{READABLE, TABLE_ROWS, best_run, draw_header, draw_preview, percent_words, position_words},
             },
         },
         ui::{
@@ -71,7 +71,7 @@ fn status_line(drills: &DrillsPage) -> Message {
         return Message::plain("reading what was played so far");
     }
     if !book.troubles.is_empty() {
-        return Message::warning("some of what was kept cannot be read: F6 names it, and all else is here");
+        return Message::warning("some saved data cannot be read: F6 lists it; the rest is here");
     }
     Message::plain("choose an exercise; Enter opens it")
 }
@@ -183,7 +183,7 @@ fn about(drills: &DrillsPage, exercise: &Exercise, table: &Table, theme: &Theme)
         let words = format!("{place}: {} of {}, {rate}{}", score.made, score.tried, best_run(score));
         add(words, theme.good(), false);
     }
-    add(places_words(table, &exercise.layout, CueBall::White, drills.units.place), theme.faint(), true);
+    add(position_words(table, &exercise.layout, CueBall::White, drills.units.place), theme.faint(), true);
     if !exercise.tags.is_empty() {
         let tags: Vec<String> = exercise.tags.iter().map(|tag| format!("#{}", bare_tag(tag))).collect();
         add(tags.join(" "), theme.faint(), true);

@@ -96,7 +96,7 @@ fn best_run(record: &Record) -> String {
 
 /// The positions of the balls, the cue ball first, measured from the lower left corner of the noses: in diamonds, as users type them,
 /// or in millimetres.
-fn places_words(table: &Table, layout: &Layout, cue_ball: CueBall, unit: PlaceUnit) -> String {
+fn position_words(table: &Table, layout: &Layout, cue_ball: CueBall, unit: PlaceUnit) -> String {
     let place = |ball: usize| {
         let at = in_diamonds(table, layout.balls[ball]);
         let along = |diamonds: f64| match unit {

@@ -16,7 +16,7 @@ use crate::{
             AimLine, DrillsPage, ModelShotState, Turn, Watched,
             keys::EXERCISE,
             other_table_words,
-            view::{percent_words, places_words},
+            view::{percent_words, position_words},
         },
         shot::Meeting,
         ui::{Ui, columns, draw_lines, draw_title, pair, separator, spell, stroke_rows, wrap_by},
@@ -40,7 +40,7 @@ pub fn draw_stroke(turn: &Turn, units: Units, in_numbers: bool, area: Rect, ui: 
     let rows = if in_numbers {
         stroke_rows(&cue, units, turn.table.radius, ui.caps).to_vec()
     } else {
-        told_rows(turn, &cue, units, inner.height >= ALL_ROWS, ui.caps)
+        advice_rows(turn, &cue, units, inner.height >= ALL_ROWS, ui.caps)
     };
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(1), ..inner };
     draw_lines(rows.into_iter().map(|(name, value)| pair(name, 7, value, ui.theme)), text, ui);
@@ -48,7 +48,13 @@ pub fn draw_stroke(turn: &Turn, units: Units, in_numbers: bool, area: Rect, ui: 
 
 /// The rows of the stroke in the form of the advice: the aim as a point on the cushion's nose, and the speed in table lengths. If there is
 /// room for `all` rows, the numbers follow below each.
-fn told_rows(turn: &Turn, cue: &CueInputs, units: Units, all: bool, caps: Capabilities) -> Vec<(&'static str, String)> {
+fn advice_rows(
+    turn: &Turn,
+    cue: &CueInputs,
+    units: Units,
+    all: bool,
+    caps: Capabilities,
+) -> Vec<(&'static str, String)> {
     let [(_, degrees), side, height, (_, speed), elevation] = stroke_rows(cue, units, turn.table.radius, caps);
     let aim = aim_words(turn, cue, units);
     // The narrowest panel has no room for the blank.
@@ -116,12 +122,12 @@ pub fn draw_task(
         }
         paragraphs.extend(least);
         paragraphs.extend(
-            other_table_words(&turn.exercise.table, &turn.table.name, &drills.of_settings)
+            other_table_words(&turn.exercise.table, &turn.table.name, &drills.settings_table)
                 .map(|words| (words, ui.theme.faint())),
         );
         // A hint needs the room of the positions.
         if turn.hint().is_none() {
-            let places = places_words(&turn.table, &turn.layout, turn.cue_ball, units.place);
+            let places = position_words(&turn.table, &turn.layout, turn.cue_ball, units.place);
             paragraphs.push((places, ui.theme.faint()));
         }
     }
@@ -227,7 +233,7 @@ pub const fn advisor(model_shot: &ModelShot) -> &'static str {
 }
 
 /// The difference of a stroke from another one in a player's words; `None` if it is too small to see or to play.
-fn told(turn: &Turn, stroke: &CueInputs, other: &CueInputs, units: Units) -> Option<String> {
+fn difference_words(turn: &Turn, stroke: &CueInputs, other: &CueInputs, units: Units) -> Option<String> {
     let of = |cue| ShotWords::of(&turn.table, &turn.layout, cue).ok();
     let is_seen = !changes(&turn.table, other, stroke, units).is_empty();
     // A stroke that cannot be played cannot be compared. Playing it shows the reason.
@@ -247,7 +253,7 @@ fn model_words(turn: &Turn, model_shot: &ModelShot, units: Units) -> String {
 /// The description of the model shot, and the difference of the current stroke from it.
 fn hint(turn: &Turn, model_shot: &ModelShot, units: Units, caps: Capabilities) -> Vec<String> {
     let differs = || {
-        let yours = told(turn, &turn.raised_stroke(), &model_shot.advice.cue, units);
+        let yours = difference_words(turn, &turn.raised_stroke(), &model_shot.advice.cue, units);
         format!("Yours: {}", yours.unwrap_or_else(|| "the same".to_owned()))
     };
     let yours = (!turn.is_with_coach()).then(differs);
@@ -270,12 +276,13 @@ fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
 /// The difference of the meant stroke from the model shot, and the error that the player's hand has added.
 fn differences(turn: &Turn, watched: &Watched, units: Units, caps: Capabilities) -> Vec<String> {
     let Watched { meant, outcome, .. } = watched;
-    let added = told(turn, &outcome.played.stroke, meant, units).unwrap_or_else(|| "hardly any change".to_owned());
+    let added =
+        difference_words(turn, &outcome.played.stroke, meant, units).unwrap_or_else(|| "hardly any change".to_owned());
     if watched.is_by_coach() {
         return vec![spell(&format!("the coach's hand: {added}"), caps)];
     }
     let compared = match &turn.model_shot {
-        ModelShotState::Known(model_shot) => told(turn, meant, &model_shot.advice.cue, units).map_or_else(
+        ModelShotState::Known(model_shot) => difference_words(turn, meant, &model_shot.advice.cue, units).map_or_else(
             || format!("{}: almost the same", advisor(model_shot)),
             |yours| format!("yours, beside the {}: {yours}", advisor(model_shot)),
         ),
@@ -304,7 +311,7 @@ mod tests {
         let table = Table::default();
         let mark = RailPoint { rail: Rail::Left, diamond: 2.04 };
         let places = vec![DVec2::ZERO, DVec2::new(0.5, 0.0)];
-        let aim_line = AimLine { places, meeting: Meeting::Rail(mark.rail, None), cushion: Some(mark) };
+        let aim_line = AimLine { points: places, meeting: Meeting::Rail(mark.rail, None), cushion: Some(mark) };
         let other = Units { tip: TipUnit::Mm, place: PlaceUnit::Mm, length: LengthUnit::Feet };
         let said = |units| aim_line_words(&aim_line, CueBall::White, table.diamond(), units);
         assert_eq!(said(Units::default()), "left rail at 2.0 diamonds, 50 cm");

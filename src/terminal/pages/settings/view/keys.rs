@@ -78,7 +78,7 @@ fn tell(commands: &[(&str, &str)]) -> String {
 /// The question for the new key.
 pub fn press(settings: &SettingsPage) -> String {
     let what = settings.keys.marked().map_or("", |entry| entry.words);
-    format!("press the key that is to do this: {what}")
+    format!("press the key that should do this: {what}")
 }
 
 /// The question about a key that already has another command.

@@ -55,13 +55,13 @@ pub fn grid(count: usize, area: Rect) -> Vec<(Rect, bool)> {
     }
     let plots = area.height.saturating_sub(1);
     let rows_of = |columns: u16| count.div_ceil(columns);
-    let off = |columns: u16| {
+    let penalty = |columns: u16| {
         let (width, height) = (area.width / columns, (plots / rows_of(columns)).max(1));
         let lone = columns * rows_of(columns) - count;
         (f64::from(width) / f64::from(height) / BEST_ASPECT).ln().abs() + UNEVEN * f64::from(lone)
     };
     let fits = |columns: &u16| *columns == 1 || area.width / columns >= LEAST_CHART;
-    let columns = (1..=count).filter(fits).min_by(|&one, &other| off(one).total_cmp(&off(other))).unwrap_or(1);
+    let columns = (1..=count).filter(fits).min_by(|&one, &other| penalty(one).total_cmp(&penalty(other))).unwrap_or(1);
     let rows = rows_of(columns);
     let mut all = Vec::new();
     for row in 0..rows {

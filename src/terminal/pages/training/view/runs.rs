@@ -63,7 +63,7 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
             cells.chain([column.heading.len()]).max().unwrap_or(0)
         })
         .collect();
-    let shown = kept(&widths, usize::from(area.width).saturating_sub(3));
+    let shown = fitting_columns(&widths, usize::from(area.width).saturating_sub(3));
     let mut x = area.x + 3;
     let mut places = Vec::new();
     for column in shown {
@@ -109,7 +109,7 @@ pub fn target(training: &TrainingPage, area: Rect, at: Position) -> Option<Targe
 }
 
 /// The indices of the columns that fit into a width of `room`.
-fn kept(widths: &[usize], room: usize) -> Vec<usize> {
+fn fitting_columns(widths: &[usize], room: usize) -> Vec<usize> {
     let mut kept: Vec<usize> = (0..COLUMNS.len()).collect();
     while kept.iter().map(|&n| widths[n] + GAP).sum::<usize>() > room + GAP {
         match kept.iter().copied().filter(|&n| COLUMNS[n].dispensable > 0).max_by_key(|&n| COLUMNS[n].dispensable) {
@@ -134,7 +134,7 @@ fn draw_marked(training: &TrainingPage, run: &Summary, mark: usize, area: Rect, 
             count(run.shots),
             count(run.planned_shots)
         ),
-        format!("started {}, last written {}", people(&run.started), people(&run.changed)),
+        format!("started {}, last written {}", readable_time(&run.started), readable_time(&run.changed)),
     ];
     for (line, y) in lines.iter().zip(inner.y..inner.bottom()) {
         ui.buffer.set_stringn(inner.x + 2, y, line, usize::from(inner.width.saturating_sub(3)), ui.theme.text());
@@ -142,7 +142,7 @@ fn draw_marked(training: &TrainingPage, run: &Summary, mark: usize, area: Rect, 
 }
 
 /// Formats a time like `2026-11-20T14:30:05Z` for reading: `2026-11-20 14:30:05 UTC`.
-fn people(moment: &str) -> String {
+fn readable_time(moment: &str) -> String {
     moment.replace('T', " ").replace('Z', " UTC")
 }
 
