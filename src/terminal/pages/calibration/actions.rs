@@ -83,13 +83,13 @@ impl CalibrationPage {
                         return Some(self.report_left_out(test, is_out));
                     }
                 };
-                let said = match &edit {
+                let text = match &edit {
                     Edit::TakeOut(_, entry) => format!("the stroke of {} is deleted again", entry.test),
                     Edit::Add(entry) | Edit::Insert(_, entry) => format!("the stroke of {} is back", entry.test),
                     Edit::Amend(.., entry) => format!("the stroke of {} is as it was before", entry.test),
                     Edit::Anew(_) => "what was entered before is back".to_owned(),
                 };
-                self.message = Some(Message::plain(said));
+                self.message = Some(Message::plain(text));
                 return Some(self.edit(edit, true));
             }
             Action::Turn => {
@@ -132,12 +132,12 @@ impl CalibrationPage {
 
     /// Reports that a test is left out or included again, and requests a new evaluation of the entries.
     fn report_left_out(&mut self, test: &str, is_out: bool) -> Effect {
-        let said = if is_out {
+        let text = if is_out {
             format!("{test} is left out, with what is entered of it, until the program ends")
         } else {
             format!("{test} counts again")
         };
-        self.message = Some(Message::plain(said));
+        self.message = Some(Message::plain(text));
         Effect::Calibrate(self.judge())
     }
 
@@ -156,15 +156,15 @@ impl CalibrationPage {
             Question::Name(typed) => self.save(typed.text().trim(), false),
             Question::Replace(name) => self.save(&name, true),
             Question::Anew if self.sheet().trouble.is_some() => {
-                let said = format!("the file that cannot be read is kept as {}", self.beside().display());
-                self.message = Some(Message::plain(said));
+                let text = format!("the file that cannot be read is kept as {}", self.backup_file().display());
+                self.message = Some(Message::plain(text));
                 Some(Effect::Calibrate(vec![CalibrationTask::PutAside(self.sheet().path.clone())]))
             }
             Question::Anew => {
                 let count = self.sheet().entries.as_ref().map_or(0, |entries| entries.trials.len());
                 let strokes = if count == 1 { "1 stroke is".to_owned() } else { format!("{count} strokes are") };
-                let said = format!("{strokes} kept as {}; u takes this back", self.beside().display());
-                self.message = Some(Message::plain(said));
+                let text = format!("{strokes} kept as {}; u takes this back", self.backup_file().display());
+                self.message = Some(Message::plain(text));
                 Some(self.edit(Edit::Anew(Entries::default()), false))
             }
         }
@@ -188,8 +188,8 @@ impl CalibrationPage {
                     });
                 }
                 Err(what) => {
-                    let said = format!("{}: {what}; nothing was kept yet", form.test.name);
-                    self.message = Some(Message::warning(said));
+                    let text = format!("{}: {what}; nothing was kept yet", form.test.name);
+                    self.message = Some(Message::warning(text));
                 }
             }
         }

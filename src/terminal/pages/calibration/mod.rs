@@ -218,8 +218,8 @@ impl CalibrationPage {
                 let misread = self.sheet().found().map_or(0, |found| found.misread().len());
                 let misread = if misread == 0 { String::new() } else { format!(", {misread} of them misread") };
                 let strokes = if played == 1 { "one stroke".to_owned() } else { format!("{played} strokes{misread}") };
-                let said = format!("saved as {name}, from {strokes}; p plays on it from now on");
-                self.message = Some(Message::good(said));
+                let text = format!("saved as {name}, from {strokes}; p plays on it from now on");
+                self.message = Some(Message::good(text));
                 self.saved = Some(path);
             }
             CalibrationReport::Saved(path, Ok(false)) => {
@@ -236,7 +236,7 @@ impl CalibrationPage {
     }
 
     /// The file to which old entries are moved.
-    fn beside(&self) -> PathBuf {
+    fn backup_file(&self) -> PathBuf {
         beside(&self.sheet().path)
     }
 }

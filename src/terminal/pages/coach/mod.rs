@@ -270,8 +270,8 @@ impl CoachPage {
         self.take(&last.table, last.layout, last.cue_ball, query);
         let which = if std::mem::replace(&mut self.has_gone_back, true) { "that earlier" } else { "the last" };
         let more = if self.earlier_sessions.is_empty() { "" } else { "; c goes back to the one before" };
-        let said = format!("this is where {which} session ended{its_rule}; Enter asks the coach{more}");
-        self.message = Some(Message::good(said));
+        let text = format!("this is where {which} session ended{its_rule}; Enter asks the coach{more}");
+        self.message = Some(Message::good(text));
         last.practice
     }
 

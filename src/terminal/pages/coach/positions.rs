@@ -50,12 +50,12 @@ impl CoachPage {
         self.cancel();
         self.place(layout);
         let is_opening = Point::of(self.query.rule, self.table(), &layout).red_first;
-        let said = if is_opening {
+        let message = if is_opening {
             "this is the opening: red has to be met first"
         } else {
             "the balls are in the typed positions"
         };
-        self.message = Some(Message::good(format!("{said}; Enter asks the coach")));
+        self.message = Some(Message::good(format!("{message}; Enter asks the coach")));
         Ok(())
     }
 }

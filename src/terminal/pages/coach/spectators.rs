@@ -164,16 +164,16 @@ impl CoachPage {
         let mut snapshot = Snapshot { cue_ball: shown.cue_ball, ..Snapshot::new(table, shown.layout) };
         self.mode = Mode::Placing;
         self.playback.jump(0.0);
-        if let Some((shot, told)) = shot.zip(shown.shot) {
+        if let Some((shot, shown_shot)) = shot.zip(shown.shot) {
             if shown.doing != Doing::Placing {
                 self.mode = Mode::Watching;
             }
-            self.playback.set_speed(told.speed);
+            self.playback.set_speed(shown_shot.speed);
             let duration = shot.recording.duration();
-            let time = if told.over { duration } else { told.time_after(age) };
-            self.playback.follow(time, duration, told.playing);
-            let made = told.made.map(|(made, of)| SuccessRate::new(made, of));
-            let is_early = told.author == Author::Search;
+            let time = if shown_shot.over { duration } else { shown_shot.time_after(age) };
+            self.playback.follow(time, duration, shown_shot.playing);
+            let made = shown_shot.made.map(|(made, of)| SuccessRate::new(made, of));
+            let is_early = shown_shot.author == Author::Search;
             let proposal = Proposal { shot, made, risk: None, next: None, is_early };
             let advice = Advice { proposals: vec![proposal], seed: 1, effort: None, found: None };
             snapshot.advised.extend(AdviceState::new(self.query.clone(), advice));

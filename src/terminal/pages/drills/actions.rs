@@ -262,8 +262,8 @@ impl DrillsPage {
             }
             Question::Code(typed) => self.decoded(typed.text()).map(|exercise| save(exercise, false)),
             Question::Stroke(typed) => {
-                let said = self.turn.as_mut()?.set_stroke_in_words(typed.text());
-                said.map(tasks_effect).map_err(|error| error.to_string())
+                let tasks = self.turn.as_mut()?.set_stroke_in_words(typed.text());
+                tasks.map(tasks_effect).map_err(|error| error.to_string())
             }
             Question::Replace(exercise) => return save(exercise.clone(), true),
             Question::Remove(name) => return Some(Effect::Drill(vec![DrillTask::RemovePosition(name.clone())])),

@@ -240,16 +240,16 @@ fn brief(words: String, room: usize, ui: &Ui) -> String {
         (" after that", ""),
         (" your own ", " own "),
     ];
-    let mut said = words;
+    let mut text = words;
     for (long, short) in ever_shorter {
-        if columns(&said) > room {
-            said = said.replacen(long, short, 1);
+        if columns(&text) > room {
+            text = text.replacen(long, short, 1);
         }
     }
-    if columns(&said) > room
-        && let Some((main, _)) = said.split_once([',', '('])
+    if columns(&text) > room
+        && let Some((main, _)) = text.split_once([',', '('])
     {
-        said = main.trim_end().to_owned();
+        text = main.trim_end().to_owned();
     }
-    shorten(&said, room, ui.caps)
+    shorten(&text, room, ui.caps)
 }

@@ -34,16 +34,16 @@ enum Row<'a> {
 pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let found = page.sheet().found();
     let width = usize::from(area.width.saturating_sub(2));
-    let said = said(page, found, ui)
+    let lines = result_sentences(page, found, ui)
         .into_iter()
         .flat_map(|(words, style)| wrap(&words, width).into_iter().map(move |line| Row::Text(line, style)));
     let constants =
         found.into_iter().flat_map(|found| found.constants.iter().map(|one| Row::Constant(one, found.known(one))));
     // If the strokes contradict each other, the warnings come before the values.
     let rows: Vec<Row> = if found.is_some_and(Calibration::is_contradictory) {
-        said.chain(constants).collect()
+        lines.chain(constants).collect()
     } else {
-        constants.chain(said).collect()
+        constants.chain(lines).collect()
     };
     let height = usize::from(area.height.saturating_sub(1)).max(1);
     let pages = rows.len().div_ceil(height).max(1);
@@ -60,20 +60,20 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
 }
 
 /// The implausible values among the entries, then the results.
-fn said(page: &CalibrationPage, found: Option<&Calibration>, ui: &Ui) -> Vec<(String, Style)> {
+fn result_sentences(page: &CalibrationPage, found: Option<&Calibration>, ui: &Ui) -> Vec<(String, Style)> {
     let sheet = page.sheet();
-    let mut said: Vec<(String, Style)> = Vec::new();
-    said.extend(sheet.odd(&page.table).iter().map(|odd| (format!("{odd}; it is left out"), ui.theme.warning())));
+    let mut lines: Vec<(String, Style)> = Vec::new();
+    lines.extend(sheet.odd(&page.table).iter().map(|odd| (format!("{odd}; it is left out"), ui.theme.warning())));
     match found {
-        Some(found) => said.extend(sentences(page, found, ui)),
-        None => said.push((
+        Some(found) => lines.extend(sentences(page, found, ui)),
+        None => lines.push((
             "Nothing is entered yet. Play the tests in any order, as many as you like: after each stroke its values stand here, \
              with how sure they are."
                 .to_owned(),
             ui.theme.faint(),
         )),
     }
-    said
+    lines
 }
 
 fn draw_constant(one: &Change, known: &str, area: Rect, ui: &mut Ui) {
@@ -114,17 +114,17 @@ pub fn draw_constant_name(one: &Change, room: usize, style: Style, at: Position,
 
 /// The sentences on the results.
 pub fn sentences(page: &CalibrationPage, found: &Calibration, ui: &Ui) -> Vec<(String, Style)> {
-    let mut said: Vec<(String, Style)> = Vec::new();
+    let mut lines: Vec<(String, Style)> = Vec::new();
     let stroke = |trial: usize, test: &str| {
         let strokes = Test::named(test).map_or_else(Vec::new, |test| page.sheet().strokes(test));
         let number = strokes.iter().position(|(place, _)| place + 1 == trial).map_or(trial, |place| place + 1);
         format!("stroke {number} of {test}")
     };
     let misread = found.verdicts.iter().filter(|verdict| verdict.misread);
-    said.extend(misread.map(|one| (one.doubtful(&stroke(one.trial, one.test)), ui.theme.warning())));
+    lines.extend(misread.map(|one| (one.doubtful(&stroke(one.trial, one.test)), ui.theme.warning())));
     let strange = found.strange.iter();
-    said.extend(strange.map(|one| (one.words(&stroke(one.trial, one.test)), ui.theme.warning())));
-    said.extend(found.rails_apart().into_iter().map(|sentence| (sentence, ui.theme.accent())));
+    lines.extend(strange.map(|one| (one.words(&stroke(one.trial, one.test)), ui.theme.warning())));
+    lines.extend(found.rails_apart().into_iter().map(|sentence| (sentence, ui.theme.accent())));
     let agreement = if found.is_contradictory() {
         ui.theme.warning()
     } else if found.misread().is_empty() {
@@ -132,19 +132,19 @@ pub fn sentences(page: &CalibrationPage, found: &Calibration, ui: &Ui) -> Vec<(S
     } else {
         ui.theme.text()
     };
-    said.push((found.agreement(stroke), agreement));
-    said.extend(found.meanings().into_iter().map(|sentence| (sentence, ui.theme.text())));
+    lines.push((found.agreement(stroke), agreement));
+    lines.extend(found.meanings().into_iter().map(|sentence| (sentence, ui.theme.text())));
     if let Some([before, now]) = page.sheet().judged.as_ref().and_then(|judged| judged.play) {
-        said.push((format!("today {}", now.against(&before)), ui.theme.accent()));
+        lines.push((format!("today {}", now.against(&before)), ui.theme.accent()));
     }
     if let Some(best) = page.sheet().best() {
         let words = format!("next: {} helps most, with {:.1} bits; each bit halves one doubt", best.test, best.bits);
-        said.push((words, ui.theme.text()));
+        lines.push((words, ui.theme.text()));
     }
     if !ui.caps.unicode {
-        for (text, _) in &mut said {
+        for (text, _) in &mut lines {
             *text = text.replace('±', "+-");
         }
     }
-    said
+    lines
 }

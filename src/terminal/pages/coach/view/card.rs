@@ -83,7 +83,9 @@ fn to_tenths(diamonds: f64) -> String {
 fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
     let words = &proposal.shot.words;
     // There is no room for the unit.
-    let bare = |diamonds: f64, told: fn(f64) -> String| place_along(coach, diamonds, told).replace(" mm", "");
+    let bare = |diamonds: f64, format_diamonds: fn(f64) -> String| {
+        place_along(coach, diamonds, format_diamonds).replace(" mm", "")
+    };
     let mut rows = Vec::new();
     rows.extend(words.before.first().map(|cushion| {
         // The card then has no row for the side on which the ball is hit; the sentence in the other panel contains it.

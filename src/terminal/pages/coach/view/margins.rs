@@ -94,12 +94,12 @@ pub fn draw_margins(
         }
         // The other panels show the speed in table lengths only.
         if 2 * usize::from(inner.height) > rows.len() {
-            let told = fixed(unit.speed().0 * shot.cue.speed, 1);
+            let speed_value = fixed(unit.speed().0 * shot.cue.speed, 1);
             let x = inner.x + half + 1;
             let room = usize::from(inner.right().saturating_sub(x));
-            let mut words = format!("{told} {speed}, {}", lengths_words(shot.words.table_lengths));
+            let mut words = format!("{speed_value} {speed}, {}", lengths_words(shot.words.table_lengths));
             if columns(&words) > room {
-                words = format!("{told} {speed}");
+                words = format!("{speed_value} {speed}");
             }
             ui.buffer.set_stringn(x, inner.bottom() - 1, words, room, ui.theme.faint());
         }

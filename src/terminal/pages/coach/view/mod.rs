@@ -107,7 +107,7 @@ impl PageView for CoachPage {
         let message = self
             .message
             .clone()
-            .filter(|message| says_why || !self.is_bare_chance(message) || why_told(self, room, ui).is_none());
+            .filter(|message| says_why || !self.is_bare_chance(message) || ranking_line(self, room, ui).is_none());
         let message = message.unwrap_or_else(|| status_line(self, says_why, room, ui));
         self.marked(message)
     }
@@ -165,28 +165,28 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
         draw_own_stroke(coach, what_if, panes, ui);
         return false;
     }
-    let told = coach.described_shot().filter(|_| chosen == InfoPanel::Shot);
+    let described = coach.described_shot().filter(|_| chosen == InfoPanel::Shot);
     let is_beside = panes.is_beside();
     // Before the stroke, the description also uses the room of panels that matter only later or repeat it.
     let is_wide = !is_beside && !coach.is_in_numbers;
-    let has_told_why = told.is_some_and(|told| {
+    let shot_explains_why = described.is_some_and(|described| {
         let area = match () {
             () if is_beside => panes.info.union(panes.events),
             () if is_wide => panes.info.union(panes.shot),
             () => panes.info,
         };
-        draw_shot_words(coach, told, area, ui)
+        draw_shot_words(coach, described, area, ui)
     });
     let explained =
         coach.shown().filter(|_| is_beside && chosen == InfoPanel::Chances && coach.described_shot().is_some());
     let is_explained = explained.is_some_and(|advised| draw_why(advised, panes.events, ui));
     // If all panels are below the table, the panel "Chances" is among them and shows the explanation.
-    let says_why = has_told_why || is_explained || !is_beside;
+    let says_why = shot_explains_why || is_explained || !is_beside;
     for (panel, area) in info_panels(chosen, panes) {
         match coach.lesson.as_ref().filter(|_| panel == chosen) {
             Some(lesson) => draw_lesson(lesson, coach.has_no_system(), area, ui),
-            None if told.is_some() && panel == chosen => {}
-            None => draw_info(coach, panel, !has_told_why && !is_explained, area, ui),
+            None if described.is_some() && panel == chosen => {}
+            None => draw_info(coach, panel, !shot_explains_why && !is_explained, area, ui),
         }
     }
     if let (InfoPanel::Margins, Some(advised), Some(shot)) = (chosen, coach.shown(), shot)
@@ -200,7 +200,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
     }
     let told_in = (table, coach.units.length);
     match coach.proposal() {
-        Some(_) if told.is_some() && is_wide => {}
+        Some(_) if described.is_some() && is_wide => {}
         Some(proposal) if coach.is_in_numbers => draw_proposal(proposal, told_in, coach.layout(), panes.shot, ui),
         Some(proposal) => draw_card(proposal, coach, panes.shot, ui),
         None if coach.followed().is_some() => draw_shot(None, &["no shot yet"], told_in, panes.shot, ui),
@@ -212,7 +212,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
     let spin = shot.zip(time).and_then(|(shot, time)| shot.spin(time, table.radius));
     draw_spin_or_hit(spin, shot.map(Shot::meeting), panes.hit, ui);
     match () {
-        () if told.is_some() && is_beside || is_explained => {}
+        () if described.is_some() && is_beside || is_explained => {}
         () if shot.is_none() && coach.followed().is_none() => draw_asked(coach, panes.events, ui),
         () => draw_listed(coach, shot, time, panes.events, ui),
     }
@@ -266,9 +266,9 @@ fn draw_info(coach: &CoachPage, panel: InfoPanel, says_why: bool, area: Rect, ui
 
 /// Explanation of the ranking of the shot that is about to be played, for a row of `room` columns. `None` if the shot's description is not
 /// displayed or nothing fits.
-fn why_told(coach: &CoachPage, room: usize, ui: &Ui) -> Option<String> {
-    let is_told = coach.info == InfoPanel::Shot && coach.what_if().is_none() && coach.described_shot().is_some();
-    why_line(coach.shown().filter(|_| is_told)?, room, ui)
+fn ranking_line(coach: &CoachPage, room: usize, ui: &Ui) -> Option<String> {
+    let is_described = coach.info == InfoPanel::Shot && coach.what_if().is_none() && coach.described_shot().is_some();
+    why_line(coach.shown().filter(|_| is_described)?, room, ui)
 }
 
 /// The text of the status line, `room` columns wide, if there is no message.
@@ -292,7 +292,7 @@ fn status_line(coach: &CoachPage, says_why: bool, room: usize, ui: &Ui) -> Messa
     }
     Message::plain(match coach.watched() {
         Some(shot) if coach.playback.time == 0.0 => {
-            let why = why_told(coach, room, ui).filter(|_| !says_why && coach.guide().is_none());
+            let why = ranking_line(coach, room, ui).filter(|_| !says_why && coach.guide().is_none());
             why.unwrap_or_else(|| aim_words(coach, shot, room, ui))
         }
         Some(shot) => {

@@ -69,10 +69,10 @@ fn titles(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [Vec<Span<'static>
     [title(true, Some(&long)), title(true, Some(&short)), title(false, Some(&short)), title(true, None)]
 }
 
-/// Formats a position along a cushion in the player's unit; `told` formats a number of diamonds.
-pub fn place_along(coach: &CoachPage, diamonds: f64, told: impl FnOnce(f64) -> String) -> String {
+/// Formats a position along a cushion in the player's unit; `format_diamonds` formats a number of diamonds.
+pub fn place_along(coach: &CoachPage, diamonds: f64, format_diamonds: impl FnOnce(f64) -> String) -> String {
     match coach.units.place {
-        PlaceUnit::Diamonds => told(diamonds),
+        PlaceUnit::Diamonds => format_diamonds(diamonds),
         PlaceUnit::Mm => format!("{} mm", fixed(1e3 * coach.table().diamond() * diamonds, 0)),
     }
 }

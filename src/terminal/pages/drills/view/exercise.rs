@@ -59,13 +59,13 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     if side.intersection(panes.stroke).is_empty() {
         draw_precision(drills, turn, aim_line.as_ref(), &panes, ui);
     }
-    let beside = score::draw(drills, turn, panes.score, ui);
+    let free_row = score::draw(drills, turn, panes.score, ui);
     match what_if.zip(turn.model_shot()) {
         Some((what_if, model_shot)) => {
             let (advisor, made) = (panels::advisor(model_shot), Some(model_shot.advice.chance.rate));
             draw_what_if(what_if, advisor, made, drills.units, panes.aim, ui);
         }
-        None => panels::draw_task(drills, turn, aim_line.as_ref(), panes.aim, (beside, panes.score.right()), ui),
+        None => panels::draw_task(drills, turn, aim_line.as_ref(), panes.aim, (free_row, panes.score.right()), ui),
     }
     status_line(turn, drills.units.length)
 }

@@ -72,13 +72,13 @@ fn aim_words(turn: &Turn, cue: &CueInputs, units: Units) -> String {
 }
 
 /// Draws the stroke's first contact and the lesson of the exercise; after the stroke, the comparison with the model shot. From row
-/// `beside` on the panel to the right is empty, so the text extends under it to column `end`.
+/// `free_row` on the panel to the right is empty, so the text extends under it to column `end`.
 pub fn draw_task(
     drills: &DrillsPage,
     turn: &Turn,
     aim_line: Option<&AimLine>,
     area: Rect,
-    (beside, end): (u16, u16),
+    (free_row, end): (u16, u16),
     ui: &mut Ui,
 ) {
     let units = drills.units;
@@ -133,7 +133,7 @@ pub fn draw_task(
     }
     let narrow = usize::from(area.width.saturating_sub(2));
     let wide = usize::from(end.saturating_sub(area.x + 2)).max(narrow);
-    let full = usize::from(beside.saturating_sub(area.y + 1));
+    let full = usize::from(free_row.saturating_sub(area.y + 1));
     write_pages(title, &paragraphs, turn.text_page, area, |row| if row < full { narrow } else { wide }, ui);
 }
 
