@@ -223,7 +223,7 @@ pub const COACH: &[Binding<A, W>] = &[
         "plan on or off: whether the next point counts too",
         ]),
     bind(Shot, W::Idle, &[letter('B', A::NextFirstMet)], None,
-        "what the cue ball shall meet first: anything, the other cue ball, red, a cushion").known_as("bank rail pattern wish"),
+        "what the cue ball must hit first: anything, the other cue ball, red, a cushion").known_as("bank rail pattern wish"),
     bind(Balls, W::Idle, &[key(Tab, A::SelectOther(1)), key(BackTab, A::SelectOther(-1)), letter('1', A::Select(0)),
         letter('2', A::Select(1)), letter('3', A::Select(2))], Some(("ball", 1)), "select a ball: white, yellow, red").each(&[
         "select the next ball", "select the ball before", "select the white ball", "select the yellow ball",

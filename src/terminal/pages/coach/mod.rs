@@ -234,8 +234,8 @@ impl CoachPage {
         if self.followed().is_some() || !is_begun {
             return None;
         }
-        let of_before = self.earlier_sessions.first().and_then(|before| before.practice.as_ref());
-        let mut exams = practised.into_iter().chain(self.left_exams.iter().rev()).chain(of_before);
+        let earlier_practice = self.earlier_sessions.first().and_then(|before| before.practice.as_ref());
+        let mut exams = practised.into_iter().chain(self.left_exams.iter().rev()).chain(earlier_practice);
         let practice = exams.find(|session| session.is_exam()).or(practised).or(game);
         let ended = |practice: Option<&Session>| {
             let (table, terms) = (self.table().clone(), self.query.terms());

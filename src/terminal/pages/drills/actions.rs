@@ -26,9 +26,9 @@ impl DrillsPage {
             DrillCondition::MarkedOwn => {
                 refuse(!self.catalogue.is_own(), "bundled exercises cannot be removed, only my positions")
             }
-            DrillCondition::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
-            DrillCondition::Sought => refuse(!self.catalogue.is_sought(), "no words are looked for"),
-            DrillCondition::NotSought => refuse(self.catalogue.is_sought(), "Esc ends the search first"),
+            DrillCondition::Filtered => refuse(!self.catalogue.is_filtered(), "everything is listed"),
+            DrillCondition::Sought => refuse(!self.catalogue.is_searching(), "no words are looked for"),
+            DrillCondition::NotSought => refuse(self.catalogue.is_searching(), "Esc ends the search first"),
             DrillCondition::OfExercise => refuse(self.records.exercise.is_none(), "this record is of all exercises"),
             DrillCondition::Filmed => refuse(self.film.played().is_none(), "there is no filmed shot on the table yet"),
             DrillCondition::Estimated => {
@@ -57,12 +57,12 @@ impl DrillsPage {
             Action::Playback(key) if self.page() == DrillContext::Film => self.film.watch(key),
             Action::Category(step) => self.catalogue.choose_category(step),
             Action::Grade(grade) => self.catalogue.choose_grade(grade),
-            Action::All if self.catalogue.elsewhere() > 0 => self.catalogue.look_everywhere(),
+            Action::All if self.catalogue.matches_elsewhere() > 0 => self.catalogue.search_everywhere(),
             Action::All => self.catalogue.show_all(),
-            Action::ClearSearch => self.catalogue.find_text(""),
+            Action::ClearSearch => self.catalogue.search(""),
             Action::Search => {
                 let marked = self.catalogue.marked().map(|exercise| exercise.name.clone()).unwrap_or_default();
-                let before = self.catalogue.sought();
+                let before = self.catalogue.search_text();
                 self.question = Some(Question::Search { typed: TextField::new(LONGEST), before, marked });
             }
             Action::Open => return self.open_marked(),
@@ -244,7 +244,7 @@ impl DrillsPage {
 
     fn no(&mut self) {
         if let Some(Question::Search { before, marked, .. }) = self.question.take() {
-            self.catalogue.find_text(&before);
+            self.catalogue.search(&before);
             self.catalogue.mark_named(&marked);
         }
     }
@@ -255,8 +255,8 @@ impl DrillsPage {
         let question = self.question.take()?;
         let answer = match &question {
             Question::Search { .. } => {
-                if self.catalogue.elsewhere() > 0 {
-                    self.catalogue.look_everywhere();
+                if self.catalogue.matches_elsewhere() > 0 {
+                    self.catalogue.search_everywhere();
                 }
                 return None;
             }

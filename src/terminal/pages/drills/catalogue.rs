@@ -61,7 +61,7 @@ impl Catalogue {
     }
 
     /// Whether a filter is active.
-    pub fn is_part(&self) -> bool {
+    pub fn is_filtered(&self) -> bool {
         self.filter != Filter::default()
     }
 
@@ -97,30 +97,30 @@ impl Catalogue {
     }
 
     /// Number of matches of the search in other categories and grades, if it has no match in the current list; otherwise 0.
-    pub fn elsewhere(&self) -> usize {
+    pub fn matches_elsewhere(&self) -> usize {
         let wider = Filter { text: self.filter.text.clone(), ..Filter::default() };
-        if self.is_sought() && self.marked().is_none() { self.library.find(&wider).count() } else { 0 }
+        if self.is_searching() && self.marked().is_none() { self.library.find(&wider).count() } else { 0 }
     }
 
     /// Shows the matches of the search in all categories and grades.
-    pub fn look_everywhere(&mut self) {
-        let sought = self.sought();
+    pub fn search_everywhere(&mut self) {
+        let sought = self.search_text();
         self.filter = Filter::default();
-        self.find_text(&sought);
+        self.search(&sought);
     }
 
     /// Whether a search is active.
-    pub const fn is_sought(&self) -> bool {
+    pub const fn is_searching(&self) -> bool {
         self.filter.text.is_some()
     }
 
     /// The search text; empty if no search is active.
-    pub fn sought(&self) -> String {
+    pub fn search_text(&self) -> String {
         self.filter.text.clone().unwrap_or_default()
     }
 
     /// Shows the exercises that contain `text`. Unless the marked one has it in its title, marks the first exercise that does.
-    pub fn find_text(&mut self, text: &str) {
+    pub fn search(&mut self, text: &str) {
         self.refilter(|filter| filter.text = (!text.is_empty()).then(|| text.to_owned()));
         let sought = text.to_lowercase();
         let is_titled = |exercise: &Exercise| exercise.title.to_lowercase().contains(&sought);
@@ -155,7 +155,7 @@ mod tests {
     #[test]
     fn what_is_sought_is_marked_where_a_title_has_it() {
         let mut catalogue = Catalogue::new(Library::bundled().clone());
-        catalogue.find_text("natural");
+        catalogue.search("natural");
         assert!(catalogue.marked().unwrap().title.to_lowercase().contains("natural"), "{:?}", catalogue.marked());
     }
 
@@ -165,13 +165,13 @@ mod tests {
         catalogue.move_mark(isize::MAX);
         let last = catalogue.marked().unwrap().clone();
         assert_eq!(catalogue.mark + 1, catalogue.found().len());
-        catalogue.find_text(&last.title.to_uppercase());
+        catalogue.search(&last.title.to_uppercase());
         assert_eq!(catalogue.marked(), Some(&last));
-        catalogue.find_text("no such exercise");
-        assert!(catalogue.marked().is_none() && catalogue.is_part() && !catalogue.is_own());
+        catalogue.search("no such exercise");
+        assert!(catalogue.marked().is_none() && catalogue.is_filtered() && !catalogue.is_own());
         catalogue.show_all();
         catalogue.choose_grade(last.grade);
         catalogue.choose_grade(last.grade);
-        assert!(!catalogue.is_part());
+        assert!(!catalogue.is_filtered());
     }
 }

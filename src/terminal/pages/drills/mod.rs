@@ -267,7 +267,7 @@ impl DrillsPage {
     /// Lists the exercises that contain the typed search text.
     fn search(&mut self) {
         if let Some(Question::Search { typed, .. }) = &self.question {
-            self.catalogue.find_text(typed.text().trim());
+            self.catalogue.search(typed.text().trim());
         }
     }
 

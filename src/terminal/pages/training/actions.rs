@@ -20,7 +20,7 @@ use crate::{
 };
 
 /// Whether a condition belongs to an action that starts or controls a run. Guests must not use these.
-const fn steers(when: Condition) -> bool {
+const fn controls_run(when: Condition) -> bool {
     matches!(
         when,
         Condition::MayTrain
@@ -36,7 +36,7 @@ impl TrainingPage {
     /// Returns the reason why a key binding is disabled now; `None` if it is enabled.
     pub fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
         let refuse = |refused: bool, reason| refused.then_some(reason);
-        if self.is_guest && steers(when) {
+        if self.is_guest && controls_run(when) {
             return Some("guests can watch runs; only the owner of this machine starts or controls them");
         }
         let Some(watch) = &self.watch else {
@@ -52,7 +52,7 @@ impl TrainingPage {
             Condition::Marked => refuse(self.list.marked().is_none(), "there is no run yet"),
             Condition::MarkedCanGoOn => self.refusal_of_marked(),
             Condition::Charts => refuse(!watch.charts.any(), "no chart is shown; 1 to 9 show some"),
-            Condition::Zoomed => refuse(!watch.charts.is_part(), "all of the run is shown; + shows a part"),
+            Condition::Zoomed => refuse(!watch.charts.is_zoomed(), "all of the run is shown; + shows a part"),
             Condition::Paused => refuse(!watch.is_paused(), "the run is not paused"),
             Condition::AtWork | Condition::Working => {
                 refuse(!watch.is_at_work(), "the run is not training; r resumes one that is unfinished")

@@ -91,7 +91,7 @@ impl Charts {
     }
 
     /// Whether only a part of the run is shown.
-    pub const fn is_part(&self) -> bool {
+    pub const fn is_zoomed(&self) -> bool {
         self.part.is_some()
     }
 
@@ -226,7 +226,7 @@ mod tests {
         for _ in 0..9 {
             charts.zoom(-1, at(900_000)).unwrap();
         }
-        assert!(!charts.is_part());
+        assert!(!charts.is_zoomed());
     }
 
     #[test]
