@@ -57,7 +57,7 @@ impl DrillsPage {
             Action::Playback(key) if self.page() == DrillContext::Film => self.film.watch(key),
             Action::Category(step) => self.catalogue.choose_category(step),
             Action::Grade(grade) => self.catalogue.choose_grade(grade),
-            Action::All if self.catalogue.matches_elsewhere() > 0 => self.catalogue.search_everywhere(),
+            Action::All if self.catalogue.elsewhere() > 0 => self.catalogue.search_everywhere(),
             Action::All => self.catalogue.show_all(),
             Action::ClearSearch => self.catalogue.search(""),
             Action::Search => {
@@ -255,7 +255,7 @@ impl DrillsPage {
         let question = self.question.take()?;
         let answer = match &question {
             Question::Search { .. } => {
-                if self.catalogue.matches_elsewhere() > 0 {
+                if self.catalogue.elsewhere() > 0 {
                     self.catalogue.search_everywhere();
                 }
                 return None;

@@ -97,7 +97,7 @@ impl Catalogue {
     }
 
     /// Number of matches of the search in other categories and grades, if it has no match in the current list; otherwise 0.
-    pub fn matches_elsewhere(&self) -> usize {
+    pub fn elsewhere(&self) -> usize {
         let wider = Filter { text: self.filter.text.clone(), ..Filter::default() };
         if self.is_searching() && self.marked().is_none() { self.library.find(&wider).count() } else { 0 }
     }

@@ -198,7 +198,7 @@ fn draw_nothing(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
          a code that somebody has sent you."
             .to_owned()
     } else {
-        match (drills.catalogue.matches_elsewhere(), &drills.question) {
+        match (drills.catalogue.elsewhere(), &drills.question) {
             (0, _) => "No exercise matches. 0 lists all.".to_owned(),
             (elsewhere, question) => {
                 let place = match (filter.category, filter.grade) {
