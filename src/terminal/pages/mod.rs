@@ -1,7 +1,7 @@
-//! The pages of the program. Each folder is one of them: its state, what its keys do, and its view.
+//! The pages (tabs) of the program. Each folder contains one page: its state, its key actions and its view.
 //!
-//! A page sees itself and a drawing context, never the app. What it wants done outside it says as an
-//! [`Effect`](super::effect::Effect).
+//! A page has access to its own state and a drawing context, never to the app. It requests work outside the page by
+//! returning an [`Effect`](super::effect::Effect).
 
 pub mod calibration;
 pub mod coach;
@@ -17,43 +17,43 @@ use super::{
 };
 use crate::{coach::Skill, table::CueBall};
 
-/// How a page is drawn, and what of it answers to the mouse: what its `view` does.
+/// Drawing and mouse hit-testing of a page. Each page implements it in its `view` module.
 pub trait PageView {
-    /// Draws the page; gives what its status line says while nothing is asked.
+    /// Draws the page. Returns the text of the status line, which is shown while no question is open.
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> Message;
 
-    /// What it asks before it does something.
+    /// The open question that the user must answer before the page continues; `None` if there is none.
     fn asked(&self, caps: Capabilities) -> Option<Asked<'_>>;
 
-    /// What is drawn at a cell of the screen that answers to the mouse.
+    /// Returns the mouse target at a screen cell; `None` if that cell does not react to the mouse.
     fn target(&self, area: &PageArea, at: Position) -> Option<Target>;
 }
 
 /// A question that waits for an answer.
 #[derive(Debug)]
 pub struct Asked<'a> {
-    /// The question, without what is typed.
+    /// The question, without the typed answer.
     pub words: Message,
-    /// The text that is typed, where some is.
+    /// The text field of the answer; `None` if the answer is a single key.
     pub typed: Option<&'a TextField>,
-    /// Whether the page has keys of its own for the answer; otherwise it is yes or no, or what is typed.
+    /// Whether the page has its own keys for the answer. Otherwise the answer is yes or no, or the typed text.
     pub has_own_keys: bool,
 }
 
 impl<'a> Asked<'a> {
-    /// A question behind the news that the page has.
+    /// Creates a question. The page's current message, if any, is put before it.
     pub fn new(news: Option<&Message>, words: &str, typed: Option<&'a TextField>) -> Self {
         let news = news.map_or(String::new(), |news| format!("{}. ", news.text));
         Self { words: Message::plain(news + words), typed, has_own_keys: false }
     }
 }
 
-/// What the app asks of every page. What its keys do is typed: each page has actions of its own.
+/// Interface between the app and every page. Key actions are not part of it: each page has its own action type.
 pub trait Page: PageView {
-    /// What the status line says, to be changed.
+    /// The message of the status line, for changing it.
     fn message_mut(&mut self) -> &mut Option<Message>;
 
-    /// Says why something is refused or has failed; nothing comes of it then.
+    /// Shows the reason of a refusal or failure as a warning. Returns `None`, so that a caller can return it as its result.
     fn refuse<T>(&mut self, why: impl ToString) -> Option<T>
     where
         Self: Sized,
@@ -62,10 +62,10 @@ pub trait Page: PageView {
         None
     }
 
-    /// The text that is typed, where some is.
+    /// The text field that has the keyboard focus; `None` if there is none.
     fn field_mut(&mut self) -> Option<&mut TextField>;
 
-    /// Takes what was typed or pasted; `false` where nothing is typed, or the key means something else.
+    /// Passes typed or pasted input to the focused text field. Returns `false` if there is no such field or the key is not for it.
     fn input(&mut self, typed: Typed) -> bool {
         let taken = self.field_mut().is_some_and(|field| field.take(typed));
         if taken {
@@ -74,71 +74,73 @@ pub trait Page: PageView {
         taken
     }
 
-    /// Lets `seconds` pass for whatever moves.
+    /// Advances the animations of the page by `seconds`.
     fn tick(&mut self, _: f64) {}
 
-    /// Seconds until the next picture; `None` while nothing moves by itself.
+    /// Seconds until the next frame; `None` if nothing is animated.
     fn frame_interval(&self) -> Option<f64> {
         None
     }
 
-    /// The ball that the player plays with.
+    /// The player's cue ball.
     fn cue_ball(&self) -> CueBall {
         CueBall::White
     }
 }
 
-/// The parts of the screen that are a page's own: all but the tabs and the keys.
+/// The screen areas of a page: everything except the tabs and the row of keys.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PageArea {
     /// The whole screen.
     pub screen: Rect,
-    /// What the tabs leave of the first row.
+    /// The part of the first row that the tabs leave free.
     pub header: Rect,
-    /// The rows between.
+    /// The rows between the header and the status line.
     pub body: Rect,
-    /// The row above the keys; longer sentences grow upwards.
+    /// The row above the keys. Longer messages grow upwards from here.
     pub status: Rect,
 }
 
 impl PageArea {
-    /// The parts of `screen`, with what the tabs leave of its first row.
+    /// Divides `screen`; `header` is the part of its first row that the tabs leave free.
     pub fn new(screen: Rect, header: Rect) -> Self {
         let body = Rect::new(screen.x, screen.y + 1, screen.width, screen.height.saturating_sub(3));
         Self { screen, header, body, status: Rect { y: body.bottom(), height: 1, ..screen } }
     }
 }
 
-/// Something on a page that answers to the mouse.
+/// An element of a page that reacts to the mouse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// The cloth of the coach's table.
     Table(Mapping),
-    /// A shot that may be chosen, by its place in the list.
+    /// A shot that can be chosen, by its index in the list.
     Shot(usize),
-    /// A list with a mark, and how many lines the mark is away, down where positive; `None` where there is no line.
+    /// A list with a selected line. The value is the offset from the selected line to the mouse, in lines and positive
+    /// downwards; `None` if there is no line under the mouse.
     List(Option<isize>),
 }
 
 impl Target {
-    /// A list whose line `line` is where the mouse is, and whose mark is at the line `mark`.
+    /// Creates the target of a list from the line under the mouse and the index of the selected line.
     pub fn list(line: Option<usize>, mark: usize) -> Self {
         Self::List(line.map(|line| line.cast_signed() - mark.cast_signed()))
     }
 }
 
-/// The place `steps` after `from` among `count`, around the end.
-const fn around(from: usize, steps: isize, count: usize) -> usize {
+/// Returns the index `steps` after `from` in a list of `count` elements, with wrap-around.
+const fn wrapping_index(from: usize, steps: isize, count: usize) -> usize {
     (from.cast_signed() + steps).rem_euclid(count.cast_signed()).cast_unsigned()
 }
 
-/// The element `steps` after `from`, around the end; the first where `from` is not among them.
+/// Returns the element `steps` after `from`, with wrap-around; the first element if `all` does not contain `from`.
 fn neighbour<T: Clone + PartialEq>(all: &[T], from: T, steps: isize) -> T {
     let Some(place) = all.iter().position(|one| *one == from) else { return all.first().cloned().unwrap_or(from) };
-    all[around(place, steps, all.len())].clone()
+    all[wrapping_index(place, steps, all.len())].clone()
 }
 
-/// The next of the players there are: the named ones, the user's `own` skill where one is kept, and that of the settings.
+/// Returns the skill after `now` in this order: the named skills, the user's saved `own` skill if there is one, and the skill of
+/// the settings.
 fn next_skill(now: Skill, own: Option<Skill>, set: Skill) -> Skill {
     let mut all: Vec<Skill> = Skill::NAMED.iter().map(|(_, skill)| *skill).collect();
     for skill in own.into_iter().chain([set]) {

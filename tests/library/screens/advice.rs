@@ -142,10 +142,10 @@ fn the_shots_that_are_listed_are_stepped_through_each_with_its_own_paths_and_its
     let mut player = player;
     player.study = Some(first);
     let mut late = player.studied().press("v");
-    assert!(late.text(80, 24).contains("being worked out"));
+    assert!(late.text(80, 24).contains("being computed"));
     late.study = Some(second);
     let player = late.studied();
-    assert!(!player.text(80, 24).contains("being worked out"));
+    assert!(!player.text(80, 24).contains("being computed"));
     // Back at the first shot, the analysis is already available.
     let player = player.press("[ [");
     assert_eq!(
@@ -162,7 +162,7 @@ fn the_shots_that_are_listed_are_stepped_through_each_with_its_own_paths_and_its
 #[test]
 fn margins_and_maps() {
     let player = Player::new().press("Enter").answer().press("v v");
-    assert!(player.text(80, 24).contains("being worked out"));
+    assert!(player.text(80, 24).contains("being computed"));
     let player = player.studied();
     check("margins", &player);
     let large = player.text(200, 60);
@@ -236,11 +236,11 @@ fn the_plan_and_where_it_goes_on() {
 #[test]
 fn a_closer_look_that_fails_is_said_to_have_failed() {
     let mut player = Player::new().press("Enter").answer().press("v v");
-    player.shows(&["being worked out"]);
+    player.shows(&["being computed"]);
     let id = player.study.take().unwrap().id;
     let failed = player.tell(id, CoachNews::Next(None));
-    failed.shows(&["could not be worked out"]).is_silent_on("being worked out");
-    failed.press("v").shows(&["stop could not be worked out", "next could not be worked out"]);
+    failed.shows(&["could not be computed"]).is_silent_on("being computed");
+    failed.press("v").shows(&["stop could not be computed", "next could not be computed"]);
 }
 
 #[test]

@@ -238,7 +238,7 @@ fn the_command_and_the_page_share_the_file_and_what_cannot_be_read_is_not_writte
     fs::write(broken.path("calibration.toml"), "broken").unwrap();
     let broken = broken.press("F7");
     broken.warns("line 1");
-    broken.press("Enter").warns("the file of entries cannot be read: mend it, or N keeps it aside");
+    broken.press("Enter").warns("the file of entries cannot be read: repair it, or N moves it aside");
 }
 
 #[test]
@@ -290,7 +290,7 @@ fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
     checked.says("today a lag rolls");
     assert!(kept(&checked).trials.len() == 2 && checked.path("calibration-daily.toml").exists());
     checked.press("d").shows(&["slow-roll"]);
-    Player::new().press("F7 d").warns("a check of the day needs a table that was calibrated before");
+    Player::new().press("F7 d").warns("a check of the day needs a calibrated table");
 }
 
 #[test]
@@ -336,7 +336,7 @@ fn a_file_that_cannot_be_read_is_kept_aside_on_demand() {
     let player = Player::in_folder(TRUE_COLOUR, folder).press("F7");
     player.warns("calibration.toml");
     let refused = player.press("Enter");
-    refused.warns("N keeps it aside and begins anew");
+    refused.warns("N moves it aside and starts again");
     let anew = refused.press("N y");
     anew.says("the file that cannot be read is kept as");
     assert_eq!(fs::read_to_string(anew.path("calibration.before.toml")).unwrap(), "half");

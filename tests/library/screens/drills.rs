@@ -374,7 +374,7 @@ fn files_that_cannot_be_read_are_named_and_left_alone() {
     write("positions/broken.json", "{\"half");
     let player = Player::in_folder(TRUE_COLOUR, folder).press("d");
     player.warns("version 9");
-    player.shows(&["some of what was kept cannot be read: F6 names it"]);
+    player.shows(&["some saved data cannot be read: F6 lists it"]);
     let all = player.press("F6");
     let text = all.text(200, 40);
     assert!(text.contains("version 9") && text.contains("broken.json"), "{text}");

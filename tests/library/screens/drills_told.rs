@@ -13,7 +13,7 @@ use crossterm::event::{KeyModifiers, MouseEvent, MouseEventKind};
 #[test]
 fn a_stroke_that_nobody_has_set_is_played_at_the_second_press() {
     let asked = Player::practising(TRUE_COLOUR).press("Space");
-    asked.says("the stroke is unchanged; Space again plays it all the same");
+    asked.says("the stroke is unchanged; Space again plays it anyway");
     assert_eq!(asked.kept(), 0);
     let played = asked.press("Space").wait(60.0);
     assert_eq!(played.kept(), 1);

@@ -193,7 +193,7 @@ fn the_mark_of_the_settings_and_of_the_keys_follows_wheel_and_click() {
     assert_eq!(player.app.settings.marked().key, "mouse");
     let random = row(&player, "random position") as u16;
     let player = player.point(PRESS, (5, random)).press("Enter");
-    assert!(player.text(120, 40).contains("press the key that is to do this: random position"));
+    assert!(player.text(120, 40).contains("press the key that should do this: random position"));
 }
 
 #[test]

@@ -65,7 +65,7 @@ fn a_value_that_is_changed_holds_at_once_and_stands_in_the_file() {
     );
     assert_eq!(Settings::load(&player.path("config.toml")).0, Settings::default());
     assert!(player.settings_text().starts_with("# mine\ntheme = \"dark\" # at night\n"));
-    player.press("Delete").says("this is as it is by default");
+    player.press("Delete").says("this is the default already");
 }
 
 #[test]
@@ -253,7 +253,7 @@ fn a_key_is_given_other_work_and_gets_its_own_back() {
     plain.is_plain().shows(&["Keys < "]);
     let asked = player.press("Enter");
     assert_eq!(asked.app.place(), KeyContext::Settings(SettingsContext::Pressing));
-    asked.says("press the key that is to do this: move the ball left by one step");
+    asked.says("press the key that should do this: move the ball left by one step");
     let refused = asked.press("Enter");
     refused.says("Enter cannot be changed");
     let given = refused.press("a");

@@ -384,7 +384,7 @@ fn a_policy_is_kept_under_a_name() {
     let mut player = player.press("y");
     let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
     assert!(keeping.replace);
-    player.report(TrainingReport::Kept(*keeping, Ok(true))).says("kept; use them by: carom recommend --policy aq");
+    player.report(TrainingReport::Kept(*keeping, Ok(true))).says("kept; use them with: carom recommend --policy aq");
 }
 
 #[test]

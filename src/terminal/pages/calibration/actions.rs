@@ -1,4 +1,4 @@
-//! What each key of the calibration's page does, and why it may not be used now.
+//! Implementation of the calibration page's key actions, and their conditions.
 
 use crate::{
     calibration::{Calibration, Edit, Entries},
@@ -7,32 +7,32 @@ use crate::{
         CalibrationAction as Action, CalibrationCondition as Condition, CalibrationTask, Effect,
         pages::{
             Page,
-            calibration::{CalibrationPage, Question, Side, form::Form, sheet::Back},
+            calibration::{CalibrationPage, Question, Side, form::Form, sheet::UndoStep},
         },
         ui::{Message, TextField},
     },
 };
 
-/// Longest name of a table, bytes.
+/// Maximum length of a table's name, bytes.
 const LONGEST: usize = 60;
 
 impl CalibrationPage {
-    /// Why a binding may not be used now; `None` where it may.
+    /// Returns the reason why a key binding is disabled now; `None` if it is enabled.
     pub fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
         let sheet = self.sheet();
         let (can, reason) = match when {
             Condition::Always => (true, ""),
             Condition::Known => (
                 sheet.trouble.is_none(),
-                "the file of entries cannot be read: mend it, or N keeps it aside and begins anew",
+                "the file of entries cannot be read: repair it, or N moves it aside and starts again",
             ),
             Condition::Stroke => (sheet.marked_stroke().is_some(), "no stroke of this test is entered yet"),
             Condition::Entered => {
                 let is_entered = sheet.entries.as_ref().is_some_and(|entries| !entries.trials.is_empty());
                 (is_entered || sheet.trouble.is_some(), "nothing is entered yet")
             }
-            Condition::Undo => (!sheet.back.is_empty(), "nothing to undo yet; Delete removes the marked stroke"),
-            Condition::Found if sheet.is_asking() => (false, "the values are being worked out; one moment"),
+            Condition::Undo => (!sheet.undo_stack.is_empty(), "nothing to undo yet; Delete removes the marked stroke"),
+            Condition::Found if sheet.is_asking() => (false, "the values are being computed; one moment"),
             Condition::Found if !sheet.odd(&self.table).is_empty() => {
                 (false, "an entry looks wrong (see values): edit or delete it first")
             }
@@ -41,15 +41,14 @@ impl CalibrationPage {
             }
             Condition::Found => (sheet.found().is_some(), "nothing is entered yet that a table could follow from"),
             Condition::Saved => (self.saved.is_some(), "save the table first (s), or choose a saved one by name in F5"),
-            Condition::Daily => (
-                self.table.doubt.is_some(),
-                "a check of the day needs a table that was calibrated before: save one and play on it",
-            ),
+            Condition::Daily => {
+                (self.table.doubt.is_some(), "a check of the day needs a calibrated table: save one and play on it")
+            }
         };
         (!can).then_some(reason)
     }
 
-    /// Does what an enabled binding asks for.
+    /// Performs the action of an enabled key binding.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
             Action::Back => self.is_left = true,
@@ -58,8 +57,8 @@ impl CalibrationPage {
             Action::Page(pages) => self.sheet_mut().move_mark(10 * pages),
             Action::Best => self.mark_best(),
             Action::LeaveOut => {
-                let is_out = self.sheet_mut().turn_left_out();
-                return Some(self.say_left_out(self.sheet().test().name, is_out));
+                let is_out = self.sheet_mut().toggle_left_out();
+                return Some(self.report_left_out(self.sheet().test().name, is_out));
             }
             Action::Stroke(by) => self.sheet_mut().move_stroke(by),
             Action::Enter => {
@@ -77,20 +76,20 @@ impl CalibrationPage {
                 return Some(self.edit(edit, false));
             }
             Action::Undo => {
-                let edit = match self.sheet_mut().back.pop()? {
-                    Back::Edit(edit) => edit,
-                    Back::Turn(test) => {
-                        let is_out = self.sheet_mut().turn(test);
-                        return Some(self.say_left_out(test, is_out));
+                let edit = match self.sheet_mut().undo_stack.pop()? {
+                    UndoStep::Edit(edit) => edit,
+                    UndoStep::LeaveOut(test) => {
+                        let is_out = self.sheet_mut().toggle_test(test);
+                        return Some(self.report_left_out(test, is_out));
                     }
                 };
-                let said = match &edit {
+                let text = match &edit {
                     Edit::TakeOut(_, entry) => format!("the stroke of {} is deleted again", entry.test),
                     Edit::Add(entry) | Edit::Insert(_, entry) => format!("the stroke of {} is back", entry.test),
                     Edit::Amend(.., entry) => format!("the stroke of {} is as it was before", entry.test),
                     Edit::Anew(_) => "what was entered before is back".to_owned(),
                 };
-                self.message = Some(Message::plain(said));
+                self.message = Some(Message::plain(text));
                 return Some(self.edit(edit, true));
             }
             Action::Turn => {
@@ -102,7 +101,7 @@ impl CalibrationPage {
                 return Some(Effect::Calibrate(vec![CalibrationTask::Read(self.sheet().path.clone())]));
             }
             Action::Save => {
-                // What was saved before has its name already.
+                // A table that was saved before keeps its name.
                 let saved = self.saved.as_ref().filter(|_| !self.is_daily).and_then(|path| path.file_stem());
                 let today = if self.is_daily { " today" } else { "" };
                 let name = saved
@@ -112,7 +111,7 @@ impl CalibrationPage {
             Action::Use => self.for_use.clone_from(&self.saved),
             Action::Anew => self.question = Some(Question::Anew),
             Action::Field(_) | Action::Tape | Action::FarEnd => self.change_form(action),
-            Action::Answer(false) => self.put_aside(),
+            Action::Answer(false) => self.close_question(),
             Action::Answer(true) => return self.yes(),
         }
         None
@@ -124,21 +123,21 @@ impl CalibrationPage {
             Action::Field(by) => form.step(by),
             Action::FarEnd => form.far_end = !form.far_end,
             _ => {
-                if let Err(sentence) = form.turn_tape() {
+                if let Err(sentence) = form.toggle_tape() {
                     self.message = Some(Message::warning(sentence));
                 }
             }
         }
     }
 
-    /// Says that a test is left out, or taken in again, and asks what the others say.
-    fn say_left_out(&mut self, test: &str, is_out: bool) -> Effect {
-        let said = if is_out {
+    /// Reports that a test is left out or included again, and requests a new evaluation of the entries.
+    fn report_left_out(&mut self, test: &str, is_out: bool) -> Effect {
+        let text = if is_out {
             format!("{test} is left out, with what is entered of it, until the program ends")
         } else {
             format!("{test} counts again")
         };
-        self.message = Some(Message::plain(said));
+        self.message = Some(Message::plain(text));
         Effect::Calibrate(self.judge())
     }
 
@@ -157,21 +156,21 @@ impl CalibrationPage {
             Question::Name(typed) => self.save(typed.text().trim(), false),
             Question::Replace(name) => self.save(&name, true),
             Question::Anew if self.sheet().trouble.is_some() => {
-                let said = format!("the file that cannot be read is kept as {}", self.beside().display());
-                self.message = Some(Message::plain(said));
+                let text = format!("the file that cannot be read is kept as {}", self.backup_file().display());
+                self.message = Some(Message::plain(text));
                 Some(Effect::Calibrate(vec![CalibrationTask::PutAside(self.sheet().path.clone())]))
             }
             Question::Anew => {
                 let count = self.sheet().entries.as_ref().map_or(0, |entries| entries.trials.len());
                 let strokes = if count == 1 { "1 stroke is".to_owned() } else { format!("{count} strokes are") };
-                let said = format!("{strokes} kept as {}; u takes this back", self.beside().display());
-                self.message = Some(Message::plain(said));
+                let text = format!("{strokes} kept as {}; u takes this back", self.backup_file().display());
+                self.message = Some(Message::plain(text));
                 Some(self.edit(Edit::Anew(Entries::default()), false))
             }
         }
     }
 
-    /// Goes to the next mark of the form, or keeps the stroke. What is odd stays to be mended.
+    /// Moves to the next mark of the form, or saves the stroke after the last one. An implausible value stays for a correction.
     fn keep(&mut self, mut form: Form) -> Option<Effect> {
         let mut edit = None;
         let odd = form.oddity(&self.table).filter(|_| !form.is_sent);
@@ -189,8 +188,8 @@ impl CalibrationPage {
                     });
                 }
                 Err(what) => {
-                    let said = format!("{}: {what}; nothing was kept yet", form.test.name);
-                    self.message = Some(Message::warning(said));
+                    let text = format!("{}: {what}; nothing was kept yet", form.test.name);
+                    self.message = Some(Message::warning(text));
                 }
             }
         }
@@ -198,7 +197,7 @@ impl CalibrationPage {
         edit.map(|edit| self.edit(edit, false))
     }
 
-    /// Saves the table that was found under a name.
+    /// Saves the calibrated table under a name.
     fn save(&mut self, name: &str, replaces: bool) -> Option<Effect> {
         let found = self.sheet().found()?;
         let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_');

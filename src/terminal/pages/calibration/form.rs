@@ -1,39 +1,39 @@
-//! The form of a stroke: a field for each mark, and what is understood of it.
+//! The form for entering a stroke: one field for each mark, and the interpretation of the typed values.
 
 use crate::{
     calibration::{Entry, RAILS, TAPED, Test, Unit, Written},
     table::Table,
-    terminal::{StrokeDraft, pages::around, ui::TextField},
+    terminal::{StrokeDraft, pages::wrapping_index, ui::TextField},
 };
 
-/// Longest mark, bytes.
+/// Maximum length of a typed mark, bytes.
 const LONGEST: usize = 40;
 
-/// A stroke that is entered.
+/// The form for entering or editing a stroke.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Form {
-    /// Its test.
+    /// The test of the stroke.
     pub test: &'static Test,
-    /// The marks' names, each with what is typed.
+    /// The names of the marks, each with its text field.
     pub fields: Vec<(&'static str, TextField)>,
-    /// The field that is typed into.
+    /// Index of the active field.
     pub field: usize,
-    /// The stroke that is changed, with its place among all entries.
+    /// The stroke that is being edited, with its index among all entries; `None` for a new stroke.
     pub amends: Option<(usize, Entry)>,
-    /// Whether it was played from the far end.
+    /// Whether the stroke was played from the far end.
     pub far_end: bool,
-    /// Whether it is on its way to the disk.
+    /// Whether the stroke is being written to disk.
     pub is_sent: bool,
 }
 
 impl Form {
-    /// An empty one.
+    /// Creates an empty form.
     pub fn new(test: &'static Test) -> Self {
         let fields = test.asked().map(|name| (name, TextField::new(LONGEST))).collect();
         Self { test, fields, field: 0, amends: None, far_end: false, is_sent: false }
     }
 
-    /// That of a stroke that was entered.
+    /// Creates the form for editing a stroke that has been entered; `place` is its index among all entries.
     pub fn of(test: &'static Test, place: usize, entry: &Entry) -> Self {
         let mut form = Self::new(test);
         for (name, field) in &mut form.fields {
@@ -42,7 +42,7 @@ impl Form {
         Self { amends: Some((place, entry.clone())), far_end: entry.far_end, ..form }
     }
 
-    /// What the next session is to go on with.
+    /// Converts the form to a draft, which a later session can continue.
     pub fn draft(&self, is_daily: bool) -> StrokeDraft {
         StrokeDraft {
             test: self.test.name.to_owned(),
@@ -55,7 +55,7 @@ impl Form {
         }
     }
 
-    /// The form as it was; `None` where its test is not known here.
+    /// Restores the form from a draft; `None` if its test does not exist in this version.
     pub fn from_draft(draft: StrokeDraft) -> Option<Self> {
         let StrokeDraft { test, typed, field, far_end, amends, .. } = draft;
         let mut form = Self { amends, far_end, ..Self::new(Test::named(&test)?) };
@@ -66,12 +66,12 @@ impl Form {
         Some(form)
     }
 
-    /// Goes to another field, around the ends.
+    /// Moves to another field, with wrap-around.
     pub fn step(&mut self, by: isize) {
-        self.field = around(self.field, by, self.fields.len());
+        self.field = wrapping_index(self.field, by, self.fields.len());
     }
 
-    /// Whether something is typed that is not kept yet.
+    /// Whether the form contains unsaved changes.
     pub fn is_begun(&self) -> bool {
         let before = self
             .amends
@@ -81,20 +81,20 @@ impl Form {
             || self.fields.iter().zip(&before.fields).any(|((_, typed), (_, known))| typed.text() != known.text())
     }
 
-    /// Whether the last field is typed into.
+    /// Whether the last field is active.
     pub fn is_at_the_end(&self) -> bool {
         self.field + 1 == self.fields.len()
     }
 
-    /// The field that is typed into.
+    /// The active field.
     pub fn typed(&self) -> &TextField {
         &self.fields[self.field].1
     }
 
-    /// The stroke as it is typed.
+    /// Parses the typed stroke.
     ///
     /// # Errors
-    /// What is odd about it, each with what would be accepted.
+    /// Returns a message with all implausible values and what would be accepted.
     pub fn entry(&self, table: &Table) -> Result<Entry, String> {
         let mut entry = Entry { test: self.test.name.to_owned(), far_end: self.far_end, ..Entry::default() };
         for (name, field) in &self.fields {
@@ -104,7 +104,7 @@ impl Form {
         if odd.is_empty() { Ok(entry) } else { Err(odd.join("; ")) }
     }
 
-    /// What is odd about the field that is typed into, whatever the others say.
+    /// The problem with the value in the active field alone; `None` if it is plausible or empty.
     pub fn oddity(&self, table: &Table) -> Option<String> {
         let (name, field) = &self.fields[self.field];
         let mut entry = Entry { test: self.test.name.to_owned(), ..Entry::default() };
@@ -114,25 +114,25 @@ impl Form {
         if entry.marks.is_empty() {
             return None;
         }
-        // How many rails it were is asked for later.
+        // The number of rails has its own field later, so assume one here.
         entry.rails = Some(self.test.rails.unwrap_or(1));
         let (_, odd) = entry.readings(table);
         odd.into_iter().next()
     }
 
-    /// Says of the place that is typed that it was measured with a tape, or takes that back.
+    /// Turns the note on or off that the typed position was measured with a tape.
     ///
     /// # Errors
-    /// A sentence where that means nothing.
-    pub fn turn_tape(&mut self) -> Result<(), String> {
+    /// Returns a message if the active field is not a position, or is empty.
+    pub fn toggle_tape(&mut self) -> Result<(), String> {
         let (name, field) = &mut self.fields[self.field];
         let is_place = self.test.marks.iter().any(|mark| mark.name == *name && mark.unit() == Unit::Diamonds);
         if !is_place {
-            return Err(format!("a tape measures places, and {name} is none"));
+            return Err(format!("a tape measures positions, and {name} is not one"));
         }
         let value = field.text().split(['±', '~']).next().unwrap_or_default().trim().to_owned();
         if value.is_empty() {
-            return Err(format!("type the place first: nothing is typed of {name} yet"));
+            return Err(format!("type the position first: {name} is empty"));
         }
         let was_taped = field.text().ends_with(TAPED);
         let text = if was_taped { value } else { format!("{value} ~ {TAPED}") };
@@ -140,7 +140,7 @@ impl Form {
         Ok(())
     }
 
-    /// What is asked for in the field: its words, and how sure it counts as now.
+    /// The question for the active field: its description, and the assumed accuracy of the value.
     pub fn question(&self, table: &Table) -> String {
         let (name, field) = &self.fields[self.field];
         if *name == RAILS {
@@ -148,7 +148,7 @@ impl Form {
             return format!("{name}: how many short rails the ball has met{usual} = ");
         }
         let Some(mark) = self.test.marks.iter().find(|mark| mark.name == *name) else { return String::new() };
-        let how = self.sure(table).unwrap_or_else(|| match mark.unit() {
+        let how = self.accuracy_words(table).unwrap_or_else(|| match mark.unit() {
             Unit::Diamonds => "diamonds by eye, 725 mm by tape".to_owned(),
             Unit::Seconds => "seconds".to_owned(),
         });
@@ -156,8 +156,8 @@ impl Form {
         format!("{name}: {} ({how}{empty}) = ", mark.words)
     }
 
-    /// How the mark that is typed is understood, with how sure it counts as; nothing where it is odd or not typed yet.
-    fn sure(&self, table: &Table) -> Option<String> {
+    /// The assumed accuracy of the typed mark in words; `None` if the value is implausible or not typed yet.
+    fn accuracy_words(&self, table: &Table) -> Option<String> {
         let (name, field) = &self.fields[self.field];
         let mut entry = Entry { test: self.test.name.to_owned(), rails: Some(0), ..Entry::default() };
         entry.take(name, field.text()).ok()?;
@@ -173,7 +173,7 @@ impl Form {
     }
 }
 
-/// A standard error in few digits.
+/// Rounds a standard error to three decimals.
 fn rounded(sure: f64) -> f64 {
     (1000.0 * sure).round() / 1000.0
 }
@@ -207,13 +207,13 @@ mod tests {
         let table = Table::default();
         let mut form = form("slow-roll", &["9.6", "5.4"]);
         assert!(form.question(&table).contains("right to 0.2 s"), "{}", form.question(&table));
-        assert_eq!(form.turn_tape().unwrap_err(), "a tape measures places, and time is none");
+        assert_eq!(form.toggle_tape().unwrap_err(), "a tape measures positions, and time is not one");
         form.step(1);
         assert!(form.question(&table).contains("by eye, right to 0.1 diamonds"), "{}", form.question(&table));
-        form.turn_tape().unwrap();
+        form.toggle_tape().unwrap();
         assert!(form.question(&table).contains("by tape, right to 5 mm"), "{}", form.question(&table));
         assert!(form.entry(&table).unwrap().readings(&table).0[1].sure < 0.02);
-        form.turn_tape().unwrap();
+        form.toggle_tape().unwrap();
         assert_eq!(form.typed().text(), "5.4");
         form.step(-2);
         assert!(form.is_at_the_end() && form.question(&table).contains("short rails"));

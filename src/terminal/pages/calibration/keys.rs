@@ -1,4 +1,4 @@
-//! The keys of the calibration's page, and of the form of a stroke.
+//! Key bindings of the calibration page and of the form for a stroke.
 
 use crossterm::event::KeyCode::{
     BackTab, Backspace, Delete, Down, End, Enter, Esc, Home, Left, PageDown, PageUp, Right, Tab, Up,
@@ -13,81 +13,81 @@ use crate::terminal::keymap::{
 use CalibrationAction as A;
 use CalibrationCondition as W;
 
-/// What a key does on the calibration's page.
+/// Action of a key on the calibration page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CalibrationAction {
-    /// Goes back to the coach.
+    /// Returns to the coach page.
     Back,
-    /// Moves the mark by tests, down where positive.
+    /// Moves the mark by tests, downwards if positive.
     Line(isize),
-    /// Marks a test far down where positive, or turns the page of the values.
+    /// Moves the mark by ten tests, downwards if positive, or turns the pages of the values.
     Page(isize),
-    /// Marks the test of which one more stroke tells most.
+    /// Marks the test whose next stroke gives the most information.
     Best,
-    /// Leaves a test out, or takes it in again.
+    /// Leaves a test out or includes it again.
     LeaveOut,
-    /// Marks another stroke of the test, a later one where positive.
+    /// Marks another stroke of the test, a later one if positive.
     Stroke(isize),
-    /// Enters a stroke of the test.
+    /// Opens the form for a new stroke of the test.
     Enter,
-    /// Changes what was entered of the marked stroke.
+    /// Opens the form for editing the marked stroke.
     Amend,
-    /// Takes the marked stroke out.
+    /// Deletes the marked stroke.
     TakeOut,
-    /// Takes the last change back.
+    /// Undoes the last change.
     Undo,
-    /// Shows the test, or what was found.
+    /// Switches between the test and the calibrated values.
     Turn,
-    /// Goes to the check of the day, or back.
+    /// Switches between the check of the day and the full calibration.
     Daily,
     /// Asks for the table's name, to save it.
     Save,
-    /// Plays on the saved table.
+    /// Makes the saved table the current one.
     Use,
-    /// Asks whether to begin anew.
+    /// Asks whether to start again without entries.
     Anew,
-    /// Goes to another field of the form, down where positive.
+    /// Moves to another field of the form, downwards if positive.
     Field(isize),
-    /// A place was measured with a tape, or not.
+    /// Turns the note on or off that a position was measured with a tape.
     Tape,
-    /// The stroke was played from the far end, or not.
+    /// Turns the note on or off that the stroke was played from the far end.
     FarEnd,
-    /// Answers what is asked: yes, or what was typed; or no.
+    /// Answers the open question: `true` for yes or the typed text, `false` for no.
     Answer(bool),
 }
 
-/// When a binding of the calibration's page may be used.
+/// Condition under which a key binding of the calibration page is enabled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CalibrationCondition {
-    /// Whatever is shown.
+    /// In every state.
     Always,
-    /// Where the file of entries was read.
+    /// If the file of entries could be read.
     Known,
-    /// Where a stroke of the test is entered.
+    /// If a stroke of the test has been entered.
     Stroke,
-    /// Where anything is entered.
+    /// If anything has been entered.
     Entered,
-    /// Where there is something to take back.
+    /// If a change can be undone.
     Undo,
-    /// Where a table was found, and no entry is odd.
+    /// If the table's values have been found and no entry is implausible.
     Found,
-    /// Where a table was saved.
+    /// If a table has been saved.
     Saved,
-    /// Where the table that is played on was calibrated.
+    /// If the current table is a calibrated one.
     Daily,
 }
 
-/// What is on the screen.
+/// The key contexts of the calibration page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CalibrationContext {
-    /// The tests.
+    /// The list of tests.
     Tests,
-    /// The marks of a stroke, which are typed.
+    /// The form with the marks of a stroke.
     Marks,
 }
 
 impl CalibrationContext {
-    /// Its keys.
+    /// The key bindings of the context.
     pub const fn bindings(self) -> &'static [Binding<A, W>] {
         match self {
             Self::Tests => TESTS,
@@ -96,7 +96,7 @@ impl CalibrationContext {
     }
 }
 
-/// The tests.
+/// Key bindings of the list of tests.
 #[rustfmt::skip]
 pub const TESTS: &[Binding<A, W>] = &[
     bind(Calibration, W::Known, &[key(Enter, A::Enter)], Some(("enter a stroke", 1)), "enter what was marked of a stroke of the test"),
@@ -108,7 +108,7 @@ pub const TESTS: &[Binding<A, W>] = &[
     bind(Calibration, W::Always, &[key(PageDown, A::Page(1)), key(PageUp, A::Page(-1))], None, "mark a test ten on or back; of the values, turn the page")
         .each(&["mark a test ten on; of the values, the next page", "mark a test ten back; of the values, the page before"]),
     bind(Calibration, W::Always, &[key(Tab, A::Turn)], Some(("values", 1)), "the table's values so far, and which marks look misread; again for the test"),
-    bind(Calibration, W::Always, &[letter('n', A::Best)], Some(("best next", 1)), "mark the test of which one more stroke tells most"),
+    bind(Calibration, W::Always, &[letter('n', A::Best)], Some(("best next", 1)), "mark the test whose next stroke tells most"),
     bind(Calibration, W::Undo, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
     bind(Calibration, W::Stroke, &[letter('e', A::Amend)], Some(("edit", 1)), "change what was entered of the marked stroke"),
     bind(Calibration, W::Stroke, &[key(Left, A::Stroke(-1)), key(Right, A::Stroke(1)), letter('h', A::Stroke(-1)), letter('l', A::Stroke(1))],
@@ -118,12 +118,12 @@ pub const TESTS: &[Binding<A, W>] = &[
     bind(Calibration, W::Always, &[letter('x', A::LeaveOut)], Some(("leave out", 1)), "leave the test out with its strokes, take it in again"),
     bind(Calibration, W::Found, &[letter('s', A::Save)], Some(("save", 1)), "save the table under a name"),
     bind(Calibration, W::Saved, &[letter('p', A::Use)], Some(("play on it", 1)), "play on the saved table, here and at every start"),
-    bind(Calibration, W::Daily, &[letter('d', A::Daily)], Some(("check of the day", 1)), "two strokes that say how the table plays today; back to all tests"),
-    bind(Calibration, W::Entered, &[letter('N', A::Anew)], None, "begin anew; what was entered is kept beside the file"),
+    bind(Calibration, W::Daily, &[letter('d', A::Daily)], Some(("check of the day", 1)), "two strokes that show how the table plays today; back to all tests"),
+    bind(Calibration, W::Entered, &[letter('N', A::Anew)], None, "start again; the entries are kept next to the file"),
     bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the coach"),
 ];
 
-/// The form of a stroke.
+/// Key bindings of the form for a stroke.
 #[rustfmt::skip]
 pub const FORM: &[Binding<A, W>] = &[
     bind(Marks, W::Always, &[key(Enter, A::Answer(true))], Some(("next, keep", 1)), "go to the next mark; after the last one keep the stroke"),

@@ -1,7 +1,7 @@
-//! The state of the calibration's page: the tests, what was entered of them, and the table that follows.
+//! The calibration page: the tests, the strokes that were entered for them, and the table parameters that result.
 //!
-//! Files are read and written, and entries judged, elsewhere ([`CalibrationTask`]); what comes of it is a
-//! [`CalibrationReport`]. [`actions`] is what each key does.
+//! Background tasks ([`CalibrationTask`]) read and write files and evaluate the entries. Each reports its result as a
+//! [`CalibrationReport`]. [`actions`] implements the key actions.
 
 mod actions;
 pub mod form;
@@ -25,20 +25,20 @@ use crate::{
     },
 };
 
-/// What is typed or asked.
+/// An open form or question.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Question {
     /// The marks of a stroke.
     Marks(Form),
     /// The table's name.
     Name(TextField),
-    /// Whether the table of this name may be replaced.
+    /// Whether to replace the table with this name.
     Replace(String),
-    /// Whether to begin anew.
+    /// Whether to start again without entries.
     Anew,
 }
 
-/// What is shown beside the list of tests.
+/// The panel next to the list of tests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// The marked test on the table.
@@ -47,38 +47,38 @@ pub enum Side {
     Values,
 }
 
-/// The state of the page.
+/// The state of the calibration page.
 #[derive(Debug)]
 pub struct CalibrationPage {
-    /// Where entries and tables are.
+    /// The folders of entries and tables.
     places: Places,
-    /// The table that is played on.
+    /// The current table.
     pub table: Table,
-    /// In which the tip's place and the speed of a stroke are told.
+    /// The units for displayed values.
     pub units: Units,
-    /// What is typed or asked.
+    /// The open form or question.
     pub question: Option<Question>,
-    /// Strokes whose forms were left when they were typed in part; the last one is the latest.
-    aside: Vec<StrokeDraft>,
-    /// What is shown beside the list of tests.
+    /// Drafts of forms that were left incomplete, the latest last.
+    drafts: Vec<StrokeDraft>,
+    /// The panel next to the list of tests.
     pub side: Side,
-    /// The page of the table's values, from 0 on, where they have several; further ones are the first again.
+    /// Page number in the table's values, from 0; taken modulo the number of pages.
     pub values_page: isize,
-    /// What the status line says.
+    /// The message of the status line.
     pub message: Option<Message>,
     all: Sheet,
     daily: Sheet,
     is_daily: bool,
-    /// The file of the table that was saved last.
+    /// The file of the last saved table.
     pub saved: Option<PathBuf>,
-    /// The file of a table that is to be played on, until it is taken.
+    /// The file of a table that must become the current one, until the app takes it.
     pub for_use: Option<PathBuf>,
-    /// Whether one has gone back.
+    /// Whether the user has left the page.
     pub is_left: bool,
 }
 
 impl CalibrationPage {
-    /// The page before it is opened.
+    /// Creates the page, closed.
     pub fn new(places: Places) -> Self {
         let all = Sheet::new(places.calibration.clone(), false);
         let daily = Sheet::new(places.daily_check.clone(), true);
@@ -87,7 +87,7 @@ impl CalibrationPage {
             table: Table::default(),
             units: Units::default(),
             question: None,
-            aside: Vec::new(),
+            drafts: Vec::new(),
             side: Side::Test,
             values_page: 0,
             message: None,
@@ -100,7 +100,7 @@ impl CalibrationPage {
         }
     }
 
-    /// Opens it as it was left, for who plays on `table`; the entries are read again.
+    /// Opens the page as it was left, for the current `table`. The entries are read again.
     pub fn open(&mut self, table: &Table) -> Effect {
         self.message = None;
         self.is_left = false;
@@ -108,31 +108,31 @@ impl CalibrationPage {
         Effect::Calibrate(vec![CalibrationTask::Read(self.sheet().path.clone())])
     }
 
-    /// The table that is played on from now on.
+    /// Sets the current table.
     pub fn play_on(&mut self, table: &Table) {
         self.table.clone_from(table);
         if self.is_daily && table.doubt.is_none() {
-            // A check of the day is of a table that was calibrated; what is typed of a stroke in it waits.
-            self.put_aside();
+            // A check of the day needs a calibrated table. An incomplete form is kept.
+            self.close_question();
             self.is_daily = false;
         }
     }
 
-    /// Leaves what is typed or asked; a stroke that was typed in part waits.
-    fn put_aside(&mut self) {
-        self.aside.extend(self.typed_in_part());
+    /// Closes the open form or question. An incomplete form is kept as a draft.
+    fn close_question(&mut self) {
+        self.drafts.extend(self.incomplete_form());
         self.question = None;
     }
 
-    /// The open form of a stroke, where that is typed in part.
-    fn typed_in_part(&self) -> Option<StrokeDraft> {
+    /// The draft of the open form, if that is incomplete.
+    fn incomplete_form(&self) -> Option<StrokeDraft> {
         match &self.question {
             Some(Question::Marks(form)) if form.is_begun() && !form.is_sent => Some(form.draft(self.is_daily)),
             _ => None,
         }
     }
 
-    /// What is entered now.
+    /// The current sheet: that of the full calibration or of the check of the day.
     pub const fn sheet(&self) -> &Sheet {
         if self.is_daily { &self.daily } else { &self.all }
     }
@@ -146,23 +146,23 @@ impl CalibrationPage {
         if let Some(Question::Marks(_)) = self.question { CalibrationContext::Marks } else { CalibrationContext::Tests }
     }
 
-    /// The stroke whose marks are typed in part, which the next session is to go on with.
+    /// The latest incomplete form, for the next session.
     pub fn draft(&self) -> Option<StrokeDraft> {
-        self.typed_in_part().or_else(|| self.aside.last().cloned())
+        self.incomplete_form().or_else(|| self.drafts.last().cloned())
     }
 
-    /// Opens `form`, as it was left where that was when it was typed in part.
+    /// Opens `form`, or the draft of the same form if there is one.
     fn open_form(&mut self, form: Form) {
         let is_same = |draft: &StrokeDraft| {
             draft.is_daily == self.is_daily && draft.test == form.test.name && draft.amends == form.amends
         };
-        let left = self.aside.iter().position(is_same).map(|place| self.aside.remove(place));
+        let left = self.drafts.iter().position(is_same).map(|place| self.drafts.remove(place));
         let left = left.and_then(Form::from_draft);
         self.side = Side::Test;
         self.question = Some(Question::Marks(left.unwrap_or(form)));
     }
 
-    /// Goes on with a stroke that was typed in part when the last session ended; gives its test, where that is known.
+    /// Restores an incomplete form from the last session. Returns the name of its test, or `None` if that test does not exist.
     pub fn go_on_with(&mut self, draft: StrokeDraft) -> Option<&'static str> {
         let is_daily = draft.is_daily;
         let form = Form::from_draft(draft)?;
@@ -173,13 +173,13 @@ impl CalibrationPage {
         Some(test)
     }
 
-    /// Asks what the entries say.
+    /// Requests an evaluation of the entries.
     fn judge(&mut self) -> Vec<CalibrationTask> {
         let table = self.table.clone();
         self.sheet_mut().judge(&table).map(|judging| CalibrationTask::Judge(Box::new(judging))).into_iter().collect()
     }
 
-    /// Takes what has come of a task; gives what is to be done next.
+    /// Handles the result of a task. Returns follow-up tasks.
     pub fn receive(&mut self, report: CalibrationReport) -> Vec<CalibrationTask> {
         match report {
             CalibrationReport::Entries(path, outcome) if path == self.sheet().path => match outcome {
@@ -192,7 +192,7 @@ impl CalibrationPage {
                     return self.judge();
                 }
                 Err(sentence) => {
-                    let sentence = format!("{sentence}; N keeps the file aside and begins anew");
+                    let sentence = format!("{sentence}; N moves the file aside and starts again");
                     let sheet = self.sheet_mut();
                     (sheet.entries, sheet.trouble) = (None, Some(sentence.clone()));
                     self.message = Some(Message::warning(sentence));
@@ -200,11 +200,11 @@ impl CalibrationPage {
             },
             CalibrationReport::Unkept(path, sentence) => {
                 if let Some(Question::Marks(form)) = &mut self.question {
-                    // What could not be kept stays in the form.
+                    // A stroke that could not be saved stays in the form.
                     form.is_sent = false;
                 }
                 self.message = Some(Message::warning(sentence));
-                // What another program has changed is seen.
+                // Read the file again, because another program may have changed it.
                 return vec![CalibrationTask::Read(path)];
             }
             CalibrationReport::Entries(..) => {}
@@ -218,8 +218,8 @@ impl CalibrationPage {
                 let misread = self.sheet().found().map_or(0, |found| found.misread().len());
                 let misread = if misread == 0 { String::new() } else { format!(", {misread} of them misread") };
                 let strokes = if played == 1 { "one stroke".to_owned() } else { format!("{played} strokes{misread}") };
-                let said = format!("saved as {name}, from {strokes}; p plays on it from now on");
-                self.message = Some(Message::good(said));
+                let text = format!("saved as {name}, from {strokes}; p plays on it from now on");
+                self.message = Some(Message::good(text));
                 self.saved = Some(path);
             }
             CalibrationReport::Saved(path, Ok(false)) => {
@@ -235,8 +235,8 @@ impl CalibrationPage {
         Vec::new()
     }
 
-    /// Where entries are kept that are put aside.
-    fn beside(&self) -> PathBuf {
+    /// The file to which old entries are moved.
+    fn backup_file(&self) -> PathBuf {
         beside(&self.sheet().path)
     }
 }
@@ -248,7 +248,7 @@ impl Page for CalibrationPage {
 
     fn field_mut(&mut self) -> Option<&mut TextField> {
         match self.question.as_mut()? {
-            // What is on its way to the disk stays as it is.
+            // A form that is being saved must not change.
             Question::Marks(form) if form.is_sent => None,
             Question::Marks(form) => Some(&mut form.fields[form.field].1),
             Question::Name(field) => Some(field),

@@ -1,4 +1,5 @@
-//! What was entered of all tests, or of a check of the day, and what is found out of it.
+//! A calibration sheet: the strokes entered for the tests, and the values that result. There is one sheet for the full calibration
+//! and one for the check of the day.
 
 use std::path::PathBuf;
 
@@ -8,59 +9,59 @@ use crate::{
     terminal::{Judged, Judging},
 };
 
-/// The name of a table that was given none.
+/// Default name of a table that the user did not name.
 pub const UNNAMED: &str = "own";
 
-/// What takes a change back.
+/// An undo step.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Back {
-    /// A change of the file.
+pub enum UndoStep {
+    /// A change of the entries in the file.
     Edit(Edit),
-    /// This test is left out, or taken in again.
-    Turn(&'static str),
+    /// Leaving this test out, or including it again.
+    LeaveOut(&'static str),
 }
 
-/// A file of entries, and what is known of it.
+/// A file of entries with its evaluation.
 #[derive(Debug, Default)]
 pub struct Sheet {
     /// The file.
     pub path: PathBuf,
-    /// Whether it is the check of a day.
+    /// Whether this is the sheet of the check of the day.
     pub is_daily: bool,
-    /// What the file holds; `None` before it was read, and where it cannot be.
+    /// The entries; `None` until the file has been read, or if it cannot be read.
     pub entries: Option<Entries>,
-    /// Why it cannot be read.
+    /// The reason why the file cannot be read.
     pub trouble: Option<String>,
-    /// What follows from the entries, as far as it is known.
+    /// The latest evaluation of the entries; `None` until there is one.
     pub judged: Option<Box<Judged>>,
-    /// Why nothing follows.
-    pub unjudged: Option<String>,
-    /// Place of the marked test.
+    /// The reason why the entries could not be evaluated.
+    pub evaluation_error: Option<String>,
+    /// Index of the marked test.
     pub mark: usize,
-    /// The marked stroke of that test; the last one where it is none.
+    /// Index of the marked stroke of that test; `None` for the last one.
     stroke: Option<usize>,
-    /// Changes that take those back that were made here.
-    pub back: Vec<Back>,
+    /// The undo stack.
+    pub undo_stack: Vec<UndoStep>,
     /// Tests that the player does not want to play.
     left_out: Vec<&'static str>,
-    /// The number of the last question about the entries, and of the last that was answered.
+    /// The numbers of the last requested and of the last received evaluation.
     asked: u64,
     answered: u64,
 }
 
 impl Sheet {
-    /// One of which nothing is known yet.
+    /// Creates a sheet whose file has not been read yet.
     pub fn new(path: PathBuf, is_daily: bool) -> Self {
         Self { path, is_daily, ..Self::default() }
     }
 
-    /// Its tests, in the order in which they are played.
+    /// The tests of the sheet, in the recommended order.
     pub fn tests(&self) -> impl Iterator<Item = &'static Test> + use<> {
         let is_daily = self.is_daily;
         PROTOCOL.iter().filter(move |test| !is_daily || DAILY.contains(&test.name))
     }
 
-    /// How often a test is asked for.
+    /// Recommended number of strokes of a test.
     pub const fn times(&self, test: &Test) -> usize {
         if self.is_daily { 1 } else { test.times }
     }
@@ -70,66 +71,66 @@ impl Sheet {
         self.tests().nth(self.mark).unwrap_or(&PROTOCOL[0])
     }
 
-    /// Moves the mark by tests.
+    /// Moves the mark by `by` tests, downwards if positive.
     pub fn move_mark(&mut self, by: isize) {
         self.mark = self.mark.saturating_add_signed(by).min(self.tests().count() - 1);
         self.stroke = None;
     }
 
-    /// Marks the test of this name, if it is one of them.
+    /// Marks the test with this name, if the sheet contains it.
     pub(super) fn mark_test(&mut self, name: &str) {
         if let Some(mark) = self.tests().position(|test| test.name == name) {
             (self.mark, self.stroke) = (mark, None);
         }
     }
 
-    /// The strokes of a test, each with its place among all entries.
+    /// The strokes of a test, each with its index among all entries.
     pub fn strokes(&self, test: &Test) -> Vec<(usize, &Entry)> {
         let all = self.entries.iter().flat_map(|entries| entries.trials.iter().enumerate());
         all.filter(|(_, entry)| entry.test == test.name).collect()
     }
 
-    /// How many strokes are entered, and how many are asked for, of those tests that are not left out.
+    /// Number of entered and of recommended strokes, without the tests that are left out.
     pub fn count(&self) -> (usize, usize) {
         let asked = self.tests().filter(|test| !self.is_left_out(test));
         asked.fold((0, 0), |(entered, wanted), test| {
             let times = self.times(test);
-            // More strokes of one do not stand for another.
+            // Extra strokes of one test do not replace strokes of another.
             (entered + self.strokes(test).len().min(times), wanted + times)
         })
     }
 
-    /// Place of the marked stroke among those of the marked test.
+    /// Index of the marked stroke among those of the marked test.
     pub fn stroke(&self) -> usize {
         let last = self.strokes(self.test()).len().saturating_sub(1);
         self.stroke.map_or(last, |stroke| stroke.min(last))
     }
 
-    /// The marked stroke, with its place among all entries.
+    /// The marked stroke, with its index among all entries.
     pub fn marked_stroke(&self) -> Option<(usize, &Entry)> {
         self.strokes(self.test()).into_iter().nth(self.stroke())
     }
 
-    /// Marks another stroke of the test.
+    /// Moves the mark among the strokes of the test.
     pub fn move_stroke(&mut self, by: isize) {
         let last = self.strokes(self.test()).len().saturating_sub(1);
         self.stroke = Some(self.stroke().saturating_add_signed(by).min(last));
     }
 
-    /// Whether the player does not want to play a test.
+    /// Whether the player has left a test out.
     pub fn is_left_out(&self, test: &Test) -> bool {
         self.left_out.contains(&test.name)
     }
 
-    /// Leaves the marked test out, with what is entered of it, or takes it in again; gives whether it is out.
-    pub fn turn_left_out(&mut self) -> bool {
+    /// Leaves the marked test and its entries out, or includes them again. Returns whether the test is left out now.
+    pub fn toggle_left_out(&mut self) -> bool {
         let name = self.test().name;
-        self.back.push(Back::Turn(name));
-        self.turn(name)
+        self.undo_stack.push(UndoStep::LeaveOut(name));
+        self.toggle_test(name)
     }
 
-    /// The same of any test, as a change that is taken back.
-    pub fn turn(&mut self, name: &'static str) -> bool {
+    /// Leaves a test out or includes it again, without an undo step. Returns whether the test is left out now.
+    pub fn toggle_test(&mut self, name: &'static str) -> bool {
         let count = self.left_out.len();
         self.left_out.retain(|one| *one != name);
         let is_out = self.left_out.len() == count;
@@ -139,18 +140,18 @@ impl Sheet {
         is_out
     }
 
-    /// What the marks say, where there are any.
+    /// The calibration that results from the marks, if there are any.
     pub fn found(&self) -> Option<&Calibration> {
         self.judged.as_ref()?.found.as_ref()
     }
 
-    /// What one more stroke of a test is expected to tell, bits.
+    /// Expected information gain of one more stroke of a test, bits.
     pub fn bits(&self, test: &Test) -> Option<f64> {
         let next = &self.judged.as_ref()?.next;
         next.iter().find(|next| next.test == test.name).map(|next| next.bits)
     }
 
-    /// The test that tells most, of those that are not left out.
+    /// The test whose next stroke gives the most information, among those that are not left out.
     pub fn best(&self) -> Option<&Next> {
         let is_wanted = |next: &&Next| {
             self.tests().any(|test| test.name == next.test && !self.is_left_out(test))
@@ -159,27 +160,27 @@ impl Sheet {
         self.judged.as_ref()?.next.iter().find(is_wanted)
     }
 
-    /// Strokes of a test that are not entered yet.
+    /// Number of strokes of a test that are still missing.
     fn missing(&self, name: &str) -> usize {
         Test::named(name).map_or(0, |test| self.times(test).saturating_sub(self.strokes(test).len()))
     }
 
-    /// Marks the test that tells most; `false` where none is known.
+    /// Marks the test whose next stroke gives the most information. Returns `false` if none is known.
     pub fn mark_best(&mut self) -> bool {
         let Some(best) = self.best().map(|next| next.test) else { return false };
         self.mark_test(best);
         true
     }
 
-    /// Takes what the file holds, and where it was changed the change back. After a stroke of a test that needs no more the
-    /// next that misses one is marked.
+    /// Replaces the entries, and adds the undo step of the change if there was one. If a stroke was added and its test is complete,
+    /// marks the next incomplete test.
     pub fn take(&mut self, entries: Entries, back: Option<(Edit, bool)>) {
         let is_added = matches!(&back, Some((Edit::TakeOut(..), false)));
         self.entries = Some(entries);
         self.trouble = None;
         self.stroke = None;
         if let Some((back, false)) = back {
-            self.back.push(Back::Edit(back));
+            self.undo_stack.push(UndoStep::Edit(back));
         }
         if is_added && self.missing(self.test().name) == 0 {
             let later = self.tests().skip(self.mark + 1).chain(self.tests());
@@ -190,14 +191,14 @@ impl Sheet {
         }
     }
 
-    /// What is odd about entries that count, as a file may hold them that was written by hand.
+    /// The implausible values among the entries, without the tests that are left out. They can occur in a file that was edited by hand.
     pub fn odd(&self, table: &Table) -> Vec<Oddity> {
         let mut odd = self.entries.as_ref().map_or_else(Vec::new, |entries| entries.trials(table).1);
         odd.retain(|odd| !self.left_out.contains(&odd.test.as_str()));
         odd
     }
 
-    /// What is held of the table that is played on before the tests.
+    /// The prior for the evaluation: the assumed table and its uncertainty before the tests.
     pub fn base(&self, table: &Table) -> (Table, TableDoubt) {
         if self.is_daily {
             let doubt = table.doubt.clone().unwrap_or_default();
@@ -207,14 +208,14 @@ impl Sheet {
         let is_as_large = |one: &Table, other: &Table| {
             [one.length, one.width, one.radius] == [other.length, other.width, other.radius]
         };
-        // The strokes that a table was calibrated by would count twice.
+        // A calibrated table is not a valid prior, because its strokes would count twice.
         let base = if table.doubt.is_some() && is_as_large(table, &usual) { usual } else { table.clone() };
         let base = Table { doubt: None, ..base };
         let doubt = prior(&base);
         (base, doubt)
     }
 
-    /// Asks what the entries say of the table.
+    /// Creates a request to evaluate the entries for `table`; `None` if no entries have been read.
     pub fn judge(&mut self, table: &Table) -> Option<Judging> {
         let (base, doubt) = self.base(table);
         let (mut trials, _) = self.entries.as_ref()?.trials(&base);
@@ -224,26 +225,26 @@ impl Sheet {
         Some(Judging { number: self.asked, name, table: base, doubt, trials, is_daily })
     }
 
-    /// What the table is called: as the entries say, or as it was, or as the player's own.
+    /// The name of the table: that in the entries, that of a calibrated table, or the default name.
     pub fn name(&self, table: &Table) -> String {
         let own = table.doubt.is_some().then_some(&table.name);
         let named = self.entries.as_ref().and_then(|entries| entries.name.as_ref());
         named.or(own).map_or(UNNAMED, String::as_str).to_owned()
     }
 
-    /// Takes the answer to the question `number`; late ones to earlier questions are dropped.
+    /// Handles the answer to request `number`. Late answers to earlier requests are dropped.
     pub fn answer(&mut self, number: u64, judged: Result<Box<Judged>, String>) {
         if number != self.asked {
             return;
         }
         self.answered = number;
-        (self.judged, self.unjudged) = match judged {
+        (self.judged, self.evaluation_error) = match judged {
             Ok(judged) => (Some(judged), None),
             Err(sentence) => (self.judged.take(), Some(sentence)),
         };
     }
 
-    /// Whether an answer is on its way.
+    /// Whether an evaluation is pending.
     pub const fn is_asking(&self) -> bool {
         self.asked != self.answered
     }
@@ -285,17 +286,17 @@ mod tests {
             sheet.take(entries, Some((Edit::TakeOut(count - 1, entry.clone()), false)));
         };
         sheet.take(Entries::default(), None);
-        assert!(sheet.back.is_empty());
+        assert!(sheet.undo_stack.is_empty());
         add(&mut sheet, 1);
         assert_eq!((sheet.test().name, sheet.stroke()), ("slow-roll", 0));
         sheet.move_mark(1);
-        assert!(sheet.turn_left_out());
+        assert!(sheet.toggle_left_out());
         sheet.move_mark(-1);
         add(&mut sheet, 2);
         assert_eq!(sheet.test().name, "lag", "slow-back is left out");
         assert_eq!(sheet.count(), (2, 19));
-        assert_eq!(sheet.back.pop(), Some(Back::Edit(Edit::TakeOut(1, entry.clone()))));
-        assert_eq!(sheet.back.pop(), Some(Back::Turn("slow-back")));
+        assert_eq!(sheet.undo_stack.pop(), Some(UndoStep::Edit(Edit::TakeOut(1, entry.clone()))));
+        assert_eq!(sheet.undo_stack.pop(), Some(UndoStep::LeaveOut("slow-back")));
     }
 
     #[test]
@@ -305,8 +306,8 @@ mod tests {
         let first = sheet.judge(&Table::default()).unwrap().number;
         let second = sheet.judge(&Table::default()).unwrap().number;
         sheet.answer(first, Err("late".into()));
-        assert!(sheet.is_asking() && sheet.unjudged.is_none());
+        assert!(sheet.is_asking() && sheet.evaluation_error.is_none());
         sheet.answer(second, Err("now".into()));
-        assert_eq!((sheet.is_asking(), sheet.unjudged.as_deref()), (false, Some("now")));
+        assert_eq!((sheet.is_asking(), sheet.evaluation_error.as_deref()), (false, Some("now")));
     }
 }

@@ -1,4 +1,4 @@
-//! What each action does to the state.
+//! Implementation of the coach page's key actions: how each action changes the state of the page.
 
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ use crate::{
 };
 
 impl CoachPage {
-    /// Why a binding may not be used now; `None` where it may.
+    /// Returns the reason why a key binding is disabled now; `None` if it is enabled.
     pub fn disabled_reason(&self, when: CoachCondition) -> Option<&'static str> {
         let refuse = |refused: bool, reason| refused.then_some(reason);
         let thinking = refuse(self.pending.is_some(), "the coach is thinking; Esc stops it");
@@ -51,7 +51,7 @@ impl CoachPage {
             ),
             CoachCondition::Undoable => refuse(!self.history.can_undo(), "there is nothing to take back"),
             CoachCondition::Interrupted => refuse(
-                self.before.is_empty() && self.left_exams.is_empty(),
+                self.earlier_sessions.is_empty() && self.left_exams.is_empty(),
                 "no unfinished exam or earlier session; F3 shows what you practise",
             ),
             CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled networks are asked already"),
@@ -62,12 +62,12 @@ impl CoachPage {
         }
     }
 
-    /// Does what an enabled binding asks for.
+    /// Performs the action of an enabled key binding.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         self.drop_ball();
         let effect = self.act(action);
-        self.renew();
-        // Whatever has changed, the closer look is at the shot that is shown now.
+        self.refresh();
+        // The action may have changed the displayed shot: the background analysis must follow it.
         let study = self.study();
         effect.or(study)
     }
@@ -75,14 +75,14 @@ impl CoachPage {
     fn act(&mut self, action: Action) -> Option<Effect> {
         let terms = self.query.terms();
         match action {
-            // The keys are for colours.
+            // The number keys select balls by colour, not by role.
             Action::Select(ball) => self.select(self.cue_ball().ordered([0, 1, 2])[ball]),
             Action::SelectOther(balls) => self.select((self.selected + BALLS).saturating_add_signed(balls) % BALLS),
             Action::Move(x, y, scale) => self.move_ball(DVec2::new(f64::from(x), f64::from(y)), scale),
             Action::Step(steps) => self.choose_step(self.step.saturating_add_signed(steps)),
             Action::TurnQuarters => {
                 self.quarters = !self.quarters;
-                self.say_step();
+                self.report_step();
             }
             Action::TypePositions => self.ask_positions(),
             Action::NextSystem => self.next_lesson(),
@@ -92,7 +92,7 @@ impl CoachPage {
                 let layout = Layout::random(&self.history.present().table, &mut self.rng);
                 self.place(layout);
             }
-            Action::Undo if self.what_if().is_some() => return self.play_back(),
+            Action::Undo if self.what_if().is_some() => return self.undo_own_stroke(),
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),
             Action::Recommend => return Some(self.ask()),
@@ -101,55 +101,57 @@ impl CoachPage {
             Action::Answer(false) => self.question = None,
             Action::Cancel => self.cancel(),
             Action::PlaceBalls => self.place_balls(),
-            Action::Continue if self.what_if().is_some() => return self.play_on(),
-            Action::Continue => return self.go_on(),
-            Action::NextRule => self.ask_for(Terms { rule: neighbour(&Rule::ALL, terms.rule, 1), ..terms }),
+            Action::Continue if self.what_if().is_some() => return self.play_next_own_stroke(),
+            Action::Continue => return self.continue_from_end(),
+            Action::NextRule => self.choose_terms(Terms { rule: neighbour(&Rule::ALL, terms.rule, 1), ..terms }),
             Action::NextSkill => {
-                let skill = next_skill(terms.skill, self.own, self.of_settings.skill);
-                self.ask_for(Terms { skill, ..terms });
+                let skill = next_skill(terms.skill, self.own, self.settings_terms.skill);
+                self.choose_terms(Terms { skill, ..terms });
             }
-            Action::TurnPlan => self.ask_for(Terms { plan: !terms.plan, ..terms }),
-            Action::NextFirstMet => self.ask_for(Terms { first: neighbour(&FirstMet::ALL, terms.first, 1), ..terms }),
+            Action::TurnPlan => self.choose_terms(Terms { plan: !terms.plan, ..terms }),
+            Action::NextFirstMet => {
+                self.choose_terms(Terms { first: neighbour(&FirstMet::ALL, terms.first, 1), ..terms });
+            }
             Action::TurnNumbers => self.is_in_numbers = !self.is_in_numbers,
             Action::TurnEvents => {
                 self.has_all_events = !self.has_all_events;
                 let words = if self.has_all_events { "all events are listed" } else { "contacts only are listed" };
                 self.message = Some(Message::plain(words));
             }
-            Action::TurnSideView => self.turn_side_view(),
-            Action::TurnShown => self.turn_shown(),
+            Action::TurnSideView => self.toggle_side_view(),
+            Action::TurnShown => self.toggle_sharing(),
             Action::NextInfoPanel if self.shot().is_none() && self.pending.is_none() => {
                 self.message =
-                    Some(Message::plain("without a shot the panel tells where the balls lie; Enter asks the coach"));
+                    Some(Message::plain("without a shot the panel shows the ball positions; Enter asks the coach"));
             }
             Action::NextInfoPanel => self.info = neighbour(&InfoPanel::ALL, self.info, 1),
             Action::Shot(shots) => self.choose(|advised| advised.turn(shots)),
             Action::Show(shot) => self.choose(|advised| advised.show(shot)),
-            Action::WhatIf => return self.take_over(0),
+            Action::WhatIf => return self.start_own_stroke(0),
             Action::LeaveStroke => self.leave_own_stroke(),
             Action::Stroke(change) => return self.change_stroke(change),
             Action::TypeStroke => self.ask_stroke(),
-            Action::StrokeBack => return self.travel_stroke(OwnStroke::undo),
-            Action::StrokeAgain => return self.travel_stroke(OwnStroke::redo),
-            // The app goes on with what was practised.
+            Action::StrokeBack => return self.step_stroke_history(OwnStroke::undo),
+            Action::StrokeAgain => return self.step_stroke_history(OwnStroke::redo),
+            // The app resumes the practice session.
             Action::Resume => drop(self.resume()),
             Action::Bundled => {
                 self.take_query(&self.table().clone(), CoachQuery { policy: None, ..self.query.clone() });
             }
             Action::Playback(key) => self.play(key),
-            // The app opens another page.
+            // The app opens the other page.
             Action::OpenDrills | Action::OpenFilms | Action::OpenTraining => {}
         }
         None
     }
 
-    /// The match against the coach that an earlier session has left, the latest; it no longer waits there then.
+    /// Takes the latest unfinished match against the coach out of the earlier sessions.
     pub fn take_match(&mut self) -> Option<Session> {
         let of = |before: &mut SavedSession| before.practice.take_if(|practice| practice.is_against_coach());
-        self.before.iter_mut().find_map(of)
+        self.earlier_sessions.iter_mut().find_map(of)
     }
 
-    /// The opponent's turn: the other ball is the cue ball, and all stay where they lie.
+    /// Gives the turn to the opponent: the other ball becomes the cue ball, and all balls keep their positions.
     fn take_other_ball(&mut self) {
         let cue_ball = self.cue_ball().other();
         let layout = self.layout().for_the_opponent();
@@ -159,7 +161,7 @@ impl CoachPage {
         self.message = Some(Message::plain(format!("{cue_ball} is the cue ball now; Enter asks the coach")));
     }
 
-    /// Puts the balls on their spots; where they are there already, the cue ball goes to the other side of the opponent's.
+    /// Puts the balls in the opening position. If they are there already, moves the cue ball to the other side of the opponent's ball.
     fn open(&mut self) {
         let side = self.layout().opening_side(self.table()).map_or(Side::Left, Side::other);
         let layout = Layout::opening_on(self.table(), side);
@@ -184,7 +186,7 @@ impl CoachPage {
         self.place_balls();
     }
 
-    /// Leaves the shot, which is paused, and a stroke of the player's own beside it.
+    /// Returns to placing balls: pauses the shot and discards the player's own stroke.
     fn place_balls(&mut self) {
         self.leave_example();
         self.own_stroke = None;
@@ -192,16 +194,16 @@ impl CoachPage {
         self.mode = Mode::Placing;
     }
 
-    /// The jump of the shot, while it is to be shown from the side; a shot without one has none.
+    /// The height profile of the shot's jump; `None` if the side view is off or no ball jumps.
     pub fn profile(&self) -> Option<&Profile> {
-        self.shot().filter(|_| self.is_from_side)?.profile(self.table())
+        self.shot().filter(|_| self.has_side_view)?.profile(self.table())
     }
 
-    /// Shows the jump from the side, or no longer; where no ball jumps it says so.
-    fn turn_side_view(&mut self) {
-        self.is_from_side = !self.is_from_side;
-        if self.is_from_side && self.profile().is_none() {
-            self.is_from_side = false;
+    /// Turns the side view of the jump on or off. If no ball jumps, shows a message instead.
+    fn toggle_side_view(&mut self) {
+        self.has_side_view = !self.has_side_view;
+        if self.has_side_view && self.profile().is_none() {
+            self.has_side_view = false;
             self.message = Some(Message::plain(no_jump_words(self.table())));
         }
     }
@@ -209,10 +211,10 @@ impl CoachPage {
     fn choose_step(&mut self, step: usize) {
         self.step = step.min(STEPS.len() - 1);
         self.quarters = false;
-        self.say_step();
+        self.report_step();
     }
 
-    fn say_step(&mut self) {
+    fn report_step(&mut self) {
         self.message = Some(Message::plain(format!("one step is {}", self.step_words())));
     }
 
@@ -232,14 +234,14 @@ impl CoachPage {
         }
     }
 
-    /// Puts the balls elsewhere, as a step that can be taken back. The shot was for where they lay.
+    /// Puts the balls in new positions, as an undoable step. The shot disappears because it belongs to the old positions.
     pub(super) fn place(&mut self, layout: Layout) {
         self.drop_ball();
         self.history.push(self.snapshot(layout));
-        self.rest();
+        self.reset_playback();
     }
 
-    /// The same table and policy with the balls elsewhere, on which there is no advice yet.
+    /// Returns a snapshot with the same table, policy and cue ball, a new layout and no advice.
     pub(super) fn snapshot(&self, layout: Layout) -> Snapshot {
         let Snapshot { table, policy, cue_ball, .. } = self.history.present();
         Snapshot { policy: policy.clone(), cue_ball: *cue_ball, ..Snapshot::new(Arc::clone(table), layout) }
@@ -249,21 +251,21 @@ impl CoachPage {
         let left = self.history.present().clone();
         self.history.undo();
         let terms = left.terms.map(|[before, after]| [after, before]);
-        self.travelled(left, terms);
+        self.after_undo_or_redo(left, terms);
     }
 
     fn redo(&mut self) {
         let left = self.history.present().clone();
         self.history.redo();
-        self.travelled(left, self.history.present().terms);
+        self.after_undo_or_redo(left, self.history.present().terms);
     }
 
-    /// A step was taken back or made again, which changes what is asked for from the first terms to the second. What has been
-    /// chosen since stays.
-    fn travelled(&mut self, left: Snapshot, terms: Option<[Terms; 2]>) {
+    /// Updates the state after an undo or redo. The step changes the query from the first terms to the second. Terms that the user
+    /// has chosen since then are kept.
+    fn after_undo_or_redo(&mut self, left: Snapshot, terms: Option<[Terms; 2]>) {
         let present = self.history.present_mut();
         if (&left.table, left.layout, left.cue_ball) == (&present.table, present.layout, present.cue_ball) {
-            // The balls are the same, and so is all that was answered about them.
+            // The balls have not moved, so the advice on them is still valid.
             present.advised = left.advised;
         }
         if left.cue_ball != present.cue_ball {
@@ -274,23 +276,23 @@ impl CoachPage {
         if let Some(change) = terms {
             self.query = self.query.with(before.with_change(change));
         }
-        self.rest();
-        self.say_terms(before, false);
+        self.reset_playback();
+        self.report_terms(before, false);
     }
 
-    /// Another shot is on the table, or none.
-    pub(super) fn rest(&mut self) {
+    /// Resets mode and playback after the displayed shot has changed or disappeared.
+    pub(super) fn reset_playback(&mut self) {
         self.mode = Mode::Placing;
         self.playback.jump(0.0);
-        self.renew();
+        self.refresh();
     }
 
-    /// Whatever has changed, what goes with the shot is of the one that is shown now.
-    fn renew(&mut self) {
-        // A stroke that is about other balls, another question or another shot is forgotten.
+    /// Brings everything that depends on the displayed shot up to date.
+    fn refresh(&mut self) {
+        // Drop the player's own stroke if it belongs to another layout, query or shot.
         if self.what_if().is_none() {
             self.own_stroke = None;
         }
-        self.renew_lesson();
+        self.refresh_lesson();
     }
 }

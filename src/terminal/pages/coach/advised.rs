@@ -1,43 +1,43 @@
-//! The coach's advice as the player goes through it: its shots, which of them is shown, and what is known of each.
+//! The coach's advice while the player browses it: the proposed shots, which of them is shown, and the analysis of each.
 
 use std::sync::Arc;
 
 use crate::{
     coach::{Recommendation, Why},
-    terminal::{Advice, CoachQuery, Proposal, ShotAnalysis, pages::around},
+    terminal::{Advice, CoachQuery, Proposal, ShotAnalysis, pages::wrapping_index},
 };
 
 /// Advice on a layout.
 #[derive(Clone, Debug)]
 pub struct AdviceState {
-    /// What was asked.
+    /// The query that this advice answers.
     pub query: CoachQuery,
-    /// Why the first shot leads, once that is known.
+    /// Why the first shot ranks first; `None` until that has been computed.
     pub why: Option<Why>,
-    /// Tells by which errors the shots were judged.
+    /// Random seed of the simulated errors with which the shots were judged.
     pub seed: u64,
     found: Option<Arc<Recommendation>>,
     /// All shots, the recommended one first.
     pub choices: Vec<Choice>,
-    /// The place of the one that is shown.
+    /// Index of the displayed shot.
     pub chosen: usize,
 }
 
-/// One of the shots.
+/// One of the proposed shots.
 #[derive(Clone, Debug)]
 pub struct Choice {
     /// The shot.
     pub proposal: Proposal,
-    /// The closer look at it.
+    /// Its analysis; `None` until that has been computed.
     pub study: Option<Arc<ShotAnalysis>>,
-    /// The advice on where it leaves the balls.
+    /// The advice on the layout after the shot.
     pub next: Option<Advice>,
-    /// Whether all is known that will be.
+    /// Whether the analysis is complete.
     pub is_studied: bool,
 }
 
 impl AdviceState {
-    /// `advice` that `query` gave; `None` if it is empty.
+    /// Creates the state from the `advice` that answers `query`; `None` if it contains no shot.
     pub fn new(query: CoachQuery, advice: Advice) -> Option<Self> {
         let choice = |proposal| Choice { proposal, study: None, next: None, is_studied: false };
         let Advice { proposals, seed, found, .. } = advice;
@@ -45,28 +45,29 @@ impl AdviceState {
         (!choices.is_empty()).then_some(Self { query, why: None, seed, found, choices, chosen: 0 })
     }
 
-    /// What the first shot's lead follows from, while that one is shown and it is not known why it leads.
+    /// The search result from which the first shot's ranking can be explained; `None` if another shot is shown or the explanation
+    /// is known already.
     pub fn unexplained(&self) -> Option<&Arc<Recommendation>> {
         self.found.as_ref().filter(|_| self.chosen == 0 && self.why.is_none())
     }
 
-    /// The first of the attempts by which the shot that is shown was judged.
+    /// Index of the first simulated attempt with which the displayed shot was judged.
     pub fn judged_from(&self) -> usize {
         self.found.as_ref().filter(|_| self.chosen == 0).map_or(0, |found| found.judged_from)
     }
 
-    /// The one that is shown.
+    /// The displayed shot.
     pub fn choice(&self) -> &Choice {
         &self.choices[self.chosen]
     }
 
-    /// Shows the shot at this place, or the last one.
+    /// Shows the shot with this index; the last one if the index is too large.
     pub fn show(&mut self, shot: usize) {
         self.chosen = shot.min(self.choices.len() - 1);
     }
 
-    /// Shows another shot, the next where positive; after the last comes the first.
+    /// Cycles through the shots: forwards if `shots` is positive, wrapping at the end.
     pub fn turn(&mut self, shots: isize) {
-        self.chosen = around(self.chosen, shots, self.choices.len());
+        self.chosen = wrapping_index(self.chosen, shots, self.choices.len());
     }
 }

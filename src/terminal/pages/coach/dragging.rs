@@ -1,32 +1,32 @@
-//! Dragging a ball with the mouse: it goes where the mouse is, or as far as it can, and all of it is one step to take back.
+//! Dragging a ball with the mouse. The ball follows the pointer as far as it can; the whole drag is one undo step.
 
 use glam::DVec2;
 
 use crate::terminal::{Effect, pages::coach::CoachPage, shot::placing};
 
-/// A ball that is held; it is the selected one.
+/// A drag in progress. The dragged ball is the selected one.
 #[derive(Clone, Copy, Debug)]
 pub struct Drag {
-    /// From the mouse to the ball's centre, m: a ball that is taken at its edge does not jump.
+    /// Vector from the pointer to the ball's centre, m. It keeps a ball that is grabbed at its edge from jumping.
     grip: DVec2,
-    /// Whether it has moved.
+    /// Whether the ball has moved.
     is_begun: bool,
 }
 
 impl CoachPage {
-    /// Holds the selected ball; the mouse is at `pointer`, m.
+    /// Starts to drag the selected ball with the mouse at `pointer`, m.
     pub fn take_ball(&mut self, pointer: DVec2) {
         let grip = self.layout().balls[self.selected] - pointer;
         self.drag = Some(Drag { grip, is_begun: false });
     }
 
-    /// Moves the ball that is held, if any, with the mouse.
+    /// Moves the dragged ball, if any, to the mouse at `pointer`, m.
     pub fn drag_ball(&mut self, pointer: DVec2) -> Option<Effect> {
         let drag = self.drag?;
         let reach = self.table().reach();
         let mut layout = *self.layout();
         let ball = layout.balls[self.selected];
-        // The hand carries it over the others; where there is no room it stops at what is in the way.
+        // The ball may pass over the others. If there is no room at the goal, it stops at the obstacle.
         let goal = (pointer + drag.grip).clamp(-reach, reach);
         layout.balls[self.selected] = goal;
         if layout.validate(self.table()).is_err() {
@@ -43,11 +43,11 @@ impl CoachPage {
         }
         self.drag = Some(Drag { is_begun: true, ..drag });
         self.message = None;
-        self.rest();
+        self.reset_playback();
         self.study()
     }
 
-    /// Lets go of the ball.
+    /// Ends the drag.
     pub const fn drop_ball(&mut self) {
         self.drag = None;
     }

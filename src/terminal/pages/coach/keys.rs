@@ -1,4 +1,4 @@
-//! The coach's keys.
+//! Key bindings of the coach page.
 
 use crossterm::event::KeyCode::{BackTab, Down, End, Enter, Esc, Home, Left, Right, Tab, Up};
 
@@ -18,86 +18,86 @@ use crate::terminal::{
 use CoachAction::{self as A, Playback as P};
 use CoachCondition as W;
 
-/// What a key does on the coach's screen.
+/// Action of a key on the coach page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CoachAction {
     /// Selects a ball by its colour: white, yellow or red.
     Select(usize),
-    /// Selects another ball, the next where positive.
+    /// Selects another ball: the next one if positive, the one before if negative.
     SelectOther(isize),
-    /// Moves the selected ball: steps to the right and up, and how large a step is against the chosen one.
+    /// Moves the selected ball: steps to the right, steps up, and the factor on the chosen step size.
     Move(i8, i8, f64),
-    /// Chooses a larger step where positive, else a smaller one.
+    /// Chooses a larger step if positive, else a smaller one.
     Step(isize),
-    /// Chooses steps of quarter diamonds, or of millimetres again.
+    /// Switches between steps of quarter diamonds and of millimetres.
     TurnQuarters,
-    /// Asks where the balls are to lie, to be typed or pasted.
+    /// Asks for ball positions, to be typed or pasted.
     TypePositions,
-    /// Puts the balls on their spots.
+    /// Puts the balls in the opening position.
     Opening,
-    /// Puts the balls at random.
+    /// Puts the balls in random positions.
     Random,
     /// Makes the opponent's ball the cue ball.
     OtherBall,
-    /// Takes the last change of the balls back.
+    /// Undoes the last change of the balls.
     Undo,
-    /// Makes it again.
+    /// Redoes the last undone change of the balls.
     Redo,
-    /// Asks the coach.
+    /// Asks the coach for a shot.
     Recommend,
-    /// Stops asking.
+    /// Cancels the request to the coach.
     Cancel,
     /// Plays the shot or steps through it.
     Playback(PlaybackKey),
-    /// Leaves the shot, to move balls again.
+    /// Leaves the shot and returns to placing balls.
     PlaceBalls,
-    /// Takes the balls as the shot leaves them.
+    /// Continues with the layout after the shot.
     Continue,
-    /// Chooses what counts as a point.
+    /// Chooses the next rule: what counts as a point.
     NextRule,
-    /// Chooses who is to play the shot.
+    /// Chooses the next skill level of the player.
     NextSkill,
-    /// Chooses whether the next point counts.
+    /// Turns planning on or off: whether the next point counts too.
     TurnPlan,
-    /// Chooses what the cue ball is to meet first.
+    /// Chooses what the cue ball must hit first.
     NextFirstMet,
-    /// Teaches the diamond system of the shot, then the others.
+    /// Shows the lesson on the shot's diamond system, then on the other systems.
     NextSystem,
-    /// Tells the shot in the thesis' numbers, or in words again.
+    /// Switches between the thesis' numbers and words for the shot.
     TurnNumbers,
-    /// Lists all events, or contacts only.
+    /// Switches between listing all events and contacts only.
     TurnEvents,
-    /// Shows the shot's jump from the side, or no longer.
+    /// Turns the side view of the shot's jump on or off.
     TurnSideView,
-    /// Shows something else in the panels.
+    /// Shows the next panel.
     NextInfoPanel,
-    /// Shows another of the shots that may be chosen, the next where positive.
+    /// Shows another of the proposed shots: the next one if positive, the one before if negative.
     Shot(isize),
-    /// Shows one of them by its place in the list; no key does it, but the mouse.
+    /// Shows one of the proposed shots by its index. Only the mouse triggers this action, no key.
     Show(usize),
-    /// Begins a stroke of the player's own, with the shot that is shown if there is one.
+    /// Starts the player's own stroke, from the displayed shot if there is one.
     WhatIf,
-    /// Changes that stroke.
+    /// Changes the player's own stroke.
     Stroke(StrokeChange),
-    /// Asks for that stroke in a player's words.
+    /// Asks for the player's own stroke in a player's words.
     TypeStroke,
-    /// Takes the last change of the stroke back.
+    /// Undoes the last change of the stroke.
     StrokeBack,
-    /// Makes it again.
+    /// Redoes the last undone change of the stroke.
     StrokeAgain,
-    /// Leaves the player's own stroke for the coach's shot.
+    /// Leaves the player's own stroke and returns to the coach's shot.
     LeaveStroke,
-    /// Asks the bundled policies again.
+    /// Returns to the bundled policies.
     Bundled,
-    /// Goes on from where the last session ended.
+    /// Resumes the last session.
     Resume,
-    /// Asks for a title under which the balls are saved as a position to practise.
+    /// Saves the balls as a practice position, after asking for its title.
     SavePosition,
-    /// Answers what is asked: yes, or what was typed; or no.
+    /// Answers the open question: `true` for yes or the typed text, `false` for no.
     Answer(bool),
-    /// Lets others see the table, or no longer.
+    /// Starts or stops sharing the table with spectators.
     TurnShown,
-    /// Opens the drills.
+    /// Opens the drills page.
     OpenDrills,
     /// Opens the list of filmed shots.
     OpenFilms,
@@ -105,10 +105,10 @@ pub enum CoachAction {
     OpenTraining,
 }
 
-/// When a binding of the coach may be used.
+/// Condition under which a key binding of the coach page is enabled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CoachCondition {
-    /// Whatever the coach does.
+    /// In every state.
     Always,
     /// While the coach is not thinking.
     Idle,
@@ -116,31 +116,31 @@ pub enum CoachCondition {
     Placing,
     /// While a shot is watched.
     Watching,
-    /// Where a shot is there.
+    /// If there is a shot.
     Shot,
     /// While the coach thinks.
     Thinking,
-    /// Where there are several shots to choose from.
+    /// If there are several shots to choose from.
     Choice,
-    /// Where a change can be taken back.
+    /// If a change can be undone.
     Undoable,
-    /// Where a change was taken back.
+    /// If an undone change can be redone.
     Redoable,
-    /// Where the player's own stroke was changed.
+    /// If the player's own stroke was changed.
     StrokeChanged,
-    /// Where a change of it was taken back.
+    /// If an undone change of the player's own stroke can be redone.
     StrokeUndone,
-    /// Where the player's own strokes have moved the balls.
+    /// If the player's own strokes have moved the balls.
     PlayedOn,
-    /// Where a policy is asked that a user has trained.
+    /// If the coach uses a policy that the user has trained.
     Trained,
-    /// Where an earlier session can be gone on with.
+    /// If an unfinished exam or an earlier session can be resumed.
     Interrupted,
-    /// Where the player has a name.
+    /// If the player has a name.
     Named,
 }
 
-/// The keys, the more particular ones first.
+/// Key bindings, with the more specific conditions first.
 #[rustfmt::skip]
 pub const COACH: &[Binding<A, W>] = &[
     bind(Shot, W::Thinking, &[key(Esc, A::Cancel)], Some(("cancel", 1)), "stop the coach's thinking"),
@@ -223,7 +223,7 @@ pub const COACH: &[Binding<A, W>] = &[
         "plan on or off: whether the next point counts too",
         ]),
     bind(Shot, W::Idle, &[letter('B', A::NextFirstMet)], None,
-        "what the cue ball shall meet first: anything, the other cue ball, red, a cushion").known_as("bank rail pattern wish"),
+        "what the cue ball must hit first: anything, the other cue ball, red, a cushion").known_as("bank rail pattern wish"),
     bind(Balls, W::Idle, &[key(Tab, A::SelectOther(1)), key(BackTab, A::SelectOther(-1)), letter('1', A::Select(0)),
         letter('2', A::Select(1)), letter('3', A::Select(2))], Some(("ball", 1)), "select a ball: white, yellow, red").each(&[
         "select the next ball", "select the ball before", "select the white ball", "select the yellow ball",
@@ -249,7 +249,7 @@ pub const COACH: &[Binding<A, W>] = &[
         "train agents and watch them learn"),
 ];
 
-/// The table of somebody else, who is followed.
+/// Key bindings while the page follows the table of another player.
 #[rustfmt::skip]
 pub const FOLLOW: &[Binding<A, W>] = &[
     bind(Shot, W::Shot, &[letter('N', A::TurnNumbers)], Some(("numbers", 1)), "the shot in the thesis' numbers, or in words again")
@@ -260,7 +260,7 @@ pub const FOLLOW: &[Binding<A, W>] = &[
         "the jump from the side: height over way, or the table alone").known_as("jump hop height flight profile"),
 ];
 
-/// A stroke of the player's own.
+/// Key bindings for the player's own stroke.
 #[rustfmt::skip]
 pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Always, [
     bind(Stroke, W::Always, &[letter(' ', P(Toggle)), key(Enter, P(Toggle))], Some(("play", 1)),

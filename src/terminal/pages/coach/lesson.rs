@@ -1,5 +1,5 @@
-//! The lesson on diamond systems over the coach's table: one system after the other, with the shot's own numbers where one
-//! applies to it, else with an example's.
+//! The lesson on diamond systems on the coach's table. It goes through the systems one by one. A system that applies to the shot is
+//! shown with the shot's numbers, any other with an example.
 
 use std::sync::Arc;
 
@@ -11,20 +11,20 @@ use crate::{
     terminal::{AdviceState, pages::coach::CoachPage},
 };
 
-/// A system, or a parallel shift, as it is shown.
+/// A diamond system or a parallel shift, as displayed.
 #[derive(Clone, Debug)]
 pub struct Lesson {
-    /// What is counted.
+    /// The system or shift with its numbers.
     pub guide: Guide,
-    /// Whether they are those of the shot that is shown.
+    /// Whether the numbers belong to the displayed shot; otherwise they are an example.
     pub is_of_shot: bool,
-    /// The way of a ball that is played so, m.
+    /// Path of a ball that is played according to the system, m.
     pub path: Vec<DVec2>,
-    /// The table on which it is.
+    /// The table for which the path was computed.
     pub table: Arc<Table>,
 }
 
-/// The system of which a guide is; `None` for a parallel shift.
+/// Returns the system of a guide; `None` for a parallel shift.
 const fn system_of(guide: &Guide) -> Option<System> {
     match guide {
         Guide::System(applied) => Some(applied.system),
@@ -33,18 +33,18 @@ const fn system_of(guide: &Guide) -> Option<System> {
 }
 
 impl CoachPage {
-    /// What a player counts for the shot that is shown, once that is known.
+    /// The system or shift for the displayed shot; `None` until its analysis is there, or if none applies.
     pub fn guide(&self) -> Option<&Guide> {
         self.shown().map(AdviceState::choice)?.study.as_ref()?.system.as_ref()
     }
 
-    /// Whether it is known that nothing is counted for the shot that is shown.
+    /// Whether the analysis has found that no system applies to the displayed shot.
     pub fn has_no_system(&self) -> bool {
         let study = self.shown().and_then(|advised| advised.choice().study.as_ref());
         study.is_some_and(|study| study.system.is_none())
     }
 
-    /// Opens the lesson at what is counted for the shot, goes on to the next system, and closes it after the last.
+    /// Opens the lesson with the shot's own system, steps to the next system, and closes the lesson after the last one.
     pub(super) fn next_lesson(&mut self) {
         let mut order: Vec<Option<System>> = System::ALL.map(Some).to_vec();
         if let Some(own) = self.guide().map(system_of) {
@@ -61,32 +61,33 @@ impl CoachPage {
         self.lesson = next.and_then(|system| self.lesson_on(*system));
     }
 
-    /// Closes the lesson on an example, beside which the shot is not drawn.
+    /// Closes the lesson if it shows an example, because an example hides the shot.
     pub(super) fn leave_example(&mut self) {
         self.lesson.take_if(|lesson| !lesson.is_of_shot);
     }
 
-    /// Keeps the lesson's numbers those of the shot that is shown, on the table that is played on.
-    pub(super) fn renew_lesson(&mut self) {
+    /// Updates the lesson to the displayed shot and the current table.
+    pub(super) fn refresh_lesson(&mut self) {
         let Some(lesson) = &self.lesson else { return };
-        let current = self.of_shot(system_of(&lesson.guide));
+        let current = self.guide_of_shot(system_of(&lesson.guide));
         let is_other = !Arc::ptr_eq(&lesson.table, &self.history.present().table)
             || lesson.is_of_shot != current.is_some()
             || current.is_some_and(|guide| *guide != lesson.guide);
         if is_other {
-            // Beside an example no balls are drawn, so that one does not come unasked.
+            // An example hides the balls, so it must not appear unless the user asked for it.
             let was_of_shot = lesson.is_of_shot;
             self.lesson = self.lesson_on(system_of(&lesson.guide)).filter(|lesson| lesson.is_of_shot || !was_of_shot);
         }
     }
 
-    fn of_shot(&self, system: Option<System>) -> Option<&Guide> {
+    fn guide_of_shot(&self, system: Option<System>) -> Option<&Guide> {
         self.guide().filter(|guide| system_of(guide) == system)
     }
 
-    /// A shift is always the shot's; a system has an example besides.
+    /// Returns the lesson on a system, or on the parallel shift if `None`. A shift always belongs to the shot; a system can also be
+    /// shown with an example.
     fn lesson_on(&self, system: Option<System>) -> Option<Lesson> {
-        let own = self.of_shot(system).cloned();
+        let own = self.guide_of_shot(system).cloned();
         let is_of_shot = own.is_some();
         let guide = own.or_else(|| Applied::example(system?, self.table()).map(Guide::System))?;
         let table = Arc::clone(&self.history.present().table);

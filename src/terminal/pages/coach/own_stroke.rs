@@ -1,5 +1,5 @@
-//! What if: the player's own stroke, which keys change. It begins as the coach's shot, which stays as it was, or where there is none
-//! full at a ball.
+//! "What if": the player's own stroke, which keys change. It starts as a copy of the coach's shot, or aimed full at a ball if there is
+//! no shot. The coach's shot itself stays unchanged.
 
 use std::sync::Arc;
 
@@ -17,25 +17,25 @@ use crate::{
     },
 };
 
-/// Attempts at a stroke of the player's own where the coach's was not judged, since its search was stopped.
+/// Number of simulated attempts at the player's own stroke, if the coach's shot was not judged because the search was stopped.
 const JUDGED: usize = 500;
 
-/// The fewest where it was.
+/// Minimum number of simulated attempts if the coach's shot was judged.
 const LEAST: usize = 100;
 
-/// The player's own stroke, beside the coach's where there is one.
+/// The player's own stroke, next to the coach's if there is one.
 #[derive(Debug)]
 pub struct Own {
     stroke: OwnStroke,
     pub(super) what_if: WhatIf,
-    /// The balls, on their table, and the question that it is about.
+    /// The table, layout and query to which the stroke belongs.
     about: (Arc<Table>, Layout, CoachQuery),
-    /// How many strokes of the player's own have brought the balls there, one after the other.
+    /// Number of the player's own strokes that were played one after the other to reach this layout.
     played_on: usize,
 }
 
 impl CoachPage {
-    /// The player's own stroke beside the coach's shot that is shown, or beside none; nothing where another is shown by now.
+    /// The player's own stroke; `None` if the layout, the query or the coach's displayed shot has changed since it was set.
     pub fn what_if(&self) -> Option<&WhatIf> {
         let Own { what_if, about: (table, layout, query), .. } =
             self.own_stroke.as_ref().filter(|_| self.pending.is_none())?;
@@ -45,13 +45,14 @@ impl CoachPage {
         (is_here && is_beside).then_some(what_if)
     }
 
-    /// Whether the stroke can be set as it was before its last change, and after it again.
+    /// Whether a change of the stroke can be undone, and whether one can be redone.
     pub(super) fn can_travel(&self) -> (bool, bool) {
         self.own_stroke.as_ref().map_or((false, false), |own| own.stroke.can_travel())
     }
 
-    /// Takes the coach's shot over into the player's own stroke, after so many of them; without one that is aimed full at a ball.
-    pub(super) fn take_over(&mut self, played_on: usize) -> Option<Effect> {
+    /// Starts the player's own stroke from the coach's shot, or aimed full at a ball if there is none. `played_on` is the number of own
+    /// strokes before this one.
+    pub(super) fn start_own_stroke(&mut self, played_on: usize) -> Option<Effect> {
         let situation = self.situation();
         let (cue, what_if) = if let Some(coach) = self.proposal().map(|proposal| Arc::clone(&proposal.shot)) {
             (coach.cue, Ok(WhatIf::new(coach, situation)))
@@ -72,36 +73,36 @@ impl CoachPage {
         self.judge()
     }
 
-    /// How many strokes of the player's own have brought the balls where they lie.
+    /// Number of the player's own strokes that led to the current layout.
     pub(super) fn played_on(&self) -> usize {
         self.own_stroke.as_ref().map_or(0, |own| own.played_on)
     }
 
-    /// Takes the balls as the player's own stroke leaves them, for the next one.
-    pub(super) fn play_on(&mut self) -> Option<Effect> {
+    /// Continues with the layout after the player's own stroke and starts the next stroke.
+    pub(super) fn play_next_own_stroke(&mut self) -> Option<Effect> {
         let end = self.what_if()?.shot.recording.final_layout();
         if let Err(error) = end.validate(self.table()) {
             return self.refuse(error);
         }
         let played_on = self.played_on() + 1;
         self.place(end);
-        self.take_over(played_on)
+        self.start_own_stroke(played_on)
     }
 
-    /// Puts the balls back where the last stroke of the player's own was played.
-    pub(super) fn play_back(&mut self) -> Option<Effect> {
+    /// Puts the balls back to the positions before the player's last own stroke.
+    pub(super) fn undo_own_stroke(&mut self) -> Option<Effect> {
         let played_on = self.played_on().checked_sub(1)?;
         self.undo();
-        self.take_over(played_on)
+        self.start_own_stroke(played_on)
     }
 
-    /// Leaves the player's own stroke; the coach's shot stays as it was.
+    /// Discards the player's own stroke; the coach's shot stays unchanged.
     pub(super) fn leave_own_stroke(&mut self) {
         self.own_stroke = None;
         if self.proposal().is_some() {
             self.watch_from_the_stroke();
         } else {
-            self.rest();
+            self.reset_playback();
         }
     }
 
@@ -121,8 +122,11 @@ impl CoachPage {
         self.question = Some(Question::Stroke(TextField::new(LONGEST)));
     }
 
-    /// Sets the player's own stroke as `words` say it, or says why not.
-    pub(super) fn say_stroke(&mut self, words: &str) -> Result<Option<Effect>, String> {
+    /// Sets the player's own stroke from its description in words.
+    ///
+    /// # Errors
+    /// Returns a message if the words do not describe a possible stroke.
+    pub(super) fn set_stroke_in_words(&mut self, words: &str) -> Result<Option<Effect>, String> {
         let (table, layout, cue_ball) = (Arc::clone(&self.history.present().table), *self.layout(), self.cue_ball());
         let Some(own) = &self.own_stroke else { return Ok(None) };
         let mut stroke = own.stroke.clone();
@@ -130,8 +134,8 @@ impl CoachPage {
         Ok(self.strike(stroke))
     }
 
-    /// Sets the player's own stroke as it was before its last change, or after it again.
-    pub(super) fn travel_stroke(&mut self, step: impl Fn(&mut OwnStroke) -> bool) -> Option<Effect> {
+    /// Undoes or redoes a change of the player's own stroke, as `step` does.
+    pub(super) fn step_stroke_history(&mut self, step: impl Fn(&mut OwnStroke) -> bool) -> Option<Effect> {
         let mut stroke = self.own_stroke.as_ref()?.stroke.clone();
         step(&mut stroke);
         self.strike(stroke)
@@ -151,8 +155,9 @@ impl CoachPage {
         self.judge()
     }
 
-    /// Asks how often the player makes the stroke as it is set now, under the errors by which the coach's was judged: two strokes
-    /// are to differ by what they are, and not by luck. One who makes no errors does not ask.
+    /// Requests the success rate of the player's current stroke. The simulated errors are those with which the coach's shot was
+    /// judged (common random numbers), so that two strokes differ by themselves and not by luck. A player without errors needs no
+    /// request.
     fn judge(&mut self) -> Option<Effect> {
         if self.query.skill.is_perfect() {
             return None;
@@ -183,7 +188,7 @@ mod tests {
     };
     use std::sync::atomic::Ordering;
 
-    /// The opening with the coach's shot on it.
+    /// Returns a page with the opening position and the coach's shot on it.
     fn advised() -> CoachPage {
         let table = Table::default();
         let layout = Layout::opening(&table);
@@ -198,7 +203,7 @@ mod tests {
         page
     }
 
-    /// The question that an action asks about the stroke.
+    /// Performs an action and returns the job about the own stroke that it requests.
     fn asked(page: &mut CoachPage, action: Action) -> Box<CoachJob> {
         match page.update(action) {
             Some(Effect::Ask(job)) if job.stroke.is_some() => job,

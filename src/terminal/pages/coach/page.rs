@@ -1,4 +1,4 @@
-//! What the app asks of this page.
+//! The app's interface to the coach page.
 
 use super::{CoachPage, SPINNER_INTERVAL, question::Question};
 use crate::{
@@ -27,7 +27,7 @@ impl Page for CoachPage {
         }
         let taken = self.field_mut().is_some_and(|field| field.take(typed));
         if let (Typed::Paste(text), false) = (typed, self.question.is_some()) {
-            // What is pasted over the table says where the balls lie.
+            // Text that is pasted while no question is open contains ball positions.
             self.paste(text);
             return true;
         }

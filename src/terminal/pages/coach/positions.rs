@@ -1,4 +1,4 @@
-//! Typing where the balls lie, and pasting it: one ball or all of them, in diamonds or metres, or a share code.
+//! Typed and pasted ball positions: one ball or all three, in diamonds or metres, or a share code.
 
 use crate::{
     drills::{decode, is_code},
@@ -10,27 +10,30 @@ use crate::{
     },
 };
 
-/// Longest text that is typed or pasted, bytes: a share code with room to spare.
+/// Maximum length of a typed or pasted text, bytes: a share code with room to spare.
 const LONGEST: usize = 600;
 
 impl CoachPage {
-    /// Asks where the balls are to lie.
+    /// Asks the user for ball positions.
     pub(super) fn ask_positions(&mut self) {
         self.playback.pause();
         self.question = Some(Question::Positions(TextField::new(LONGEST)));
     }
 
-    /// Puts the balls where the pasted text says.
+    /// Puts the balls in the pasted positions.
     pub(super) fn paste(&mut self, text: &str) {
         if let Err(sentence) = self.take_typed(text) {
-            // Whoever pastes by accident is not asked to mend it.
+            // The paste may be an accident, so there is no question that asks for a correction.
             self.message = Some(Message::warning(format!("pasted text not used: {sentence}")));
         }
     }
 
-    /// Puts the balls where the text says, or says why not.
+    /// Puts the balls in the positions of the text, or in those of a share code.
+    ///
+    /// # Errors
+    /// Returns a message if the text contains no possible position.
     pub(super) fn take_typed(&mut self, text: &str) -> Result<(), String> {
-        // What is longer is neither, and no sentence is to repeat it all.
+        // A longer text is neither positions nor a share code. It is cut so that an error message cannot repeat all of it.
         let end = (0..=LONGEST.min(text.len())).rev().find(|end| text.is_char_boundary(*end)).unwrap_or_default();
         let text = text[..end].trim();
         if is_code(text) {
@@ -47,12 +50,12 @@ impl CoachPage {
         self.cancel();
         self.place(layout);
         let is_opening = Point::of(self.query.rule, self.table(), &layout).red_first;
-        let said = if is_opening {
+        let message = if is_opening {
             "this is the opening: red has to be met first"
         } else {
-            "the balls lie where it was typed"
+            "the balls are in the typed positions"
         };
-        self.message = Some(Message::good(format!("{said}; Enter asks the coach")));
+        self.message = Some(Message::good(format!("{message}; Enter asks the coach")));
         Ok(())
     }
 }

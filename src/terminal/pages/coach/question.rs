@@ -1,4 +1,4 @@
-//! What is asked over the table, and what is done about the answer.
+//! The questions that the coach page asks over the table, and the handling of their answers.
 
 use crate::{
     drills::Exercise,
@@ -16,18 +16,18 @@ use crate::{
 /// A question that waits for an answer.
 #[derive(Debug)]
 pub enum Question {
-    /// Where the balls are to lie, as far as it is typed.
+    /// Ball positions, with the text typed so far.
     Positions(TextField),
-    /// The player's own stroke in words, as far as it is typed.
+    /// The player's own stroke in words, with the text typed so far.
     Stroke(TextField),
-    /// What the position that is saved is to be called, and tags, as far as they are typed.
+    /// Title and tags of the position to save, with the text typed so far.
     Title(TextField, Box<Exercise>),
-    /// Whether the position of the same name may be replaced.
+    /// Whether to replace the saved position with the same name.
     Replace(Box<Exercise>),
 }
 
 impl Question {
-    /// The question, without what is typed; `selected` is the ball of these `names` that may be placed alone.
+    /// The question, without the typed answer. `selected` is the index in `names` of the ball that can be placed alone.
     pub fn text(&self, names: [&str; 3], selected: usize) -> String {
         match self {
             Self::Positions(_) => {
@@ -46,7 +46,7 @@ impl Question {
         }
     }
 
-    /// The text that is typed, where some is.
+    /// The text field of the answer; `None` if the answer is yes or no.
     pub const fn field(&self) -> Option<&TextField> {
         match self {
             Self::Positions(typed) | Self::Stroke(typed) | Self::Title(typed, _) => Some(typed),
@@ -56,12 +56,12 @@ impl Question {
 }
 
 impl CoachPage {
-    /// Does what was asked. What is typed and cannot be taken stays, to be mended.
+    /// Performs what the open question asked about. If the typed text is not valid, the question stays open for a correction.
     pub(super) fn yes(&mut self) -> Option<Effect> {
         let question = self.question.take()?;
         let done = match &question {
             Question::Positions(typed) => self.take_typed(typed.text()).map(|()| None),
-            Question::Stroke(typed) => self.say_stroke(typed.text()),
+            Question::Stroke(typed) => self.set_stroke_in_words(typed.text()),
             Question::Title(typed, position) => {
                 named(typed.text(), position).map(|exercise| Some(self.save(exercise, false)))
             }

@@ -1,4 +1,4 @@
-//! Asking the coach: questions, what it says to them, and the closer look at the shot that is shown.
+//! Requests to the coach, the handling of its answers, and the background analysis of the displayed shot.
 
 use std::sync::{
     Arc,
@@ -20,20 +20,20 @@ use crate::{
     },
 };
 
-/// A question that the coach has not answered yet.
+/// A request that the coach has not answered yet.
 #[derive(Debug)]
 pub struct Pending {
     id: u64,
     cancel: Arc<AtomicBool>,
-    /// What was asked: another player may have been chosen meanwhile.
+    /// The query of this request. The page's query may have changed since then.
     pub query: CoachQuery,
-    /// Seconds since it was asked.
+    /// Time since the request, s.
     pub waited: f64,
     /// The best shot so far.
     pub so_far: Option<Proposal>,
 }
 
-/// A closer look that is being taken.
+/// A background analysis of a shot that is running.
 #[derive(Debug)]
 pub struct Studying {
     id: u64,
@@ -53,9 +53,9 @@ impl CoachPage {
     }
 
     pub(super) fn job(&mut self, shot: Option<CueInputs>) -> CoachJob {
-        self.questions += 1;
+        self.job_count += 1;
         CoachJob {
-            id: self.questions,
+            id: self.job_count,
             table: self.table().clone(),
             layout: *self.layout(),
             query: self.query.clone(),
@@ -64,12 +64,12 @@ impl CoachPage {
             found: None,
             stroke: None,
             budget: self.budget,
-            seed: self.questions,
+            seed: self.job_count,
             cancel: Arc::default(),
         }
     }
 
-    /// Stops asking; the best shot so far stays.
+    /// Cancels the pending request; the best shot so far is kept.
     pub(super) fn cancel(&mut self) {
         let Some(pending) = self.pending.take() else { return };
         pending.cancel.store(true, Ordering::Relaxed);
@@ -83,7 +83,7 @@ impl CoachPage {
         self.message = Some(Message::plain(words));
     }
 
-    /// The coach has something to say. Late answers to cancelled questions are dropped.
+    /// Handles an answer from the coach's worker thread. Late answers to cancelled requests are dropped.
     pub fn receive(&mut self, answer: CoachAnswer) -> Option<Effect> {
         let names = self.cue_ball().names();
         let awaited = self.pending.as_mut().filter(|pending| pending.id == answer.id);
@@ -99,7 +99,7 @@ impl CoachPage {
                 let query = pending.query.clone();
                 self.pending = None;
                 self.message = if query == self.query {
-                    advice.proposals.first().map(|best| news(best, advice.effort, &query, names))
+                    advice.proposals.first().map(|best| proposal_message(best, advice.effort, &query, names))
                 } else {
                     let [asked, now] = [query.skill, self.query.skill].map(skill_word);
                     Some(Message::plain(format!("this answer is for {asked}; Enter asks for {now}")))
@@ -133,12 +133,12 @@ impl CoachPage {
             }
             _ => {}
         }
-        self.renew_lesson();
+        self.refresh_lesson();
         self.study()
     }
 
-    /// The shot that is being studied, and why its advice's first shot leads: another may be shown meanwhile, and the advice may be
-    /// gone.
+    /// The shot under analysis, and the explanation of its advice's ranking, for storing results. Another shot may be displayed by now.
+    /// `None` if the advice no longer exists.
     fn studied(&mut self) -> Option<(&mut Option<Why>, &mut Choice)> {
         let shot = &self.studying.as_ref()?.shot;
         self.history.present_mut().advised.iter_mut().find_map(|AdviceState { why, choices, .. }| {
@@ -146,14 +146,14 @@ impl CoachPage {
         })
     }
 
-    /// Whether this says no more than how often the first shot is made.
+    /// Whether the message contains nothing but the success rate of the first shot.
     pub(super) fn is_bare_chance(&self, message: &Message) -> bool {
         let best = self.advised().and_then(|advised| advised.choices.first());
         let chance = best.and_then(|choice| chance(&choice.proposal, &self.query));
         chance.is_some_and(|chance| message.text == made_words(&self.query, &chance))
     }
 
-    /// Keeps the advice on the layout that `query` gave, and shows it from its best shot on if that is what is asked now.
+    /// Stores the advice that answers `query`. If that is the current query, shows its best shot.
     fn show(&mut self, query: CoachQuery, advice: Advice) {
         let is_asked = query == self.query;
         let advised = &mut self.history.present_mut().advised;
@@ -169,8 +169,8 @@ impl CoachPage {
         self.mode = Mode::Watching;
     }
 
-    /// Takes a closer look at the shot that is shown, as long as there is something to find out, and at no other. A stroke of the
-    /// player's own comes before that.
+    /// Starts the background analysis of the displayed shot, if it is incomplete, and cancels the analysis of any other shot. While the
+    /// player has an own stroke, no analysis runs.
     pub fn study(&mut self) -> Option<Effect> {
         let advised = self.advised().filter(|_| self.pending.is_none() && self.own_stroke.is_none());
         let wanted = advised.map(AdviceState::choice).filter(|choice| !choice.is_studied);
@@ -197,16 +197,16 @@ impl CoachPage {
             let words = format!("shot {} of {}", advised.chosen + 1, advised.choices.len());
             let proposal = &advised.choice().proposal;
             self.message = Some(match chance(proposal, &advised.query) {
-                // Whose chance it is stands above the list, and one row is all there is.
+                // The panel above the list names the player, and the status line has only one row.
                 Some(chance) => Message::good(format!("{words}: {chance}")),
-                None => news(proposal, None, &advised.query, names).prefixed(&words),
+                None => proposal_message(proposal, None, &advised.query, names).prefixed(&words),
             });
         }
         self.leave_example();
         self.watch_from_the_stroke();
     }
 
-    pub(super) fn go_on(&mut self) -> Option<Effect> {
+    pub(super) fn continue_from_end(&mut self) -> Option<Effect> {
         let choice = self.advised()?.choice();
         let (end, next) = (choice.proposal.shot.recording.final_layout(), choice.next.clone());
         if let Err(error) = end.validate(self.table()) {
@@ -214,30 +214,31 @@ impl CoachPage {
         }
         self.place(end);
         let Some(next) = next else { return Some(self.ask()) };
-        self.message = next.proposals.first().map(|best| news(best, None, &self.query, self.cue_ball().names()));
+        self.message =
+            next.proposals.first().map(|best| proposal_message(best, None, &self.query, self.cue_ball().names()));
         self.show(self.query.clone(), next);
         None
     }
 
-    /// Asks for something else from now on, and says so. A shot that answers another question is not shown, until that is asked
-    /// again or the step is taken back.
-    pub(super) fn ask_for(&mut self, terms: Terms) {
+    /// Changes the query terms and reports the change. A shot for other terms is hidden until these terms are chosen again or the
+    /// step is undone.
+    pub(super) fn choose_terms(&mut self, terms: Terms) {
         let (before, had_shot) = (self.query.terms(), self.proposal().is_some());
         self.change_terms(terms);
-        self.say_terms(before, had_shot);
+        self.report_terms(before, had_shot);
     }
 
-    /// Asks for something else from now on, as a step that can be taken back.
+    /// Changes the query terms, as an undoable step.
     pub(super) fn change_terms(&mut self, terms: Terms) {
         let terms = [self.query.terms(), terms];
         self.history.push(Snapshot { terms: Some(terms), ..self.history.present().clone() });
         self.query = self.query.with(terms[1]);
-        self.rest();
+        self.reset_playback();
     }
 
-    /// Says what is asked for otherwise than `before`, where anything is, and shows the shot for it if that is known; else whether
-    /// the one that was shown can be had back.
-    pub(super) fn say_terms(&mut self, before: Terms, had_shot: bool) {
+    /// Reports how the query terms differ from `before`, if they do. Shows the shot for the new terms if it is known; otherwise the
+    /// message says how to get one.
+    pub(super) fn report_terms(&mut self, before: Terms, had_shot: bool) {
         let words = self.query.terms().news_since(before, self.cue_ball().names());
         if words.is_empty() {
             return;
@@ -254,7 +255,7 @@ impl CoachPage {
     }
 }
 
-/// How often the player makes it, in a sentence.
+/// A sentence with the success rate `chance` of the player.
 fn made_words(query: &CoachQuery, chance: &str) -> String {
     match named_skill(query.skill) {
         Some(name) => format!("{name} makes it {chance}"),
@@ -262,8 +263,13 @@ fn made_words(query: &CoachQuery, chance: &str) -> String {
     }
 }
 
-/// A proposal in a sentence, where the balls are called so, the cue ball first.
-fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery, names: [&'static str; BALLS]) -> Message {
+/// Describes a proposal in a sentence. `names` are the names of the balls, the cue ball first.
+fn proposal_message(
+    proposal: &Proposal,
+    effort: Option<Effort>,
+    query: &CoachQuery,
+    names: [&'static str; BALLS],
+) -> Message {
     let shot = &proposal.shot;
     let took = effort.map_or(String::new(), |effort| match effort.elapsed.as_millis() {
         0 => ", under 1 ms".to_owned(),
@@ -283,14 +289,14 @@ fn news(proposal: &Proposal, effort: Option<Effort>, query: &CoachQuery, names: 
     };
     let cause = match proposal.risk.and_then(|risk| risk.main_cause(proposal.made.map(|made| 1.0 - made.rate))) {
         Some(Cause::Table) => "; the table is the main risk: F7 measures it",
-        Some(Cause::Placing) => "; the balls' places are the main risk",
+        Some(Cause::Placing) => "; the ball positions are the main risk",
         Some(Cause::Hand) | None => "",
     };
     let forbidden = if query.jumps { "" } else { "; jumps are off" };
     Message::good(format!("{}{cause}{forbidden}", made_words(query, &chance)))
 }
 
-/// How often the player makes a shot, where there is a doubt.
+/// The success rate of a shot in words; `None` if it is not solved or the player makes no errors.
 fn chance(proposal: &Proposal, query: &CoachQuery) -> Option<String> {
     proposal.made.filter(|_| proposal.shot.solved && !query.skill.is_perfect()).as_ref().map(chance_words)
 }

@@ -1,5 +1,5 @@
-//! Saving the balls as a position to practise: a title is asked for over the table, and where there is a position of its
-//! name already, whether that may be replaced.
+//! Saving the balls as a practice position. The page asks for a title, and for a confirmation if a position with the same name
+//! exists already.
 
 use crate::{
     drills::{Category, Exercise, LONGEST_TITLE, Library, bare_tag},
@@ -12,15 +12,15 @@ use crate::{
     },
 };
 
-/// The bundled table for which positions of other tables are saved.
+/// The bundled table for which positions on custom tables are saved.
 const FOR_ALL: &str = "match";
 
-/// Longest name that is made of a title, letters.
+/// Maximum length of a name that is derived from a title, characters.
 const LONGEST_NAME: usize = 40;
 
 impl CoachPage {
-    /// Asks for a title of the position on the table, with the shot that makes the point there if it is known. Positions are for everybody:
-    /// one on a table of one's own is saved for [`FOR_ALL`], on which its shot would be another.
+    /// Asks for the title of the current position. The position includes the displayed shot if that makes the point. Positions can be
+    /// shared, so one on a custom table is saved for [`FOR_ALL`], without the shot, which is different there.
     pub(super) fn ask_title(&mut self) {
         self.playback.pause();
         let shot = self.shot().filter(|shot| shot.solved).map(|shot| shot.cue);
@@ -39,18 +39,19 @@ impl CoachPage {
         }
     }
 
-    /// Saves a position, over one of its name if `replace` says so.
+    /// Saves a position; `replace` allows overwriting one with the same name.
     pub(super) fn save(&mut self, exercise: Box<Exercise>, replace: bool) -> Effect {
-        self.writing = Some(exercise.name.clone());
+        self.saving_name = Some(exercise.name.clone());
         Effect::Drill(vec![DrillTask::SavePosition(exercise, replace)])
     }
 
-    /// Whether the position called `name` was saved from here; asked once.
+    /// Whether this page has saved the position `name`. Returns `true` only once per save.
     pub fn has_saved(&mut self, name: &str) -> bool {
-        self.writing.take_if(|writing| writing == name).is_some()
+        self.saving_name.take_if(|saving_name| saving_name == name).is_some()
     }
 
-    /// A position is on the disk, or one of its name was there before, or it could not be written.
+    /// Handles the result of saving a position: `Ok(true)` if it is on the disk, `Ok(false)` if one with the same name exists, or the
+    /// message of an error.
     pub fn saved(&mut self, exercise: Box<Exercise>, outcome: Result<bool, String>) {
         let name = &exercise.name;
         match outcome {
@@ -67,10 +68,10 @@ impl CoachPage {
     }
 }
 
-/// The position under what was typed.
+/// Returns the position with title, name and tags from the typed text.
 ///
 /// # Errors
-/// A sentence where no name comes of it, or one that the program itself has taken.
+/// Returns a message if the text gives no valid name, or the name of a bundled exercise.
 pub(super) fn named(typed: &str, position: &Exercise) -> Result<Box<Exercise>, String> {
     let (title, name, tags) = title_name_tags(typed)?;
     if Library::bundled().is_bundled(&name) {
@@ -79,10 +80,10 @@ pub(super) fn named(typed: &str, position: &Exercise) -> Result<Box<Exercise>, S
     Ok(Box::new(Exercise { name, title, tags, ..position.clone() }))
 }
 
-/// The title, the name that is made of it, and the tags of a position, from what was typed.
+/// Parses the typed text into the title of a position, the name derived from it, and the tags.
 ///
 /// # Errors
-/// A sentence where no name comes of it.
+/// Returns a message if the title gives no valid name.
 fn title_name_tags(typed: &str) -> Result<(String, String, Vec<String>), String> {
     let (tags, words): (Vec<&str>, Vec<&str>) = typed.split_whitespace().partition(|word| word.starts_with('#'));
     let title = words.join(" ");
@@ -90,7 +91,7 @@ fn title_name_tags(typed: &str) -> Result<(String, String, Vec<String>), String>
     for letter in title.to_lowercase().chars() {
         match letter {
             _ if letter.is_alphanumeric() => name.push(letter),
-            // One hyphen between two words, whatever else stands there.
+            // Any run of other characters between two words becomes one hyphen.
             _ if !name.is_empty() && !name.ends_with('-') => name.push('-'),
             _ => {}
         }

@@ -1,4 +1,4 @@
-//! Others who look on: what the player lets them see of this table, and the same table as they see it.
+//! Spectators: sharing this table with others, and showing the shared table of another player.
 
 use std::{path::PathBuf, sync::Arc};
 
@@ -14,50 +14,50 @@ use crate::{
     },
 };
 
-/// What stands before all that the status line says while others may look on.
+/// Prefix of the status line while the table is shared.
 const SHOWN: &str = "shown to others";
 
-/// Who else is at the table.
+/// Sharing state of the table.
 #[derive(Debug)]
-pub enum Company {
-    /// Nobody.
-    Alone,
-    /// Others may look on.
-    Others,
-    /// Somebody whose table it is: it is looked at, and nothing else.
-    Host(Followed),
+pub enum Sharing {
+    /// The table is private.
+    Private,
+    /// The table is shared with spectators.
+    Shared,
+    /// The page shows the table of another player, read-only.
+    Following(Followed),
 }
 
-/// Somebody else whose table this page shows.
+/// Another player whose table this page shows.
 #[derive(Debug)]
 pub struct Followed {
-    /// Their name.
+    /// The other player's name.
     pub name: String,
-    /// The folder in which they show their table.
+    /// The folder in which the other player's program writes the shared table.
     pub folder: PathBuf,
-    /// What is seen of it.
+    /// The latest state of the shared table.
     seen: Seen,
 }
 
 impl Followed {
-    /// Nothing is seen yet.
+    /// Creates the state before the shared table has been read.
     pub const fn new(name: String, folder: PathBuf) -> Self {
         Self { name, folder, seen: Seen::Nothing }
     }
 
-    /// Why there is nothing to see; `None` where there is.
+    /// The reason why there is no table to show; `None` if there is one.
     pub fn emptiness(&self) -> Option<String> {
         let name = &self.name;
         match &self.seen {
             Seen::Nothing => {
-                Some(format!("{name} shows no table at the moment. It comes back here as soon as they show it again."))
+                Some(format!("{name} shows no table at the moment. It appears here once they show it again."))
             }
             Seen::Damaged => Some(damage_words(name)),
             Seen::Table(_) => None,
         }
     }
 
-    /// What they do, where a shot does not say it.
+    /// A sentence on what the other player is doing; `None` if the displayed shot makes that clear.
     pub fn doing(&self) -> Option<String> {
         let Seen::Table(seen) = &self.seen else { return None };
         let name = &self.name;
@@ -71,36 +71,37 @@ impl Followed {
 }
 
 impl CoachPage {
-    /// Somebody else whose table this is.
+    /// The player whose table this page follows; `None` if the table is the user's own.
     pub const fn followed(&self) -> Option<&Followed> {
-        match &self.company {
-            Company::Host(followed) => Some(followed),
+        match &self.sharing {
+            Sharing::Following(followed) => Some(followed),
             _ => None,
         }
     }
 
-    /// Whether others may look on.
+    /// Whether the table is shared with spectators.
     const fn is_shown(&self) -> bool {
-        matches!(self.company, Company::Others)
+        matches!(self.sharing, Sharing::Shared)
     }
 
-    /// Lets others see the table, or no longer.
-    pub(super) fn turn_shown(&mut self) {
-        self.company = if self.is_shown() { Company::Alone } else { Company::Others };
+    /// Starts or stops sharing the table with spectators.
+    pub(super) fn toggle_sharing(&mut self) {
+        self.sharing = if self.is_shown() { Sharing::Private } else { Sharing::Shared };
         self.message = Some(match (&self.player, self.is_shown()) {
             (Some(player), true) => Message::plain(format!("carom follow {player} shows this table")),
             _ => Message::plain("others can no longer see this table"),
         });
     }
 
-    /// Others see nothing of it from now on.
+    /// Stops sharing the table.
     pub fn hide(&mut self) {
-        self.company = Company::Alone;
-        // It said the contrary.
+        self.sharing = Sharing::Private;
+        // The message may say that the table is shared.
         self.message = None;
     }
 
-    /// What others may see, while they may; where another screen is open, the table as it was left.
+    /// The state that spectators see; `None` if the table is not shared. `is_open` tells whether this page is the open one; otherwise
+    /// spectators see the table as the player has left it.
     pub fn shown_table(&self, is_open: bool) -> Option<ShownTable> {
         if !self.is_shown() {
             return None;
@@ -135,19 +136,19 @@ impl CoachPage {
         })
     }
 
-    /// What the status line says, with a word that others may look on where they may.
+    /// The message of the status line, with a prefix while the table is shared.
     pub(super) fn marked(&self, message: Message) -> Message {
         if self.is_shown() { message.prefixed(SHOWN) } else { message }
     }
 
-    /// Shows the table of somebody else from now on.
+    /// Switches the page to the shared table of another player.
     pub fn follow(&mut self, name: String, folder: PathBuf) {
-        self.company = Company::Host(Followed::new(name, folder));
+        self.sharing = Sharing::Following(Followed::new(name, folder));
     }
 
-    /// Something else is seen of the table that is followed.
+    /// Handles a new state of the followed table.
     pub fn see(&mut self, seen: Seen) {
-        let Company::Host(followed) = &mut self.company else { return };
+        let Sharing::Following(followed) = &mut self.sharing else { return };
         followed.seen = seen.clone();
         self.playback.pause();
         if let Seen::Table(seen) = seen {
@@ -163,20 +164,20 @@ impl CoachPage {
         let mut snapshot = Snapshot { cue_ball: shown.cue_ball, ..Snapshot::new(table, shown.layout) };
         self.mode = Mode::Placing;
         self.playback.jump(0.0);
-        if let Some((shot, told)) = shot.zip(shown.shot) {
+        if let Some((shot, shown_shot)) = shot.zip(shown.shot) {
             if shown.doing != Doing::Placing {
                 self.mode = Mode::Watching;
             }
-            self.playback.set_speed(told.speed);
+            self.playback.set_speed(shown_shot.speed);
             let duration = shot.recording.duration();
-            let time = if told.over { duration } else { told.time_after(age) };
-            self.playback.follow(time, duration, told.playing);
-            let made = told.made.map(|(made, of)| SuccessRate::new(made, of));
-            let is_early = told.author == Author::Search;
+            let time = if shown_shot.over { duration } else { shown_shot.time_after(age) };
+            self.playback.follow(time, duration, shown_shot.playing);
+            let made = shown_shot.made.map(|(made, of)| SuccessRate::new(made, of));
+            let is_early = shown_shot.author == Author::Search;
             let proposal = Proposal { shot, made, risk: None, next: None, is_early };
             let advice = Advice { proposals: vec![proposal], seed: 1, effort: None, found: None };
             snapshot.advised.extend(AdviceState::new(self.query.clone(), advice));
-            // The closer look is the player's own.
+            // Only the other player's own program analyses the shot.
             if let Some(advised) = snapshot.advised.first_mut() {
                 advised.choices[advised.chosen].is_studied = true;
             }

@@ -1,4 +1,4 @@
-//! What each key does to the library and the records, and what is done with answers.
+//! Implementation of the drill page's key actions on the library and the records, and of the answers to its questions.
 
 use crate::{
     drills::{Category, Exercise, Goal, Session, Venue, decode, encode, exam},
@@ -7,7 +7,9 @@ use crate::{
         DrillAction as Action, DrillCondition, DrillContext, DrillTask, Effect,
         pages::{
             Page,
-            drills::{Balls, DrillsPage, Question, RepetitionOptions, Turn, question::LONGEST, turn_actions::some},
+            drills::{
+                Balls, DrillsPage, Question, RepetitionOptions, Turn, question::LONGEST, turn_actions::tasks_effect,
+            },
         },
         ui::{Message, TextField},
         words::player_words,
@@ -15,18 +17,18 @@ use crate::{
 };
 
 impl DrillsPage {
-    /// Why a binding may not be used now; `None` where it may.
+    /// Returns the reason why a key binding is disabled now; `None` if it is enabled.
     pub fn disabled_reason(&self, when: DrillCondition) -> Option<&'static str> {
         let refuse = |refused: bool, reason| refused.then_some(reason);
         match when {
             DrillCondition::Always => None,
             DrillCondition::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; 0 lists all"),
             DrillCondition::MarkedOwn => {
-                refuse(!self.catalogue.is_own(), "bundled exercises stay; only my positions go")
+                refuse(!self.catalogue.is_own(), "bundled exercises cannot be removed, only my positions")
             }
-            DrillCondition::Filtered => refuse(!self.catalogue.is_part(), "everything is listed"),
-            DrillCondition::Sought => refuse(!self.catalogue.is_sought(), "no words are looked for"),
-            DrillCondition::NotSought => refuse(self.catalogue.is_sought(), "Esc ends the search first"),
+            DrillCondition::Filtered => refuse(!self.catalogue.is_filtered(), "everything is listed"),
+            DrillCondition::Sought => refuse(!self.catalogue.is_searching(), "no words are looked for"),
+            DrillCondition::NotSought => refuse(self.catalogue.is_searching(), "Esc ends the search first"),
             DrillCondition::OfExercise => refuse(self.records.exercise.is_none(), "this record is of all exercises"),
             DrillCondition::Filmed => refuse(self.film.played().is_none(), "there is no filmed shot on the table yet"),
             DrillCondition::Estimated => {
@@ -39,7 +41,7 @@ impl DrillsPage {
         }
     }
 
-    /// Does what an enabled binding asks for.
+    /// Performs the action of an enabled key binding.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
             Action::Back => self.back(),
@@ -55,12 +57,12 @@ impl DrillsPage {
             Action::Playback(key) if self.page() == DrillContext::Film => self.film.watch(key),
             Action::Category(step) => self.catalogue.choose_category(step),
             Action::Grade(grade) => self.catalogue.choose_grade(grade),
-            Action::All if self.catalogue.elsewhere() > 0 => self.catalogue.look_everywhere(),
+            Action::All if self.catalogue.elsewhere() > 0 => self.catalogue.search_everywhere(),
             Action::All => self.catalogue.show_all(),
-            Action::ClearSearch => self.catalogue.find_text(""),
+            Action::ClearSearch => self.catalogue.search(""),
             Action::Search => {
                 let marked = self.catalogue.marked().map(|exercise| exercise.name.clone()).unwrap_or_default();
-                let before = self.catalogue.sought();
+                let before = self.catalogue.search_text();
                 self.question = Some(Question::Search { typed: TextField::new(LONGEST), before, marked });
             }
             Action::Open => return self.open_marked(),
@@ -93,7 +95,7 @@ impl DrillsPage {
         let exam = self.turn.as_mut().filter(|turn| is_exercise && turn.session.is_exam() && !turn.session.is_over());
         if let Some(exam) = exam {
             exam.finish_watching();
-            // One that has not begun is left as it is.
+            // An exam without attempts needs no confirmation.
             let made = exam.newest().attempts.len();
             if made > 0 {
                 self.question = Some(Question::Leave(made, exam.session.exercises.len()));
@@ -113,7 +115,7 @@ impl DrillsPage {
         }
     }
 
-    /// Back to the library, or to the coach where that is left too.
+    /// Returns to the library, or to the coach page if the library is left too.
     fn leave_page(&mut self) {
         let is_left = self.is_left();
         self.leave_turn();
@@ -124,10 +126,10 @@ impl DrillsPage {
 
     fn open_marked(&mut self) -> Option<Effect> {
         let exercises = vec![self.catalogue.marked()?.clone()];
-        let Some(place) = self.left.iter().position(|left| left.exercises == exercises) else {
+        let Some(place) = self.unfinished_sessions.iter().position(|left| left.exercises == exercises) else {
             return Some(self.begin(self.options.goal, exercises));
         };
-        let left = self.left.remove(place);
+        let left = self.unfinished_sessions.remove(place);
         let inning = left.inning_words().map(|inning| format!(", {inning}"));
         let after = inning.unwrap_or_else(|| format!(" after {} played", left.attempts.len()));
         let what = left.score_words().unwrap_or_else(|| left.goal.words());
@@ -136,11 +138,11 @@ impl DrillsPage {
         Some(Effect::Drill(tasks))
     }
 
-    /// Begins a session of these exercises and opens the page of the first.
+    /// Starts a session of these exercises and opens the page of the first one.
     pub(super) fn begin(&mut self, goal: Goal, exercises: Vec<Exercise>) -> Effect {
         let seed = self.seed();
         let mut session = Session::new(goal, Venue::Program, exercises, self.player.skill, seed);
-        // An exam's averages are for the tables of its exercises.
+        // The expected scores of an exam hold only for the tables and positions of its exercises.
         if goal != Goal::Exam {
             session.shifted = self.options.shifted;
             session.table.clone_from(&self.own_table);
@@ -148,10 +150,10 @@ impl DrillsPage {
         Effect::Drill(self.practise(session))
     }
 
-    /// Opens the page of what is to be played next in a session; gives what is to be found out for it.
+    /// Opens the page of the next exercise of a session. Returns the background tasks for it.
     pub(super) fn practise(&mut self, session: Session) -> Vec<DrillTask> {
         if !session.is_exam() {
-            // What comes after it is repeated alike, wherever the session was left.
+            // The next exercise uses the same options, even if this session is resumed from an earlier run of the program.
             self.options = RepetitionOptions { goal: session.goal, shifted: session.shifted, ..self.options };
         }
         match Turn::new(session) {
@@ -171,7 +173,7 @@ impl DrillsPage {
         match exam::draw(self.catalogue.library.exercises(), level, seed) {
             Ok(exercises) => {
                 let effect = self.begin(Goal::Exam, exercises);
-                // A page says first what comes; the key that chose the exam plays no stroke of it.
+                // A page describes the exam before it begins, so that the key that chose it cannot play a stroke.
                 if self.page() == DrillContext::Exercise {
                     self.exam_level = level;
                     self.pages = vec![DrillContext::Library, DrillContext::Exam];
@@ -182,7 +184,7 @@ impl DrillsPage {
         }
     }
 
-    /// Opens the page of a filmed shot, so many after the marked one, and has its stroke fitted.
+    /// Opens the page of the filmed shot that is `shots` after the marked one, and requests the fit of its stroke.
     fn open_film(&mut self, shots: isize) -> Option<Effect> {
         let Some(filmed) = self.film.begin(shots) else {
             let end = if shots > 0 { "last" } else { "first" };
@@ -197,11 +199,11 @@ impl DrillsPage {
 
     fn open_records(&mut self) -> Effect {
         self.pages.push(DrillContext::Record);
-        // Games and matches from an exercise are no repetitions of it.
+        // Games and matches that start from an exercise do not count as repetitions of it.
         let is_repeated = |turn: &&Turn| !turn.session.is_exam() && !turn.session.is_game();
         let name = self.turn.as_ref().filter(is_repeated).map(|turn| turn.exercise.name.clone());
         self.records.open(name);
-        // Another program may have noted something.
+        // Another instance of the program may have recorded something.
         Effect::Drill(vec![self.load()])
     }
 
@@ -242,7 +244,7 @@ impl DrillsPage {
 
     fn no(&mut self) {
         if let Some(Question::Search { before, marked, .. }) = self.question.take() {
-            self.catalogue.find_text(&before);
+            self.catalogue.search(&before);
             self.catalogue.mark_named(&marked);
         }
     }
@@ -254,14 +256,14 @@ impl DrillsPage {
         let answer = match &question {
             Question::Search { .. } => {
                 if self.catalogue.elsewhere() > 0 {
-                    self.catalogue.look_everywhere();
+                    self.catalogue.search_everywhere();
                 }
                 return None;
             }
             Question::Code(typed) => self.decoded(typed.text()).map(|exercise| save(exercise, false)),
             Question::Stroke(typed) => {
-                let said = self.turn.as_mut()?.say_stroke(typed.text());
-                said.map(some).map_err(|error| error.to_string())
+                let tasks = self.turn.as_mut()?.set_stroke_in_words(typed.text());
+                tasks.map(tasks_effect).map_err(|error| error.to_string())
             }
             Question::Replace(exercise) => return save(exercise.clone(), true),
             Question::Remove(name) => return Some(Effect::Drill(vec![DrillTask::RemovePosition(name.clone())])),
@@ -276,7 +278,7 @@ impl DrillsPage {
             Question::GiveUp(action, ..) => return self.act(*action),
         };
         answer.unwrap_or_else(|sentence| {
-            // What was typed stays, to be mended.
+            // The typed text stays for a correction.
             self.question = Some(question);
             self.refuse(sentence)
         })

@@ -1,4 +1,4 @@
-//! A match against the coach, begun from whatever page.
+//! The match against the coach, which can be started from any page.
 
 use crate::{
     drills::{Goal, Session},
@@ -11,12 +11,12 @@ use crate::{
     },
 };
 
-/// The exercise with whose balls it begins.
+/// The exercise whose layout the match starts from.
 const OPENING: &str = "opening-break";
 
 impl DrillsPage {
-    /// Begins a match against the coach at three-cushion, from the opening; one that is open, or was left last, goes on, else the
-    /// one that an earlier session of the program has left, which `earlier` gives.
+    /// Opens a match against the coach. An open match or the last unfinished one is resumed, else the one that `earlier` returns from
+    /// an earlier session of the program. If there is none, a three-cushion match starts from the opening.
     pub fn open_match(&mut self, earlier: impl FnOnce() -> Option<Session>) -> Option<Effect> {
         match self.turn.as_ref().and(self.unfinished()) {
             Some(open) if open.is_against_coach() => {
@@ -28,10 +28,14 @@ impl DrillsPage {
         }
         self.question = None;
         self.leave_turn();
-        // What is practised next is chosen elsewhere.
+        // The match must not change the options of the exercises.
         let options = self.options;
         self.options.shifted = false;
-        let left = self.left.iter().rposition(Session::is_against_coach).map(|place| self.left.remove(place));
+        let left = self
+            .unfinished_sessions
+            .iter()
+            .rposition(Session::is_against_coach)
+            .map(|place| self.unfinished_sessions.remove(place));
         let effect = if let Some(left) = left {
             Some(Effect::Drill(self.practise(left)))
         } else if let Some(left) = earlier() {

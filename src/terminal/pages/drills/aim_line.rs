@@ -1,4 +1,4 @@
-//! Where a stroke leads: the cue ball's way to the first ball or cushion that it meets, and nothing beyond it.
+//! The aim line of a stroke: the cue ball's path up to its first contact with a ball or cushion.
 
 use glam::DVec2;
 
@@ -10,22 +10,23 @@ use crate::{
     terminal::shot::Meeting,
 };
 
-/// Seconds between two places on the way: at 6 m/s a ball moves 12 mm meanwhile.
+/// Time between two points of the path, s: at 6 m/s a ball moves 12 mm in that time.
 const STEP: f64 = 0.002;
 
-/// The cue ball's way to what it meets first.
+/// The cue ball's path to its first contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AimLine {
-    /// Places of its centre, m, from where it lies to where it meets something or stops.
-    pub places: Vec<DVec2>,
-    /// What it meets. Of a cushion, not which ball comes after it.
+    /// Positions of its centre, m, from the start to the first contact or to rest.
+    pub points: Vec<DVec2>,
+    /// The first contact. If it is a cushion, the ball after it is not included.
     pub meeting: Meeting,
-    /// The place of the cushion that is met, if one is.
+    /// The contact point on the cushion; `None` if the first contact is not a cushion.
     pub cushion: Option<RailPoint>,
 }
 
 impl AimLine {
-    /// The way of the stroke `cue`, with all that side and a raised cue do to it; `None` where it cannot be simulated.
+    /// Computes the line of the stroke `cue`, including the effects of side and of a raised cue; `None` if the stroke cannot be
+    /// simulated.
     pub fn of(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Self> {
         let recording = Recording::new(table, layout, cue).ok()?;
         let meeting = match Meeting::of(&recording, first_hit(table, &recording)) {
@@ -43,18 +44,18 @@ impl AimLine {
             Meeting::Rail(rail, _) => Some(RailPoint::on(table, rail, place(end))),
             _ => None,
         };
-        Some(Self { places: times.map(place).collect(), meeting, cushion })
+        Some(Self { points: times.map(place).collect(), meeting, cushion })
     }
 
-    /// How long it is, m.
+    /// Length of the path, m.
     pub fn length(&self) -> f64 {
-        self.places.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
+        self.points.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
     }
 
-    /// Places on it, so far apart, that leave its last `free` m clear.
+    /// Points on the path with a distance of `spacing` m, except on its last `free` m.
     pub fn dots(&self, spacing: f64, free: f64) -> Vec<DVec2> {
         let (mut dots, mut way, end) = (Vec::new(), 0.0, self.length() - free);
-        for pair in self.places.windows(2) {
+        for pair in self.points.windows(2) {
             let (before, step) = (way, pair[0].distance(pair[1]));
             way += step;
             let next = spacing * (dots.len() + 1) as f64;

@@ -1,24 +1,24 @@
-//! What has been played: the sessions, and the score of every exercise in them, at a real table and here.
+//! The practice record: all sessions, and the score of every exercise, separately for real tables and for this program.
 
 use std::collections::{BTreeSet, HashMap};
 
 use crate::drills::{Record, Session, Venue};
 
-/// The sessions that are known.
+/// The practice record.
 #[derive(Debug, Default)]
 pub struct Book {
-    /// All of them, the oldest first.
+    /// All sessions, the oldest first.
     pub sessions: Vec<Session>,
-    /// By where the strokes were played.
+    /// The scores by exercise name, one for each venue where the exercise was tried.
     scores: HashMap<String, Vec<(Venue, Record)>>,
-    /// What could not be read, a sentence each.
+    /// One message for each file that could not be read.
     pub troubles: Vec<String>,
-    /// Whether the disk has been read.
+    /// Whether the record has been read from the disk.
     pub is_known: bool,
 }
 
 impl Book {
-    /// What was read from the disk.
+    /// Creates the record from what was read from the disk.
     pub fn new(mut sessions: Vec<Session>, troubles: Vec<String>) -> Self {
         sessions.retain(|session| !session.attempts.is_empty());
         sessions.sort_by(|one, other| (one.started, &one.id).cmp(&(other.started, &other.id)));
@@ -28,7 +28,7 @@ impl Book {
         book
     }
 
-    /// Those in which the player repeated the exercise called `name`, or did anything.
+    /// The sessions in which the player repeated the exercise `name`, games excluded; if `None`, those with any attempt by the player.
     pub fn sessions_of(&self, name: Option<&str>) -> Vec<&Session> {
         let is_of = |session: &&Session| {
             let is_wanted = |exercise: &str| name.is_none_or(|name| !session.is_game() && exercise == name);
@@ -37,12 +37,12 @@ impl Book {
         self.sessions.iter().filter(is_of).collect()
     }
 
-    /// The scores of the exercise called `name` where it was tried.
+    /// The scores of the exercise `name`, one for each venue where it was tried.
     pub fn scores_of(&self, name: &str) -> &[(Venue, Record)] {
         self.scores.get(name).map_or(&[], Vec::as_slice)
     }
 
-    /// Takes a session in, in place of what was known of it. One without attempts is none.
+    /// Adds a session, or replaces its earlier version. A session without attempts is removed.
     pub fn put(&mut self, session: &Session) {
         let known = self.sessions.iter().position(|known| known.id == session.id);
         match known {
@@ -62,7 +62,7 @@ impl Book {
     }
 }
 
-/// The score of one session's attempts, of the exercise called `name` or of all.
+/// The score of one session's attempts at the exercise `name`, or at all exercises if `None`.
 pub fn record_of(session: &Session, name: Option<&str>) -> Record {
     Record::of([session], |_, attempt| name.is_none_or(|name| attempt.exercise == name))
 }

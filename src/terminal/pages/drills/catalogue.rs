@@ -1,4 +1,4 @@
-//! The list of exercises: which of them are shown, and which is marked.
+//! The list of exercises, with its filter and its marked (selected) exercise.
 
 use crate::{
     drills::{Category, Exercise, Filter, Library},
@@ -6,19 +6,19 @@ use crate::{
     terminal::pages::neighbour,
 };
 
-/// The library as it is listed.
+/// The exercise library with the state of its list.
 #[derive(Debug)]
 pub struct Catalogue {
     /// All exercises, shown or not.
     pub library: Library,
     /// Which exercises are shown.
     pub filter: Filter,
-    /// Place of the marked exercise among those that are shown.
+    /// Index of the marked exercise among the shown ones.
     pub mark: usize,
 }
 
 impl Catalogue {
-    /// All of `library`.
+    /// Creates a list of the whole `library`.
     pub fn new(library: Library) -> Self {
         Self { library, filter: Filter::default(), mark: 0 }
     }
@@ -28,14 +28,14 @@ impl Catalogue {
         self.mark = self.found().iter().position(|exercise| exercise.rule == rule).unwrap_or(0);
     }
 
-    /// Takes another library; the mark stays at its exercise where that is still there.
+    /// Replaces the library. The mark stays on its exercise if the new library contains it.
     pub fn take(&mut self, library: Library) {
         let marked = self.marked().map(|exercise| exercise.name.clone());
         self.library = library;
         self.mark_named(&marked.unwrap_or_default());
     }
 
-    /// Those that are shown.
+    /// The exercises that are shown.
     pub fn found(&self) -> Vec<&Exercise> {
         self.library.find(&self.filter).collect()
     }
@@ -45,39 +45,39 @@ impl Catalogue {
         self.library.find(&self.filter).nth(self.mark)
     }
 
-    /// Whether the marked exercise is a saved position of the player's.
+    /// Whether the marked exercise is a position that the player has saved.
     pub fn is_own(&self) -> bool {
         self.marked().is_some_and(|exercise| !self.library.is_bundled(&exercise.name))
     }
 
-    /// Marks the exercise called `name`, or the first where it is not shown.
+    /// Marks the exercise `name`, or the first one if that is not shown.
     pub fn mark_named(&mut self, name: &str) {
         self.mark = self.library.find(&self.filter).position(|exercise| exercise.name == name).unwrap_or(0);
     }
 
-    /// Moves the mark by lines, down where positive.
+    /// Moves the mark by `lines`, downwards if positive.
     pub fn move_mark(&mut self, lines: isize) {
         self.mark = self.mark.saturating_add_signed(lines).min(self.found().len().saturating_sub(1));
     }
 
-    /// Whether not all is shown.
-    pub fn is_part(&self) -> bool {
+    /// Whether a filter is active.
+    pub fn is_filtered(&self) -> bool {
         self.filter != Filter::default()
     }
 
-    /// Shows other exercises; the mark stays at its own where that is among them.
+    /// Changes the filter. The mark stays on its exercise if that is still shown.
     fn refilter(&mut self, change: impl FnOnce(&mut Filter)) {
         let marked = self.marked().map(|exercise| exercise.name.clone());
         change(&mut self.filter);
         self.mark_named(&marked.unwrap_or_default());
     }
 
-    /// Shows everything.
+    /// Shows all exercises.
     pub fn show_all(&mut self) {
         self.refilter(|filter| *filter = Filter::default());
     }
 
-    /// Shows the next category, or the one before; before the first and after the last comes everything.
+    /// Shows the category `step` further on. The cycle contains "all categories" between the last and the first.
     pub fn choose_category(&mut self, step: isize) {
         self.refilter(|filter| {
             let all: Vec<_> = std::iter::once(None).chain(Category::ALL.map(Some)).collect();
@@ -85,42 +85,42 @@ impl Catalogue {
         });
     }
 
-    /// Shows the user's own positions alone, and marks the one called `name`.
+    /// Shows only the user's own positions and marks the position `name`.
     pub fn show_own(&mut self, name: &str) {
         self.filter = Filter { category: Some(Category::Own), ..Filter::default() };
         self.mark_named(name);
     }
 
-    /// Shows one grade alone; the same grade again shows all.
+    /// Shows one grade only; the same grade again shows all grades.
     pub fn choose_grade(&mut self, grade: u8) {
         self.refilter(|filter| filter.grade = if filter.grade == Some(grade) { None } else { Some(grade) });
     }
 
-    /// How many exercises a search finds in other categories and grades, where it finds none here.
+    /// Number of matches of the search in other categories and grades, if it has no match in the current list; otherwise 0.
     pub fn elsewhere(&self) -> usize {
         let wider = Filter { text: self.filter.text.clone(), ..Filter::default() };
-        if self.is_sought() && self.marked().is_none() { self.library.find(&wider).count() } else { 0 }
+        if self.is_searching() && self.marked().is_none() { self.library.find(&wider).count() } else { 0 }
     }
 
-    /// Shows what the search finds in all categories and grades.
-    pub fn look_everywhere(&mut self) {
-        let sought = self.sought();
+    /// Shows the matches of the search in all categories and grades.
+    pub fn search_everywhere(&mut self) {
+        let sought = self.search_text();
         self.filter = Filter::default();
-        self.find_text(&sought);
+        self.search(&sought);
     }
 
-    /// Whether words are looked for.
-    pub const fn is_sought(&self) -> bool {
+    /// Whether a search is active.
+    pub const fn is_searching(&self) -> bool {
         self.filter.text.is_some()
     }
 
-    /// The words that are looked for; empty where none are.
-    pub fn sought(&self) -> String {
+    /// The search text; empty if no search is active.
+    pub fn search_text(&self) -> String {
         self.filter.text.clone().unwrap_or_default()
     }
 
-    /// Shows what has `text` in it, and marks the first that has it in its title, if the marked one has not.
-    pub fn find_text(&mut self, text: &str) {
+    /// Shows the exercises that contain `text`. Unless the marked one has it in its title, marks the first exercise that does.
+    pub fn search(&mut self, text: &str) {
         self.refilter(|filter| filter.text = (!text.is_empty()).then(|| text.to_owned()));
         let sought = text.to_lowercase();
         let is_titled = |exercise: &Exercise| exercise.title.to_lowercase().contains(&sought);
@@ -155,7 +155,7 @@ mod tests {
     #[test]
     fn what_is_sought_is_marked_where_a_title_has_it() {
         let mut catalogue = Catalogue::new(Library::bundled().clone());
-        catalogue.find_text("natural");
+        catalogue.search("natural");
         assert!(catalogue.marked().unwrap().title.to_lowercase().contains("natural"), "{:?}", catalogue.marked());
     }
 
@@ -165,13 +165,13 @@ mod tests {
         catalogue.move_mark(isize::MAX);
         let last = catalogue.marked().unwrap().clone();
         assert_eq!(catalogue.mark + 1, catalogue.found().len());
-        catalogue.find_text(&last.title.to_uppercase());
+        catalogue.search(&last.title.to_uppercase());
         assert_eq!(catalogue.marked(), Some(&last));
-        catalogue.find_text("no such exercise");
-        assert!(catalogue.marked().is_none() && catalogue.is_part() && !catalogue.is_own());
+        catalogue.search("no such exercise");
+        assert!(catalogue.marked().is_none() && catalogue.is_filtered() && !catalogue.is_own());
         catalogue.show_all();
         catalogue.choose_grade(last.grade);
         catalogue.choose_grade(last.grade);
-        assert!(!catalogue.is_part());
+        assert!(!catalogue.is_filtered());
     }
 }

@@ -1,4 +1,4 @@
-//! The filmed shots: their list, and the one that is watched beside its simulation.
+//! The filmed shots: their list, and the playback of one of them next to its simulation.
 
 use crate::{
     study::filmed::FilmedShot,
@@ -11,30 +11,30 @@ use crate::{
     },
 };
 
-/// The filmed shots on the screen.
+/// State of the screens with the filmed shots.
 #[derive(Debug, Default)]
 pub struct FilmsScreen {
-    /// Place of the marked shot in the list.
+    /// Index of the marked shot in the list.
     pub mark: usize,
-    /// What came of fitting the marked shot, once that is known.
+    /// Result of fitting the marked shot; `None` until that has finished.
     played: Option<Result<Box<FilmReplay>, String>>,
-    /// The clock of the shot that is watched.
+    /// Playback position and speed of the watched shot.
     pub playback: Playback,
 }
 
 impl FilmsScreen {
-    /// The marked shot, which is the one that is watched.
+    /// The marked shot, which is also the watched one.
     pub fn marked(&self) -> Option<&'static Listed> {
         listed().get(self.mark)
     }
 
-    /// Moves the mark by lines, down where positive.
+    /// Moves the mark by `lines`, downwards if positive.
     pub fn move_mark(&mut self, lines: isize) {
         self.mark = self.mark.saturating_add_signed(lines).min(listed().len().saturating_sub(1));
     }
 
-    /// Marks the shot so many after the marked one; gives what is to be played, `None` where there is no such shot. It is watched when
-    /// it is received.
+    /// Marks the shot that is `shots` after the marked one, and returns it to be fitted and simulated. Returns `None` if there is no
+    /// such shot. Playback starts when the result arrives.
     pub fn begin(&mut self, shots: isize) -> Option<FilmedShot> {
         let before = self.mark;
         self.move_mark(shots);
@@ -46,10 +46,10 @@ impl FilmsScreen {
         self.marked().map(|listed| listed.filmed.clone())
     }
 
-    /// The shot of this number has been played; one that is no longer wanted is dropped.
+    /// Handles the result for the shot with this number; drops it if another shot is marked by now.
     ///
     /// # Errors
-    /// Why it could not be played.
+    /// Returns the message if the shot could not be fitted or simulated.
     pub fn receive(&mut self, number: u32, played: Result<Box<FilmReplay>, String>) -> Result<(), String> {
         if self.played.is_none() && self.marked().is_some_and(|listed| listed.filmed.number == number) {
             let played = self.played.insert(played).as_ref().map_err(String::clone)?;
@@ -58,24 +58,24 @@ impl FilmsScreen {
         Ok(())
     }
 
-    /// Why nothing is watched, where that is known.
+    /// The message why the shot could not be fitted or simulated; `None` if there is no such failure.
     pub fn failure(&self) -> Option<&str> {
         self.played.as_ref()?.as_ref().err().map(String::as_str)
     }
 
-    /// What is watched; `None` while the stroke is being fitted, and where that has failed.
+    /// The watched shot; `None` while the stroke is being fitted, or if that has failed.
     pub fn played(&self) -> Option<&FilmReplay> {
         self.played.as_ref()?.as_ref().ok().map(Box::as_ref)
     }
 
-    /// Does what a key asks of the shot that is watched.
+    /// Applies a playback key to the watched shot.
     pub fn watch(&mut self, key: PlaybackKey) {
         if let Some(Ok(played)) = &self.played {
             self.playback.act(key, played.shot.recording.events(), played.replay.duration());
         }
     }
 
-    /// Lets `seconds` pass for the shot.
+    /// Advances the playback by `seconds`.
     pub fn tick(&mut self, seconds: f64) {
         if let Some(Ok(played)) = &self.played {
             self.playback.tick(seconds, played.replay.duration());

@@ -1,14 +1,14 @@
-//! The goals of an exercise, one after the other, and how long each is.
+//! The cycle of goals of an exercise, and the length of each goal.
 
 use crate::drills::Goal;
 
-/// Points of the first run that is asked for, and innings of the first game.
+/// Default length of a run in points, and of a game or match in innings.
 const FIRST_RUN: u32 = 5;
 pub(super) const FIRST_GAME: u32 = 10;
-/// Longest run and game that can be asked for.
+/// Maximum length of a run in points, and of a game or match in innings.
 const LONGEST: u32 = 100;
 
-/// How long each goal was when it was open last.
+/// The last length of each goal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lengths {
     /// Points of a run.
@@ -26,7 +26,7 @@ impl Default for Lengths {
 }
 
 impl Lengths {
-    /// The goal after `goal`, as long as it was when it was open last.
+    /// Returns the goal after `goal` in the cycle, with its last length.
     pub(super) fn next_goal(&mut self, goal: Goal) -> Goal {
         match goal {
             Goal::Free => Goal::Run(self.run),
@@ -47,7 +47,7 @@ impl Lengths {
     }
 }
 
-/// The goal with so many points or innings more.
+/// Returns the goal with `more` points or innings added.
 pub(super) fn longer(goal: Goal, more: i32) -> Goal {
     let counted = |count: u32| count.saturating_add_signed(more).clamp(1, LONGEST);
     match goal {

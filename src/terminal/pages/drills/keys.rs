@@ -1,4 +1,4 @@
-//! The keys of the drill screens, a table for each page and for what is typed or answered there.
+//! Key bindings of the drill page: one table for each of its screens, and one for the search.
 
 use crossterm::event::KeyCode::{BackTab, Delete, Down, Enter, Esc, Left, PageDown, PageUp, Right, Tab, Up};
 
@@ -18,48 +18,48 @@ use crate::terminal::{
 use DrillAction::{self as A, Playback as P};
 use DrillCondition as W;
 
-/// What a key does on the drill screens.
+/// Action of a key on the drill page.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DrillAction {
-    /// Goes back to the page before.
+    /// Returns to the previous screen.
     Back,
-    /// Moves the mark in a list by lines, down where positive.
+    /// Moves the mark in a list by lines, downwards if positive.
     Line(isize),
-    /// Lists another category, the next where positive.
+    /// Lists another category: the next one if positive, the one before if negative.
     Category(isize),
-    /// Lists one grade alone, or all again.
+    /// Lists one grade only, or all grades again.
     Grade(u8),
-    /// Begins to type words to look for.
+    /// Starts a search.
     Search,
-    /// Lists everything again; where a search has found nothing here, what it finds elsewhere.
+    /// Lists everything again. If a search has no match in the list, lists its matches elsewhere.
     All,
-    /// Lists what a search has left out again.
+    /// Ends the search.
     ClearSearch,
     /// Opens the marked exercise.
     Open,
-    /// Chooses another player, whose errors are played.
+    /// Chooses another player, whose execution errors are simulated.
     Player,
-    /// Draws an exam of this level and tells what comes.
+    /// Draws an exam of this level and describes it.
     Exam(u8),
     /// Begins the exam.
     BeginExam,
-    /// Opens the record, of the exercise where one is open.
+    /// Opens the record, of the open exercise if there is one.
     Record,
-    /// Shows the exercise's code, and copies it where the terminal can.
+    /// Shows the exercise's share code, and copies it if the terminal supports that.
     Share,
-    /// Asks for a code that is added as an own position.
+    /// Asks for a share code and adds it as an own position.
     Add,
     /// Asks whether to remove an own position.
     Remove,
     /// Puts the exercise's balls on the coach's table.
     ToCoach,
-    /// Changes the stroke that is set.
+    /// Changes the stroke.
     Stroke(StrokeChange),
     /// Asks for the stroke in a player's words.
     TypeStroke,
-    /// Takes the model shot over into the stroke, beside which it stays on the table.
+    /// Copies the model shot into the stroke; the model shot stays on the table for comparison.
     WhatIf,
-    /// Takes the model shot off the table again.
+    /// Ends the comparison with the model shot.
     LeaveWhatIf,
     /// Plays the stroke.
     Play,
@@ -69,52 +69,52 @@ pub enum DrillAction {
     Playback(PlaybackKey),
     /// Opens the list of filmed shots.
     OpenFilms,
-    /// Watches another filmed shot, a later one where positive.
+    /// Opens another filmed shot, a later one if positive.
     Filmed(isize),
     /// Shows the model shot, or hides it.
     Hint,
-    /// Shows the jump from the side too, or the table alone.
+    /// Turns the side view of the jump on or off.
     TurnSideView,
-    /// Tells the stroke in degrees and by its speed, or as advice is told again.
+    /// Switches between numbers (degrees and speed) and the form of the advice for the stroke.
     TurnNumbers,
-    /// Turns to another page of a text that has no room, the next where positive.
+    /// Turns the pages of a text that does not fit, forwards if positive.
     TurnText(isize),
-    /// Shifts the balls by half a ball at each repetition, or not.
+    /// Turns the shift of the balls by half a ball at each repetition on or off.
     Shift,
-    /// Takes another goal.
+    /// Chooses the next goal.
     Goal,
-    /// Makes the goal longer where positive, else shorter.
+    /// Makes the goal longer if positive, else shorter.
     Count(isize),
-    /// Notes a point at a real table, or a miss.
+    /// Records a point (`true`) or a miss at a real table.
     Log(bool),
-    /// Takes the last note back.
+    /// Undoes the last record from a real table.
     Undo,
-    /// Takes the last change of the stroke back.
+    /// Undoes the last change of the stroke.
     StrokeBack,
-    /// Makes it again.
+    /// Redoes the last undone change of the stroke.
     StrokeAgain,
-    /// Shows the record of all exercises, or of the one again.
+    /// Switches the record between all exercises and the open one.
     Scope,
-    /// Takes the estimated skill as the player's own.
+    /// Saves the estimated skill as the player's own.
     KeepSkill,
-    /// Answers what is asked: yes, or what was typed; or no.
+    /// Answers the open question: `true` for yes or the typed text, `false` for no.
     Answer(bool),
 }
 
-/// When a binding of the drill screens may be used.
+/// Condition under which a key binding of the drill page is enabled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DrillCondition {
-    /// On its page.
+    /// Always, on the binding's screen.
     Always,
-    /// Where an exercise is marked.
+    /// If an exercise is marked.
     Marked,
-    /// Where the marked exercise is a saved position of the player's.
+    /// If the marked exercise is a position that the player has saved.
     MarkedOwn,
-    /// Where the list is a part of all.
+    /// If a filter is active.
     Filtered,
-    /// Where words are looked for that not every exercise has.
+    /// If a search is active.
     Sought,
-    /// Where none are.
+    /// If no search is active.
     NotSought,
     /// While the player sets the stroke.
     Aiming,
@@ -122,52 +122,52 @@ pub enum DrillCondition {
     Playable,
     /// While no stroke is being played, and no exam is under way.
     Free,
-    /// The same, where another session may begin: in free repetition once the shot that is watched has come to its end.
+    /// As [`Self::Free`], and another session may begin: in free repetition this is after the end of the watched shot.
     Restart,
-    /// The same, where an exercise is repeated: in a game the balls lie where they stop.
+    /// As [`Self::Restart`], and the exercise is repeated. In a game each stroke is played from where the balls have stopped.
     Repeated,
-    /// The same, where a point at a real table can be noted.
+    /// As [`Self::Restart`], and a point at a real table can be recorded.
     Noted,
-    /// Where another session may begin, and the goal has a length.
+    /// If another session may begin and the goal has a length.
     Counted,
     /// While a shot is watched.
     Watching,
-    /// While a shot is watched that has not come to its end.
+    /// While a shot is watched whose end has not been shown yet.
     Running,
-    /// While a shot is watched that has come to its end.
+    /// While a shot is watched whose end has been shown.
     Ended,
-    /// Where the model shot is known.
+    /// If the model shot is known.
     ModelShot,
-    /// The same while the stroke is set, and the model shot is not beside it.
+    /// If the model shot is known, while the player sets the stroke and no comparison is shown.
     Adoptable,
-    /// While the model shot is on the table beside the stroke.
+    /// While the model shot is compared with the stroke.
     Compared,
-    /// While it is not.
+    /// While there is no such comparison.
     Alone,
-    /// Where there is a note that can be taken back.
+    /// If a record from a real table can be undone.
     Undoable,
-    /// Where the stroke was changed.
+    /// If the stroke was changed.
     StrokeChanged,
-    /// Where the player has set a stroke: Enter goes on after a shot, and one too many shall not play what nobody has aimed.
+    /// If the player has set a stroke. Enter also continues after a shot, and one Enter too many must not play an unaimed stroke.
     Set,
-    /// Where a change of the stroke was taken back.
+    /// If an undone change of the stroke can be redone.
     StrokeUndone,
-    /// Where the page of an exercise is beneath.
+    /// If the record was opened from the page of an exercise.
     OfExercise,
-    /// Where there is an estimate of the skill.
+    /// If there is an estimate of the skill.
     Estimated,
-    /// Where a filmed shot is on the table.
+    /// If a filmed shot is on the table.
     Filmed,
 }
 
-/// What is on the screen.
+/// The screens of the drill page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DrillContext {
     /// The list of exercises.
     Library,
-    /// Words that are looked for in it.
+    /// The search in that list.
     Search,
-    /// What comes in an exam.
+    /// The description of an exam before it begins.
     Exam,
     /// An exercise.
     Exercise,
@@ -182,7 +182,7 @@ pub enum DrillContext {
 }
 
 impl DrillContext {
-    /// Its keys.
+    /// The key bindings of the screen.
     pub const fn bindings(self) -> &'static [Binding<A, W>] {
         match self {
             Self::Library => LIBRARY,
@@ -200,7 +200,7 @@ impl DrillContext {
 const BACK: Binding<A, W> =
     bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before");
 
-/// The library.
+/// Key bindings of the library.
 #[rustfmt::skip]
 pub const LIBRARY: &[Binding<A, W>] = &[
     bind(Library, W::Marked, &[key(Enter, A::Open)], Some(("practise", 1)), "open the marked exercise"),
@@ -238,7 +238,7 @@ pub const LIBRARY: &[Binding<A, W>] = &[
     bind(Program, W::NotSought, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before"),
 ];
 
-/// Words that are looked for.
+/// Key bindings of the search.
 #[rustfmt::skip]
 pub const SEARCH: &[Binding<A, W>] = &[
     bind(Library, W::Always, &[key(Enter, A::Answer(true))], Some(("choose from these", 1)),
@@ -248,14 +248,14 @@ pub const SEARCH: &[Binding<A, W>] = &[
         .each(&["mark the next exercise", "mark the exercise before"]),
 ];
 
-/// What comes in an exam.
+/// Key bindings of the description of an exam.
 #[rustfmt::skip]
 pub const EXAM: &[Binding<A, W>] = &[
     bind(Program, W::Always, &[key(Enter, A::BeginExam)], Some(("begin", 1)), "begin the exam"),
     BACK,
 ];
 
-/// An exercise.
+/// Key bindings of an exercise.
 #[rustfmt::skip]
 pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Stroke, W::Running, &[key(Enter, A::Next)], Some(("to the end", 1)), "to the end of the shot"),
@@ -309,13 +309,13 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
     bind(Program, W::Alone, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before"),
 ]);
 
-/// An exam that is over.
+/// Key bindings of an exam's result.
 #[rustfmt::skip]
 pub const RESULT: &[Binding<A, W>] = &[
     bind(Program, W::Always, &[key(Enter, A::Back), key(Esc, A::Back)], Some(("library", 1)), "back to the library"),
 ];
 
-/// A record.
+/// Key bindings of a record.
 #[rustfmt::skip]
 pub const RECORD: &[Binding<A, W>] = &[
     bind(Record, W::OfExercise, &[letter('a', A::Scope)], Some(("all or one", 1)), "the record of all exercises, or of this one"),
@@ -326,7 +326,7 @@ pub const RECORD: &[Binding<A, W>] = &[
     BACK,
 ];
 
-/// The list of filmed shots.
+/// Key bindings of the list of filmed shots.
 #[rustfmt::skip]
 pub const FILMS: &[Binding<A, W>] = &[
     bind(Film, W::Always, &[key(Enter, A::Open)], Some(("watch", 1)), "watch the marked shot"),
@@ -334,7 +334,7 @@ pub const FILMS: &[Binding<A, W>] = &[
     BACK,
 ];
 
-/// A filmed shot.
+/// Key bindings of a filmed shot.
 #[rustfmt::skip]
 pub const FILM: &[Binding<A, W>] = &[
     bind(Film, W::Filmed, &[letter(' ', P(Toggle))], Some(("play", 1)), "play and pause the shot"),

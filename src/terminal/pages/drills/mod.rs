@@ -1,7 +1,7 @@
-//! The state of the drill screens: the library, the exercise that is practised, the result of an exam, and the records.
+//! The drill page: the exercise library, the open exercise, exams and their results, the records, and the filmed shots.
 //!
-//! Files are read and written, and strokes played and judged, elsewhere ([`DrillTask`]); what comes of it is a
-//! [`DrillReport`]. [`actions`] is what each key does.
+//! Background tasks ([`DrillTask`]) read and write files, and play and judge strokes. Each reports its result as a
+//! [`DrillReport`](crate::terminal::DrillReport). [`actions`] implements the key actions.
 
 mod actions;
 mod against_coach;
@@ -50,32 +50,32 @@ pub use records::{Estimate, Records};
 pub use turn::{ModelShotState, Stage, Turn};
 pub use watched::Watched;
 
-/// Who plays.
+/// The player whose errors are simulated.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Player {
-    /// The standard errors that are played.
+    /// The current skill: the standard errors of the simulated strokes.
     pub skill: Skill,
-    /// Those that the user has kept as the own ones.
+    /// The skill that the user has saved as the own one.
     pub own: Option<Skill>,
-    /// Those that the settings say.
-    of_settings: Skill,
-    /// Those of the coach's player, whom only a choice changes.
+    /// The skill of the settings.
+    settings_skill: Skill,
+    /// The skill on the coach page. Only an explicit choice changes it.
     pub at_coach: Skill,
 }
 
 impl Player {
-    /// The next of those there are.
+    /// Chooses the next skill.
     fn choose_next(&mut self) {
-        self.choose(next_skill(self.skill, self.own, self.of_settings));
+        self.choose(next_skill(self.skill, self.own, self.settings_skill));
     }
 
-    /// Plays with `skill` from now on, at the coach's table too.
+    /// Chooses `skill`, for the coach page too.
     const fn choose(&mut self, skill: Skill) {
         (self.skill, self.at_coach) = (skill, skill);
     }
 }
 
-/// How an exercise is repeated; kept from exercise to exercise.
+/// Options for repeating an exercise. They are kept from exercise to exercise.
 #[derive(Clone, Copy, Debug)]
 struct RepetitionOptions {
     goal: Goal,
@@ -83,68 +83,68 @@ struct RepetitionOptions {
     lengths: Lengths,
 }
 
-/// Balls that come from the coach's table or go there.
+/// A position that is transferred between this page and the coach page.
 #[derive(Clone, Debug)]
 pub struct Balls {
     /// The table.
     pub table: Table,
-    /// Where the balls lie.
+    /// The positions of the balls.
     pub layout: Layout,
     /// What counts as a point.
     pub rule: Rule,
-    /// Which of them is the cue ball.
+    /// The cue ball.
     pub cue_ball: CueBall,
 }
 
-/// The state of the drill screens.
+/// The state of the drill page.
 #[derive(Debug)]
 pub struct DrillsPage {
-    /// Where sessions and positions are.
+    /// The folders of sessions and positions.
     pub places: Places,
     /// The list of exercises.
     pub catalogue: Catalogue,
-    /// What has been played.
+    /// The practice record.
     pub book: Book,
-    /// The exercise that is practised.
+    /// The open exercise.
     pub turn: Option<Turn>,
-    /// The page of records.
+    /// The state of the records screen.
     pub records: Records,
     /// The filmed shots.
     pub film: FilmsScreen,
-    /// Who plays.
+    /// The player whose errors are simulated.
     pub player: Player,
-    /// What is asked.
+    /// The open question.
     pub question: Option<Question>,
-    /// What the status line says.
+    /// The message of the status line.
     pub message: Option<Message>,
     /// Whether the coach may advise jumps and massés.
     pub jumps: bool,
-    /// The units in which the player is told lengths.
+    /// The units for displayed values.
     pub units: Units,
-    /// Whether the stroke is told in degrees and by its speed, instead of as advice is.
+    /// Whether the stroke is shown in numbers (degrees and speed) instead of the form of the advice.
     pub is_in_numbers: bool,
-    /// The table that the settings say: a bundled one or a file.
-    of_settings: String,
-    /// The player's own table, where the coach's page has one: exercises of its size are played on it.
+    /// The table of the settings: a bundled one or a file.
+    settings_table: String,
+    /// The custom table of the coach page, if it has one. Exercises of its size are played on it.
     own_table: Option<Box<Table>>,
     options: RepetitionOptions,
-    /// Balls that are to go to the coach's table, until they are taken.
+    /// A position for the coach page, until the app takes it.
     pub for_coach: Option<Balls>,
-    /// The coach's rule when the library was opened last.
+    /// The coach page's rule when the library was last opened.
     opened_for: Option<Rule>,
-    /// The level of the exam that was chosen last.
+    /// The level of the last chosen exam.
     exam_level: u8,
-    /// The pages one has come through; the last one is open.
+    /// The stack of screens; the last one is open.
     pages: Vec<DrillContext>,
-    /// An exam that was left before its end, until it is taken.
+    /// An unfinished exam that was left, until the app takes it.
     pub left_exam: Option<Session>,
-    /// Runs, games and matches that were left before their end, one an exercise; opening that goes on with it.
-    left: Vec<Session>,
+    /// Unfinished runs, games and matches that were left, one for each exercise. Opening the exercise resumes it.
+    unfinished_sessions: Vec<Session>,
     rng: Xoshiro256PlusPlus,
 }
 
 impl DrillsPage {
-    /// The screens before they are opened; `seed` decides about errors, shifts and exams.
+    /// Creates the page, closed; `seed` seeds the random errors, shifts and exams.
     pub fn new(places: Places, seed: u64) -> Self {
         Self {
             places,
@@ -159,7 +159,7 @@ impl DrillsPage {
             jumps: true,
             units: Units::default(),
             is_in_numbers: false,
-            of_settings: String::new(),
+            settings_table: String::new(),
             own_table: None,
             options: RepetitionOptions { goal: Goal::Free, shifted: false, lengths: Lengths::default() },
             for_coach: None,
@@ -167,22 +167,22 @@ impl DrillsPage {
             exam_level: 0,
             pages: Vec::new(),
             left_exam: None,
-            left: Vec::new(),
+            unfinished_sessions: Vec::new(),
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         }
     }
 
-    /// Takes what is set for all pages.
+    /// Applies the settings that concern this page.
     pub fn take_settings(&mut self, settings: &Settings) {
-        (self.units, self.jumps, self.player.of_settings) = (settings.units, settings.jumps, settings.skill);
-        self.of_settings.clone_from(&settings.table);
+        (self.units, self.jumps, self.player.settings_skill) = (settings.units, settings.jumps, settings.skill);
+        self.settings_table.clone_from(&settings.table);
         if let Some(turn) = &mut self.turn {
             turn.jumps = settings.jumps;
         }
     }
 
-    /// Opens the page that was open last, or the library at the exercises of the coach's rule, for the coach's player of `skill` and the
-    /// coach's table, if that is the player's own; what is on the disk is read again.
+    /// Opens the page: at the last open screen, or in the library at the exercises of the coach page's rule. Takes over the coach
+    /// page's `skill`, and its table if that is a custom one. The record is read again from the disk.
     pub fn open(&mut self, skill: Skill, rule: Rule, table: &Table) -> Effect {
         self.message = None;
         self.own_table = (!PRESETS.contains(&&*table.name)).then(|| Box::new(table.clone()));
@@ -200,12 +200,12 @@ impl DrillsPage {
         Effect::Drill(tasks)
     }
 
-    /// Reads what is on the disk.
+    /// Returns the task that reads the record from the disk.
     pub fn load(&self) -> DrillTask {
         DrillTask::Load(Box::new(self.places.clone()))
     }
 
-    /// Goes on with a session that an earlier one of the program has left.
+    /// Resumes a session that was left in an earlier run of the program.
     pub fn resume(&mut self, session: Session, skill: Skill) -> Effect {
         self.left_exam = self.unfinished().filter(|open| open.is_exam() && open.id != session.id).cloned();
         self.own_table = session.table.clone().or(self.own_table.take());
@@ -214,17 +214,16 @@ impl DrillsPage {
         self.player.skill = session.skill;
         let mut tasks = vec![self.load()];
         tasks.extend(self.practise(session));
-        // A damaged one has no page.
+        // A damaged session opens no screen.
         if self.pages.is_empty() {
             self.pages.push(DrillContext::Library);
         }
         Effect::Drill(tasks)
     }
 
-    /// The session that is practised, or was left last, as long as it is not over. An exam has not begun before its first
-    /// stroke.
+    /// The open session, or the last one that was left, if it is not over. An exam counts only after its first stroke.
     pub fn unfinished(&self) -> Option<&Session> {
-        let Some(turn) = &self.turn else { return self.left.last() };
+        let Some(turn) = &self.turn else { return self.unfinished_sessions.last() };
         let has_begun = !turn.session.is_exam() || !turn.session.attempts.is_empty();
         Some(&turn.session).filter(|session| has_begun && !session.is_over())
     }
@@ -234,30 +233,30 @@ impl DrillsPage {
         self.unfinished().is_some_and(Session::is_exam)
     }
 
-    /// Shows the session that is open, whatever was asked or shown over it.
+    /// Shows the open session, and closes any question or screen over it.
     pub fn show_session(&mut self) {
         self.question = None;
         self.pages = vec![DrillContext::Library, DrillContext::Exercise];
     }
 
-    /// The game or match that is open or was left last, as long as it is not over: like an exam it is gone on with at the next start,
-    /// whatever was done after it.
+    /// The open game or match, or the last one that was left, if it is not over. Like an exam it can be resumed at the next start of
+    /// the program, whatever the user does in between.
     pub fn open_game(&self) -> Option<&Session> {
         let open = self.turn.as_ref().filter(|turn| turn.is_under_way()).map(|turn| &turn.session);
-        open.into_iter().chain(self.left.iter().rev()).find(|session| session.is_game())
+        open.into_iter().chain(self.unfinished_sessions.iter().rev()).find(|session| session.is_game())
     }
 
-    /// Whether one has gone back to the coach from the first page.
+    /// Whether the user has gone back to the coach page.
     pub const fn is_left(&self) -> bool {
         self.pages.is_empty()
     }
 
-    /// The page that is open.
+    /// The open screen.
     pub fn page(&self) -> DrillContext {
         self.pages.last().copied().unwrap_or(DrillContext::Library)
     }
 
-    /// The key context: the page's, or that of the search over it.
+    /// The key context: that of the screen, or of the search over it.
     pub fn place(&self) -> DrillContext {
         match &self.question {
             Some(Question::Search { .. }) => DrillContext::Search,
@@ -265,31 +264,31 @@ impl DrillsPage {
         }
     }
 
-    /// Lists what has the words that are being typed.
+    /// Lists the exercises that contain the typed search text.
     fn search(&mut self) {
         if let Some(Question::Search { typed, .. }) = &self.question {
-            self.catalogue.find_text(typed.text().trim());
+            self.catalogue.search(typed.text().trim());
         }
     }
 
-    /// A session's seed.
+    /// Draws the random seed of a session.
     fn seed(&mut self) -> u64 {
         self.rng.random()
     }
 
-    /// Closes the exercise; what was played is on the disk.
+    /// Closes the exercise. Its attempts are on the disk already; an unfinished run, game or match is kept for resuming.
     fn leave_turn(&mut self) {
         if let Some(mut turn) = self.turn.take() {
             turn.stop_asking();
             if turn.is_under_way() {
-                self.left.retain(|left| left.exercises != turn.session.exercises);
-                self.left.push(turn.newest().clone());
+                self.unfinished_sessions.retain(|left| left.exercises != turn.session.exercises);
+                self.unfinished_sessions.push(turn.newest().clone());
             }
         }
         self.pages.retain(|page| *page == DrillContext::Library);
     }
 
-    /// Who plays in the exercise that is open, or would in another: an exam stays with whom it was begun.
+    /// The skill in the open exercise, or in the next one if none is open. A session keeps the skill with which it was begun.
     pub fn skill(&self) -> Skill {
         self.turn.as_ref().map_or(self.player.skill, |turn| turn.session.skill)
     }
@@ -304,10 +303,11 @@ impl DrillsPage {
     }
 }
 
-/// Says that an exercise made for `table` is played on another one, or not on the one that the settings say: a bundled one or a file.
+/// A note if an exercise made for `table` is played on another table, or if its table is not the one of the settings (`set`, a
+/// bundled table or a file). `None` if all are the same.
 fn other_table_words(table: &str, played: &str, set: &str) -> Option<String> {
     if played != table {
-        return Some(format!("on your {played}; what is said of the shot is for {table}"));
+        return Some(format!("on your {played}; the advice is for {table}"));
     }
     let whose = if PRESETS.contains(&set) { "" } else { "your " };
     let name = Path::new(set).file_stem()?.to_string_lossy();
@@ -336,7 +336,7 @@ impl Page for DrillsPage {
     }
 
     fn tick(&mut self, seconds: f64) {
-        // Ticks come for toasts too; only what is on the screen may move.
+        // There are ticks for toasts too, so only the visible screen may advance.
         match (self.page(), &mut self.turn) {
             (DrillContext::Film, _) => self.film.tick(seconds),
             (DrillContext::Exercise, Some(turn)) => turn.tick(seconds),
@@ -355,7 +355,7 @@ impl Page for DrillsPage {
 
     fn cue_ball(&self) -> CueBall {
         match (self.page(), &self.turn) {
-            // In the film white is the cue ball, whatever waits behind it.
+            // In the film white is the cue ball, whatever exercise is open behind it.
             (DrillContext::Films | DrillContext::Film, _) | (_, None) => CueBall::White,
             (_, Some(turn)) => turn.cue_ball,
         }
@@ -374,6 +374,6 @@ mod tests {
         assert_eq!(said("textbook").as_deref(), Some("on match, not on textbook"));
         assert_eq!(said("/tables/Tisch 2.toml").as_deref(), Some("on match, not on your Tisch 2"));
         let own = other_table_words("match", "Tisch 2", "/tables/Tisch 2.toml");
-        assert_eq!(own.as_deref(), Some("on your Tisch 2; what is said of the shot is for match"));
+        assert_eq!(own.as_deref(), Some("on your Tisch 2; the advice is for match"));
     }
 }

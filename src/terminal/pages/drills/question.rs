@@ -1,42 +1,42 @@
-//! What the drill screens ask before they do something.
+//! The questions of the drill page.
 
 use crate::{
     drills::Exercise,
     terminal::{DrillAction, shot::stroke::SAY, ui::TextField},
 };
 
-/// Longest text that is typed or pasted, bytes: a code of many lines that a chat has wrapped fits.
+/// Maximum length of a typed or pasted text, bytes. A share code that a chat program has wrapped into many lines fits.
 pub(super) const LONGEST: usize = 4000;
 
 /// A question that waits for an answer.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Question {
-    /// Words to look for.
+    /// The text of a search.
     Search {
-        /// As far as they are typed.
+        /// The text field.
         typed: TextField,
-        /// Those that were looked for before.
+        /// The search text before this search.
         before: String,
-        /// The name of the exercise that was marked then.
+        /// The name of the exercise that was marked before this search.
         marked: String,
     },
     /// A share code.
     Code(TextField),
     /// The stroke in words.
     Stroke(TextField),
-    /// Whether the position of the same name may be replaced.
+    /// Whether to replace the saved position with the same name.
     Replace(Box<Exercise>),
-    /// Whether the position of this name may be removed.
+    /// Whether to remove the position with this name.
     Remove(String),
-    /// Whether to leave an exam that is not over: attempts made and to be made.
+    /// Whether to leave an unfinished exam: attempts so far, and number of exercises.
     Leave(usize, usize),
-    /// Whether to do what begins another session, though the run, game or match that is called this is not over, after so many
-    /// attempts.
+    /// Whether to perform an action that starts another session although a run, game or match is unfinished: the action, the name of
+    /// the goal, and the number of attempts so far.
     GiveUp(DrillAction, &'static str, usize),
 }
 
 impl Question {
-    /// The question as it stands on the status line, without what is typed.
+    /// The question as shown in the status line, without the typed text.
     pub fn text(&self) -> String {
         match self {
             Self::Search { .. } => "find: ".to_owned(),
@@ -56,7 +56,7 @@ impl Question {
         }
     }
 
-    /// The text that is typed, where some is.
+    /// The text field of the answer; `None` if the answer is yes or no.
     pub fn field(&self) -> Option<&TextField> {
         match self {
             Self::Search { typed, .. } | Self::Code(typed) | Self::Stroke(typed) => Some(typed),

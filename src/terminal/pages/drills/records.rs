@@ -1,37 +1,37 @@
-//! The page of records: of which exercise, how far it is scrolled, and the estimate of the player's skill.
+//! State of the records screen: its scope, its scroll position, and the estimate of the player's skill.
 
 use crate::coach::Skill;
 
-/// What the results say of the player's skill.
+/// The estimate of the player's skill from the results.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Estimate {
-    /// Nobody has asked.
+    /// Not requested yet.
     #[default]
     Unknown,
-    /// It is being worked out.
+    /// Being computed.
     Working,
-    /// The skill, where it is more than a bound, with a sentence on how sure that is.
+    /// The skill with a sentence on its accuracy. The skill is `None` if the results give only a bound.
     Known(Option<Skill>, String),
-    /// Why there is none.
+    /// The reason why there is no estimate.
     Missing(String),
 }
 
-/// The page of records.
+/// State of the records screen.
 #[derive(Debug, Default)]
 pub struct Records {
-    /// The exercise that it can show alone.
+    /// The exercise to which the screen can be limited.
     pub(super) exercise: Option<String>,
-    /// Whether it shows all exercises all the same.
+    /// Whether the screen shows all exercises although it could be limited to one.
     shows_all: bool,
     /// The estimate of the player's skill.
     pub estimate: Estimate,
-    /// How many times it was asked for.
+    /// Number of requests for the estimate.
     asked: u64,
     top: usize,
 }
 
 impl Records {
-    /// Opens the page with the record of `exercise`, or of all, whose sessions are about to be read.
+    /// Opens the screen with the record of `exercise`, or of all exercises. The caller must read the sessions again.
     pub(super) fn open(&mut self, exercise: Option<String>) {
         self.exercise = exercise;
         self.shows_all = false;
@@ -41,42 +41,42 @@ impl Records {
         }
     }
 
-    /// Gives the number of a question for the player's skill.
+    /// Returns the number of a new request for the estimate.
     pub(super) const fn ask(&mut self) -> u64 {
         self.asked += 1;
         self.asked
     }
 
-    /// The answer to question `number`; one that took longer than a later one is dropped.
+    /// Handles the answer to request `number`; drops it if there is a later request.
     pub(super) fn estimated(&mut self, number: u64, estimate: Estimate) {
         if number == self.asked {
             self.estimate = estimate;
         }
     }
 
-    /// The exercise whose record is shown; `None` for all.
+    /// The exercise whose record is shown; `None` for all exercises.
     pub fn scope(&self) -> Option<&str> {
         self.exercise.as_deref().filter(|_| !self.shows_all)
     }
 
-    /// Shows the record of all exercises, or of the one again.
+    /// Switches between the record of all exercises and of the one.
     pub(super) const fn toggle_scope(&mut self) {
         self.shows_all = !self.shows_all;
         self.top = 0;
     }
 
-    /// Sessions that are scrolled over, of `all`.
+    /// Number of sessions that are scrolled out at the top, of `all`.
     pub fn top(&self, all: usize) -> usize {
         self.top.min(all.saturating_sub(1))
     }
 
-    /// Scrolls by lines, to earlier sessions where positive.
+    /// Scrolls by lines, to earlier sessions if positive.
     pub(super) fn scroll(&mut self, lines: isize, all: usize) {
         self.top = self.top(all).saturating_add_signed(lines);
         self.top = self.top(all);
     }
 
-    /// The estimated skill.
+    /// The estimated skill, if there is one.
     pub const fn skill(&self) -> Option<Skill> {
         if let Estimate::Known(skill, _) = &self.estimate { *skill } else { None }
     }

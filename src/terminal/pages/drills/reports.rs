@@ -1,4 +1,4 @@
-//! What is done with what has come of tasks.
+//! Handling of the results of the drill page's background tasks.
 
 use crate::{
     coach::Skill,
@@ -15,7 +15,7 @@ use crate::{
 };
 
 impl DrillsPage {
-    /// Takes what has come of a task, and gives what it asks for in turn.
+    /// Handles the result of a task. Returns follow-up tasks.
     pub fn receive(&mut self, report: DrillReport) -> Vec<DrillTask> {
         match report {
             DrillReport::Loaded(loaded) => {
@@ -44,7 +44,7 @@ impl DrillsPage {
                         turn.stage = Stage::Aiming;
                         self.message = Some(Message::warning(sentence));
                     }
-                    // Nobody waits for it any more.
+                    // The user has left the session in the meantime.
                     (Err(_), _) => {}
                 }
                 self.warn_unsaved(saved, "the attempt counts here, but it is not saved");
@@ -81,7 +81,7 @@ impl DrillsPage {
             DrillReport::PositionRemoved(name, outcome) => match outcome {
                 Ok(()) => {
                     let own = self.own().filter(|exercise| exercise.name != name).cloned().collect();
-                    self.take_own(own);
+                    self.set_own_positions(own);
                     self.message = Some(Message::plain(format!("{name} is removed; its results stay")));
                 }
                 Err(sentence) => self.message = Some(Message::warning(format!("{name} is not removed: {sentence}"))),
@@ -110,8 +110,8 @@ impl DrillsPage {
     fn loaded(&mut self, loaded: LoadedRecords) {
         let LoadedRecords { sessions, positions, skill, troubles } = loaded;
         self.book = Book::new(sessions, troubles);
-        self.take_own(positions);
-        // A skill that was kept is played with, as long as no other was chosen.
+        self.set_own_positions(positions);
+        // The saved skill becomes the current one unless the user has chosen another.
         if let Some(skill) = skill.filter(|_| self.player.own.is_none()) {
             self.player.own = Some(skill);
             if self.player.skill == Skill::default() {
@@ -120,7 +120,7 @@ impl DrillsPage {
         }
     }
 
-    /// Goes on from where another program has come with the session that is open here, as the disk has just told.
+    /// Loads the newer version of the open session if another instance of the program has continued it.
     fn catch_up(&mut self) -> Vec<DrillTask> {
         let Some(turn) = &self.turn else { return Vec::new() };
         let stored = self.book.sessions.iter().find(|stored| stored.id == turn.session.id && turn.is_behind(stored));
@@ -129,7 +129,7 @@ impl DrillsPage {
         self.go_on_with(stored)
     }
 
-    /// Takes the open session as another program has left it.
+    /// Replaces the open session with the version of another instance of the program.
     fn go_on_with(&mut self, stored: Session) -> Vec<DrillTask> {
         let Some(turn) = self.turn.as_mut().filter(|turn| turn.session.id == stored.id) else { return Vec::new() };
         if stored.is_exam() && stored.is_over() {
@@ -138,7 +138,7 @@ impl DrillsPage {
         turn.go_on_with(stored)
     }
 
-    /// A session is on the disk, or could not be written.
+    /// Handles the result of saving a session, with a message about the recorded or undone attempt.
     fn saved(&mut self, session: &Session, saved: Result<(), String>) -> Vec<DrillTask> {
         let before = self.book.sessions.iter().find(|known| known.id == session.id);
         let taken_back = before.and_then(|before| before.attempts.get(session.attempts.len())).cloned();
@@ -152,7 +152,7 @@ impl DrillsPage {
         };
         self.message = Some(match (taken_back, session.attempts.last()) {
             (Some(attempt), _) => Message::plain(format!("taken back: {}, {now}", what(&attempt))),
-            // The first one may be a mistake: until then strokes were played here.
+            // The first record may be a mistake, because earlier strokes were played in the program.
             (None, Some(first)) if record.tried == 1 => {
                 Message::plain(format!("noted for a real table: {}, {now}; u takes it back", what(first)))
             }
@@ -173,13 +173,13 @@ impl DrillsPage {
         }
     }
 
-    /// The user's own positions, as far as they are listed.
+    /// The user's own positions in the library.
     fn own(&self) -> impl Iterator<Item = &Exercise> {
         let library = &self.catalogue.library;
         library.exercises().iter().filter(|exercise| !library.is_bundled(&exercise.name))
     }
 
-    fn take_own(&mut self, own: Vec<Exercise>) {
+    fn set_own_positions(&mut self, own: Vec<Exercise>) {
         let (library, refused) = Library::with_own(own);
         self.catalogue.take(library);
         self.book.troubles.extend(refused.iter().map(ToString::to_string));
@@ -188,7 +188,7 @@ impl DrillsPage {
     fn position_saved(&mut self, exercise: &Exercise) {
         let own = self.own().filter(|own| own.name != exercise.name).cloned();
         let own = own.chain([exercise.clone()]).collect();
-        self.take_own(own);
+        self.set_own_positions(own);
         self.catalogue.show_own(&exercise.name);
         self.message = Some(Message::good(format!("saved as {}", exercise.name)));
     }

@@ -1,6 +1,6 @@
-//! The page of an exercise: the balls, the stroke that is set, the shot that came of it, and the session it counts in.
+//! The screen of an exercise: the balls, the stroke that the player sets, the shot that it produces, and the session.
 //!
-//! [`super::turn_actions`] is what each key does to it.
+//! [`super::turn_actions`] implements the key actions.
 
 use std::sync::{
     Arc,
@@ -24,81 +24,81 @@ use crate::{
     },
 };
 
-/// Numbers of the questions to the coach, whatever exercise they are about: an answer may come when another is open.
+/// Counter for the numbers of requests to the coach, shared by all exercises: an answer may arrive when another exercise is open.
 pub(super) static QUESTIONS: AtomicU64 = AtomicU64::new(1);
 
-/// What is going on.
+/// Stage of an attempt.
 #[derive(Debug)]
 pub enum Stage {
     /// The player sets the stroke.
     Aiming,
-    /// It is being played.
+    /// The stroke is being simulated.
     Waiting,
-    /// It is watched.
+    /// The player watches the shot.
     Watching(Box<Watched>),
 }
 
-/// The model shot, as far as it is known.
+/// The model shot, or why there is none yet.
 #[derive(Debug)]
 pub enum ModelShotState {
     /// The coach is still thinking.
     Pending,
-    /// It has found no shot that makes the point.
+    /// The coach has found no shot that makes the point.
     Missing,
-    /// This one.
+    /// The model shot is known.
     Known(Box<ModelShot>),
 }
 
-/// The page of an exercise.
+/// The state of an open exercise.
 #[derive(Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own, seen or not, asked or not")]
 pub struct Turn {
-    /// What counts, as far as it is safe on the disk or was seen not to be.
+    /// The session, without changes whose saving is still in progress.
     pub session: Session,
-    /// The exercise that is played.
+    /// The open exercise.
     pub exercise: Exercise,
     /// The table.
     pub table: Table,
-    /// Where the balls lie.
+    /// The positions of the balls.
     pub layout: Layout,
-    /// Which of them is the cue ball.
+    /// The cue ball.
     pub cue_ball: CueBall,
-    /// What is going on.
+    /// Stage of the attempt.
     pub stage: Stage,
     /// Whether the coach may advise jumps and massés here.
     pub jumps: bool,
     /// The model shot.
     pub model_shot: ModelShotState,
-    /// Whether it is shown.
+    /// Whether the model shot is shown.
     pub shows_hint: bool,
-    /// Whether it was shown since the balls were placed.
+    /// Whether the attempt counts as one with a hint: the model shot was shown since the balls were placed.
     pub with_hint: bool,
-    /// Whether a jump is shown from the side too.
-    pub is_from_side: bool,
-    /// The page of the aim's text, where one has no room for all of it; beyond the last the first comes again.
+    /// Whether a jump is also shown from the side.
+    pub has_side_view: bool,
+    /// Page number in the text panel, if the text needs several pages; taken modulo the number of pages.
     pub text_page: isize,
-    /// The session as it will be once all notes are saved.
-    ahead: Option<Session>,
-    /// The stroke that is set, with what it was before.
+    /// The session with all changes, while saving is in progress.
+    unsaved: Option<Session>,
+    /// The stroke, with its undo history.
     pub(super) stroke: OwnStroke,
-    /// The stroke beside the model shot, once that was taken over.
+    /// The comparison with the model shot; `None` if there is none.
     pub(super) what_if: Option<WhatIf>,
-    /// Whether it was said that nobody has set the stroke yet: then it is played all the same.
+    /// Whether the player was warned that the stroke is unchanged. After that it is played nevertheless.
     is_warned: bool,
     advice_id: u64,
     cancel: Arc<AtomicBool>,
 }
 
 impl Turn {
-    /// The page of the exercise that `session` begins with.
+    /// Opens the next exercise of `session`; `None` if there is none.
     ///
     /// # Errors
-    /// An exercise that cannot be played.
+    /// Fails if the exercise cannot be played.
     pub fn new(session: Session) -> Result<Option<Self>, ExerciseError> {
         let (Some(exercise), Some((table, layout))) = (session.exercise().cloned(), session.position()?) else {
             return Ok(None);
         };
-        // What the coach is to play is there to be seen.
+        // The coach's next stroke is visible from the start.
         let is_coachs = session.is_coachs_turn();
         Ok(Some(Self {
             stroke: OwnStroke::new(aiming::first_stroke(Point::of(exercise.rule, &table, &layout), &layout)),
@@ -114,20 +114,20 @@ impl Turn {
             model_shot: ModelShotState::Pending,
             shows_hint: is_coachs,
             with_hint: false,
-            is_from_side: false,
+            has_side_view: false,
             text_page: 0,
-            ahead: None,
+            unsaved: None,
             advice_id: 0,
             cancel: Arc::default(),
         }))
     }
 
-    /// The stroke that is set.
+    /// The stroke as the player has set it.
     pub const fn stroke(&self) -> &CueInputs {
         self.stroke.cue()
     }
 
-    /// The stroke as it will be meant when it is played: rails and balls behind raise the cue that is set lower.
+    /// The stroke as it will be played: if the rails or balls behind the cue ball require it, the cue is raised.
     pub fn raised_stroke(&self) -> CueInputs {
         self.stroke.raised(&self.table, &self.layout)
     }
@@ -138,36 +138,36 @@ impl Turn {
         Ok(self.compare())
     }
 
-    /// Sets the stroke as `words` say it.
-    pub(super) fn say_stroke(&mut self, words: &str) -> Result<Vec<DrillTask>, SpokenError> {
+    /// Sets the stroke from its description in words.
+    pub(super) fn set_stroke_in_words(&mut self, words: &str) -> Result<Vec<DrillTask>, SpokenError> {
         self.stroke.say(words, &self.table, &self.layout, self.cue_ball)?;
         Ok(self.compare())
     }
 
-    /// Sets the stroke as it was before its last change, or after it again.
-    pub(super) fn travel(&mut self, step: impl Fn(&mut OwnStroke) -> bool) -> Vec<DrillTask> {
+    /// Undoes or redoes a change of the stroke, as `step` does.
+    pub(super) fn step_history(&mut self, step: impl Fn(&mut OwnStroke) -> bool) -> Vec<DrillTask> {
         step(&mut self.stroke);
         self.compare()
     }
 
-    /// Whether the stroke is the one that the page began with, of the player's own, which nobody was warned of: once.
+    /// Whether to warn that the player has not changed the initial stroke. Returns `true` only once.
     pub(super) fn takes_warning(&mut self) -> bool {
         let warns = self.is_aiming() && !self.is_coachs_turn() && !self.stroke.can_travel().0;
         warns && !std::mem::replace(&mut self.is_warned, true)
     }
 
-    /// Whether a run, a game or a match has begun and is not over: another session would end it.
+    /// Whether a run, a game or a match has begun and is not over, so that another session would end it.
     pub(super) fn is_under_way(&self) -> bool {
         let newest = self.newest();
         !matches!(newest.goal, Goal::Free | Goal::Exam) && !newest.attempts.is_empty() && !newest.is_over()
     }
 
-    /// The stroke that is watched.
+    /// The watched stroke.
     pub const fn watched(&self) -> Option<&Watched> {
         if let Stage::Watching(watched) = &self.stage { Some(watched) } else { None }
     }
 
-    /// Goes to the end of the stroke that is watched, if one is.
+    /// Jumps to the end of the watched stroke, if there is one.
     pub(super) fn finish_watching(&mut self) {
         if let Some(watched) = self.watched_mut().filter(|watched| !watched.is_settled) {
             watched.finish();
@@ -178,53 +178,53 @@ impl Turn {
         if let Stage::Watching(watched) = &mut self.stage { Some(watched) } else { None }
     }
 
-    /// Whether the player sets a stroke.
+    /// Whether the player is setting the stroke.
     pub const fn is_aiming(&self) -> bool {
         matches!(self.stage, Stage::Aiming)
     }
 
-    /// Whether the coach is to make the next stroke, as the other side of a match.
+    /// Whether the coach plays the next stroke, as the other side of a match.
     pub fn is_coachs_turn(&self) -> bool {
         self.is_aiming() && self.session.is_coachs_turn()
     }
 
-    /// Whether it waits for what came of a stroke.
+    /// Whether the stroke is being simulated.
     pub const fn is_waiting(&self) -> bool {
         matches!(self.stage, Stage::Waiting)
     }
 
-    /// The model shot while it is shown, except where it is the coach's own turn: then its stroke is the one that is set.
+    /// The model shot if it is shown; `None` at the coach's own turn, when the current stroke is the coach's.
     pub fn shown_model(&self) -> Option<&ModelShot> {
         self.hint().filter(|_| !self.is_with_coach())
     }
 
-    /// Whether a stroke of the coach's is to come, or is watched.
+    /// Whether the next or the watched stroke is the coach's.
     pub fn is_with_coach(&self) -> bool {
         self.is_coachs_turn() || self.watched().is_some_and(Watched::is_by_coach)
     }
 
-    /// Whether the coach is still thinking about the stroke that it is to make.
+    /// Whether the coach is still thinking about its own stroke.
     pub fn is_coach_thinking(&self) -> bool {
         self.is_coachs_turn() && matches!(self.model_shot, ModelShotState::Pending)
     }
 
-    /// Where the stroke leads, while it is set.
+    /// The aim line of the stroke while the player sets it.
     pub fn aim_line(&self) -> Option<AimLine> {
         let is_there = self.is_aiming() && !self.is_coach_thinking();
         is_there.then(|| AimLine::of(&self.table, &self.layout, &self.raised_stroke())).flatten()
     }
 
-    /// The model shot, if it is known and there is one.
+    /// The model shot, if it is known.
     pub const fn model_shot(&self) -> Option<&ModelShot> {
         if let ModelShotState::Known(model_shot) = &self.model_shot { Some(model_shot) } else { None }
     }
 
-    /// The same while it is shown.
+    /// The model shot, if it is known and shown.
     pub fn hint(&self) -> Option<&ModelShot> {
         self.model_shot().filter(|_| self.shows_hint)
     }
 
-    /// The shot on the table: the one that is watched, the model shot while it is shown, or the player's own beside it.
+    /// The shot on the table: the player's own in a comparison, else the model shot if it is shown, else the watched one.
     pub fn shot(&self) -> Option<&Shot> {
         if let Some(what_if) = self.what_if() {
             return Some(&what_if.shot);
@@ -235,29 +235,28 @@ impl Turn {
         }
     }
 
-    /// The jump of the shot on the table, while it is to be shown from the side; a shot without one has none.
+    /// The height profile of the displayed shot's jump; `None` if the side view is off or no ball jumps.
     pub fn profile(&self) -> Option<&Profile> {
-        self.shot().filter(|_| self.is_from_side)?.profile(&self.table)
+        self.shot().filter(|_| self.has_side_view)?.profile(&self.table)
     }
 
-    /// Shows jumps from the side, or no longer; what there is to say where the shot on the table has none. Before the stroke
-    /// it holds for the one that comes.
-    pub(super) fn turn_side_view(&mut self) -> String {
-        self.is_from_side = !self.is_from_side;
-        match (self.is_from_side, self.shot()) {
-            (false, _) => "jumps are shown from above alone".to_owned(),
+    /// Turns the side view of jumps on or off, and returns a message on it. Without a shot, the choice applies to the next one.
+    pub(super) fn toggle_side_view(&mut self) -> String {
+        self.has_side_view = !self.has_side_view;
+        match (self.has_side_view, self.shot()) {
+            (false, _) => "jumps are shown from above only".to_owned(),
             (true, None) => "jumps are shown from the side too".to_owned(),
             (true, Some(shot)) if shot.profile(&self.table).is_some() => "the jump from the side".to_owned(),
             (true, Some(_)) => no_jump_words(&self.table).to_owned(),
         }
     }
 
-    /// Whether the last attempt of the session is still being watched: its result is not shown yet.
+    /// Whether the last attempt of the session is still being watched, so that its result must not be shown yet.
     pub(super) fn is_open(&self) -> bool {
         self.watched().is_some_and(|watched| !watched.is_settled)
     }
 
-    /// The session as far as it may be shown.
+    /// The session without an attempt whose result must not be shown yet.
     pub fn settled_session(&self) -> Session {
         let mut session = self.session.clone();
         if self.is_open() {
@@ -266,7 +265,7 @@ impl Turn {
         session
     }
 
-    /// The result of the watched stroke, once it may be shown.
+    /// The result of the watched stroke; `None` if it must not be shown yet.
     pub fn verdict(&self, unit: LengthUnit) -> Option<Message> {
         let watched = self.watched().filter(|watched| watched.is_settled)?;
         let AttemptOutcome { played, .. } = &watched.outcome;
@@ -280,7 +279,7 @@ impl Turn {
         Some(if played.made { Message::good(text) } else { Message::warning(text) })
     }
 
-    /// Asks for the model shot in this position. Nobody waits for the one before any more.
+    /// Requests the model shot for the current position, and cancels the previous request.
     pub(super) fn ask(&mut self) -> Vec<DrillTask> {
         self.stop_asking();
         self.what_if = None;
@@ -301,13 +300,13 @@ impl Turn {
         }))]
     }
 
-    /// Lets the coach stop thinking about a position that is left.
+    /// Cancels the pending request for a model shot.
     pub(super) fn stop_asking(&mut self) {
         self.cancel.store(true, Ordering::Relaxed);
         self.cancel = Arc::default();
     }
 
-    /// The answer to question `id`; late ones are dropped.
+    /// Handles the answer to request `id`; late answers are dropped.
     pub(super) fn advised(&mut self, id: u64, model_shot: Option<ModelShot>) {
         if id == self.advice_id {
             if let Some(model_shot) = model_shot.as_ref().filter(|_| self.is_coachs_turn()) {
@@ -318,7 +317,7 @@ impl Turn {
         }
     }
 
-    /// What plays the stroke that is set.
+    /// Returns the task that plays the stroke.
     pub(super) fn play(&mut self) -> DrillTask {
         self.stroke.settle();
         self.text_page = 0;
@@ -333,7 +332,7 @@ impl Turn {
         }))
     }
 
-    /// The stroke was played.
+    /// Handles the result of a played stroke and starts its playback.
     pub(super) fn played(&mut self, outcome: AttemptOutcome) {
         if outcome.session.id != self.session.id || !matches!(self.stage, Stage::Waiting) {
             return;
@@ -349,7 +348,7 @@ impl Turn {
         self.stage = Stage::Watching(Box::new(watched));
     }
 
-    /// How often the player makes what was meant in attempt `number` of the session called `id`.
+    /// Stores the success rate of the stroke that was meant in attempt `number` of the session `id`.
     pub(super) fn judged(&mut self, id: &str, number: usize, chance: f64) {
         if self.session.id != id || self.session.attempts.len() <= number {
             return;
@@ -361,65 +360,65 @@ impl Turn {
         }
     }
 
-    /// The session as it stands, with notes that are on their way to the disk.
+    /// The session including changes whose saving is in progress.
     pub(super) fn newest(&self) -> &Session {
-        self.ahead.as_ref().unwrap_or(&self.session)
+        self.unsaved.as_ref().unwrap_or(&self.session)
     }
 
-    /// What saves `session`, in which something was noted or taken back.
+    /// Returns the task that saves the changed `session`.
     pub(super) fn save(&mut self, session: Session) -> DrillTask {
         let before = self.newest().attempts.clone();
-        self.ahead = Some(session.clone());
+        self.unsaved = Some(session.clone());
         DrillTask::Save(Box::new(session), before)
     }
 
-    /// Whether another program has gone on with the session, as it is `stored`, and nothing here is on its way to the disk.
+    /// Whether another instance of the program has continued the session (its version is `stored`) and no save is in progress here.
     pub(super) fn is_behind(&self, stored: &Session) -> bool {
         let (known, stored) = (&self.session.attempts, &stored.attempts);
-        self.is_aiming() && self.ahead.is_none() && known.len() < stored.len() && Attempt::is_prefix(known, stored)
+        self.is_aiming() && self.unsaved.is_none() && known.len() < stored.len() && Attempt::is_prefix(known, stored)
     }
 
-    /// Goes on with the session as another program has left it.
+    /// Continues with the version of another instance of the program.
     pub(super) fn go_on_with(&mut self, stored: Session) -> Vec<DrillTask> {
         self.stage = Stage::Aiming;
         self.begin(stored)
     }
 
-    /// A session is on the disk, or cannot be; asks for the model shot where the balls lie elsewhere next.
+    /// Handles the end of saving a session, successful or not. Requests a new model shot if the next position is a different one.
     pub(super) fn saved(&mut self, session: &Session) -> Vec<DrillTask> {
-        let Some(ahead) = self.ahead.take_if(|ahead| ahead.id == session.id) else { return Vec::new() };
+        let Some(ahead) = self.unsaved.take_if(|ahead| ahead.id == session.id) else { return Vec::new() };
         if ahead != *session {
-            self.ahead = Some(ahead);
+            self.unsaved = Some(ahead);
         }
         self.session = session.clone();
         if self.place_next() { self.ask() } else { Vec::new() }
     }
 
-    /// Whether a note from a real table can be taken back.
+    /// Whether a record from a real table can be undone.
     pub(super) fn can_undo(&self) -> bool {
         let newest = self.newest();
         newest.venue == Venue::Table && !newest.attempts.is_empty()
     }
 
-    /// Begins another session of the same exercises, and asks for the model shot where that may be another stroke.
+    /// Starts another session of the same exercises. Requests a new model shot if that may be different now.
     pub(super) fn begin(&mut self, session: Session) -> Vec<DrillTask> {
         let asks_otherwise = (session.skill, session.is_game()) != (self.session.skill, self.session.is_game());
         self.session = session;
-        self.ahead = None;
+        self.unsaved = None;
         let is_moved = self.place_next();
         if is_moved || asks_otherwise { self.ask() } else { Vec::new() }
     }
 
-    /// Places the balls for the next attempt of the session; whether they lie elsewhere now.
+    /// Places the balls for the next attempt of the session. Returns whether the position has changed.
     pub(super) fn place_next(&mut self) -> bool {
         match self.session.position() {
             Ok(Some((table, layout))) => self.place(table, layout),
-            // It is over, or its exercise was checked when it was opened: nothing moves.
+            // The session is over. An error is impossible here, because the exercise was checked when it was opened.
             _ => false,
         }
     }
 
-    /// Places the balls; whether they lie elsewhere now.
+    /// Places the balls. Returns whether the position has changed.
     pub(super) fn place(&mut self, table: Table, layout: Layout) -> bool {
         let exercise = self.session.exercise().cloned().unwrap_or_else(|| self.exercise.clone());
         let is_other = exercise.name != self.exercise.name;
@@ -432,7 +431,7 @@ impl Turn {
         (self.exercise, self.table, self.layout) = (exercise, table, layout);
         self.cue_ball = self.session.cue_ball_now();
         self.stage = Stage::Aiming;
-        // What the coach is to play is no longer there when the player is to strike.
+        // The coach's stroke is visible at its turn and hidden at the player's.
         self.shows_hint = self.is_coachs_turn() || self.shows_hint && !is_moved;
         if is_moved {
             self.what_if = None;
@@ -441,7 +440,7 @@ impl Turn {
         is_moved
     }
 
-    /// Lets `seconds` pass for the shot.
+    /// Advances the playback by `seconds`.
     pub fn tick(&mut self, seconds: f64) {
         if let Some(watched) = self.watched_mut()
             && let Some(shot) = &watched.outcome.shot
@@ -451,7 +450,7 @@ impl Turn {
         }
     }
 
-    /// Whether something moves by itself.
+    /// Whether a playback is running.
     pub fn is_moving(&self) -> bool {
         self.watched().is_some_and(|watched| watched.playback.playing)
     }

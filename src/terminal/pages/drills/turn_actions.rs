@@ -1,4 +1,4 @@
-//! What each key does to the page of an exercise, and when it may be used.
+//! Implementation of the key actions on an open exercise, and their conditions.
 
 use crate::{
     coach::Skill,
@@ -12,13 +12,13 @@ use crate::{
     },
 };
 
-/// Why a key does nothing before the result of a stroke was seen.
+/// The reason why a key is disabled before the result of a stroke has been shown.
 pub(super) const IS_RUNNING: &str = "the shot is running; Enter skips to its end";
-/// What is said before a stroke is played that nobody has set.
-const UNCHANGED: &str = "the stroke is unchanged; Space again plays it all the same";
+/// The warning before a stroke is played that the player has not changed.
+const UNCHANGED: &str = "the stroke is unchanged; Space again plays it anyway";
 
 impl Turn {
-    /// Why a binding of the page may not be used now; `None` where it may.
+    /// Returns the reason why a key binding is disabled now; `None` if it is enabled.
     pub(super) fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
         let refuse = |refused: bool, reason| refused.then_some(reason);
         match (&self.stage, when) {
@@ -56,7 +56,7 @@ impl Turn {
                 Goal::Match { against_coach: true, .. } => {
                     Some("the coach cannot play at a real table; o chooses another goal")
                 }
-                Goal::Match { .. } => Some("a match is played here alone; o chooses another goal"),
+                Goal::Match { .. } => Some("a match is played only here; o chooses another goal"),
                 _ => self.disabled_reason(Condition::Restart),
             },
             (_, Condition::Repeated) => {
@@ -72,7 +72,7 @@ impl Turn {
             (_, Condition::Free | Condition::Restart | Condition::Counted) if self.session.is_exam() => {
                 Some("an exam is under way; Esc leaves it")
             }
-            // Another session would take the stroke off the table with its result; a run asks first and shows it then.
+            // Another session would remove the stroke before its result is shown. A run asks for confirmation, which shows the result.
             (_, Condition::Restart | Condition::Counted) if self.is_open() && !self.is_under_way() => Some(IS_RUNNING),
             (_, Condition::Counted) => {
                 refuse(self.session.goal == Goal::Free, "free repetition has no end; o chooses a goal")
@@ -85,10 +85,10 @@ impl Turn {
                 .disabled_reason(Condition::ModelShot)
                 .or_else(|| self.disabled_reason(Condition::Aiming))
                 .or_else(|| self.disabled_reason(Condition::Alone)),
-            (_, Condition::Compared) => refuse(self.what_if().is_none(), "the model shot is not beside your stroke"),
+            (_, Condition::Compared) => refuse(self.what_if().is_none(), "the model shot is not next to your stroke"),
             (Stage::Aiming, Condition::StrokeChanged) => refuse(!self.stroke.can_travel().0, "the stroke is unchanged"),
             (Stage::Aiming, Condition::Set) => {
-                refuse(!self.stroke.can_travel().0, "the stroke is unchanged; Space twice plays it all the same")
+                refuse(!self.stroke.can_travel().0, "the stroke is unchanged; Space twice plays it anyway")
             }
             (Stage::Aiming, Condition::StrokeUndone) => {
                 refuse(!self.stroke.can_travel().1, "no change of the stroke was taken back")
@@ -101,7 +101,7 @@ impl Turn {
         }
     }
 
-    /// Whether a key begins another session.
+    /// Whether an action starts another session.
     fn is_ended_by(&self, action: Action) -> bool {
         match action {
             Action::Shift | Action::Goal | Action::Count(_) | Action::Player => true,
@@ -111,8 +111,8 @@ impl Turn {
         }
     }
 
-    /// The same practice from its beginning: with other options it is another session.
-    fn again(&self, goal: Goal, shifted: bool, venue: Venue, skill: Skill, seed: u64) -> Session {
+    /// Creates a new session of the same exercises with these options.
+    fn new_session(&self, goal: Goal, shifted: bool, venue: Venue, skill: Skill, seed: u64) -> Session {
         let exercises = self.session.exercises.clone();
         let mut session = Session::new(goal, venue, exercises, skill, seed);
         session.shifted = shifted;
@@ -121,8 +121,7 @@ impl Turn {
 }
 
 impl DrillsPage {
-    /// What the keys do to the exercise that is practised. Before one that ends an open run by beginning another session, it is
-    /// asked whether that is meant.
+    /// Performs an action on the open exercise. Asks for confirmation if the action would end an unfinished run, game or match.
     pub(super) fn update_turn(&mut self, action: Action) -> Option<Effect> {
         let turn = self.turn.as_mut()?;
         if action == Action::Play && turn.takes_warning() {
@@ -130,7 +129,7 @@ impl DrillsPage {
             return None;
         }
         if turn.is_under_way() && turn.is_ended_by(action) {
-            // The question counts a stroke that is still being watched, and so must the score beside it.
+            // The question counts the stroke that is still being watched, so the score next to it must count it too.
             turn.finish_watching();
             let Session { goal, attempts, .. } = turn.newest();
             let own = attempts.iter().filter(|attempt| !attempt.by_coach).count();
@@ -140,18 +139,18 @@ impl DrillsPage {
         self.act(action)
     }
 
-    /// The same without a question.
+    /// Performs an action on the open exercise without confirmation.
     pub(super) fn act(&mut self, action: Action) -> Option<Effect> {
         let turn = self.turn.as_mut()?;
         match action {
             Action::Stroke(change) => match turn.change_stroke(change) {
-                Ok(tasks) => return some(tasks),
+                Ok(tasks) => return tasks_effect(tasks),
                 Err(error) => self.message = Some(Message::warning(error.to_string())),
             },
             Action::TypeStroke => self.question = Some(Question::Stroke(TextField::new(stroke::LONGEST))),
-            Action::StrokeBack => return some(turn.travel(OwnStroke::undo)),
-            Action::StrokeAgain => return some(turn.travel(OwnStroke::redo)),
-            Action::WhatIf => return some(turn.take_over()),
+            Action::StrokeBack => return tasks_effect(turn.step_history(OwnStroke::undo)),
+            Action::StrokeAgain => return tasks_effect(turn.step_history(OwnStroke::redo)),
+            Action::WhatIf => return tasks_effect(turn.copy_model_shot()),
             Action::LeaveWhatIf => turn.what_if = None,
             Action::Play => return self.play(),
             Action::Next => return self.next(),
@@ -162,7 +161,7 @@ impl DrillsPage {
                 turn.text_page = 0;
                 turn.with_hint |= turn.shows_hint && turn.is_aiming();
             }
-            Action::TurnSideView => self.message = Some(Message::plain(turn.turn_side_view())),
+            Action::TurnSideView => self.message = Some(Message::plain(turn.toggle_side_view())),
             Action::TurnNumbers => self.is_in_numbers = !self.is_in_numbers,
             Action::TurnText(pages) => turn.text_page += pages,
             Action::Shift => {
@@ -170,24 +169,24 @@ impl DrillsPage {
                 let news = if self.options.shifted {
                     "from the second repetition on, each ball is shifted by half a ball"
                 } else {
-                    "the balls lie where the exercise has them"
+                    "the balls are placed as in the exercise"
                 };
                 self.message = Some(Message::plain(news));
-                return some(self.restart(None));
+                return tasks_effect(self.restart(None));
             }
             Action::Goal => {
                 self.options.goal = self.options.lengths.next_goal(turn.session.goal);
-                return some(self.restart_for(self.options.goal, None));
+                return tasks_effect(self.restart_for(self.options.goal, None));
             }
             Action::Count(step) => {
                 let step = i32::try_from(step).unwrap_or(0);
                 self.options.goal = longer(turn.session.goal, step);
-                return some(self.restart_for(self.options.goal, None));
+                return tasks_effect(self.restart_for(self.options.goal, None));
             }
             Action::Player => {
                 self.player.choose_next();
                 self.message = Some(Message::plain(format!("the player: {}", player_words(self.player.skill))));
-                return some(self.restart(None));
+                return tasks_effect(self.restart(None));
             }
             Action::Log(made) => return self.log(made),
             Action::Undo => return self.undo(),
@@ -196,35 +195,35 @@ impl DrillsPage {
         None
     }
 
-    /// Begins the open exercise again where another player is to play it; while a stroke is on its way, once its result was seen.
+    /// Restarts the open exercise if the player has changed. While a stroke is played or watched, the restart comes after it.
     pub(super) fn change_player(&mut self) -> Vec<DrillTask> {
         let is_on_its_way = self.turn.as_ref().is_some_and(|turn| turn.is_waiting() || turn.is_open());
-        if self.is_for_another() && !is_on_its_way { self.restart(None) } else { Vec::new() }
+        if self.has_other_player() && !is_on_its_way { self.restart(None) } else { Vec::new() }
     }
 
-    /// Whether another player is to play the open exercise. Who has begun an exam or a run plays it to its end.
-    fn is_for_another(&self) -> bool {
+    /// Whether the player has changed since the session began. An exam or a run that has begun keeps its player to the end.
+    fn has_other_player(&self) -> bool {
         let is_other =
             |turn: &Turn| !turn.session.is_exam() && !turn.is_under_way() && turn.session.skill != self.player.skill;
         self.turn.as_ref().is_some_and(is_other)
     }
 
-    /// Begins the same practice again with the player and the shifts as they are chosen now.
+    /// Restarts the session with the current player and shift option.
     fn restart(&mut self, venue: Option<Venue>) -> Vec<DrillTask> {
-        // A match that F9 has begun is none of the options.
+        // The goal comes from the session, because a match started with F9 is not among the options.
         let goal = self.turn.as_ref().map_or(self.options.goal, |turn| turn.session.goal);
         self.restart_for(goal, venue)
     }
 
-    /// The same with another goal.
+    /// Restarts the session with another goal.
     fn restart_for(&mut self, goal: Goal, venue: Option<Venue>) -> Vec<DrillTask> {
         let (seed, shifted, skill) = (self.seed(), self.options.shifted, self.player.skill);
         let own_table = self.own_table.clone();
         let Some(turn) = &mut self.turn else { return Vec::new() };
         let is_match = matches!(goal, Goal::Match { .. });
-        // Both sides of a match play here.
+        // Both sides of a match play in the program.
         let venue = if is_match { Venue::Program } else { venue.unwrap_or(turn.newest().venue) };
-        let mut session = turn.again(goal, shifted && !is_match, venue, skill, seed);
+        let mut session = turn.new_session(goal, shifted && !is_match, venue, skill, seed);
         session.table = own_table;
         turn.begin(session)
     }
@@ -233,7 +232,7 @@ impl DrillsPage {
         let mut tasks = Vec::new();
         let newest = self.turn.as_ref()?.newest();
         if newest.venue == Venue::Table || newest.is_over() {
-            // What is played here counts apart from what is noted.
+            // Strokes in the program and records from a real table belong to separate sessions.
             tasks = self.restart(Some(Venue::Program));
         }
         tasks.push(self.turn.as_mut()?.play());
@@ -244,13 +243,13 @@ impl DrillsPage {
         let turn = self.turn.as_mut()?;
         let Stage::Watching(watched) = &mut turn.stage else { return None };
         if !watched.is_settled {
-            // The first press goes to the end, where the result is shown.
+            // The first press jumps to the end, where the result is shown.
             watched.finish();
             return None;
         }
         let next = watched.outcome.next.clone();
-        if self.is_for_another() {
-            return some(self.restart(None));
+        if self.has_other_player() {
+            return tasks_effect(self.restart(None));
         }
         let turn = self.turn.as_mut()?;
         match next {
@@ -259,7 +258,7 @@ impl DrillsPage {
                 self.pages = vec![DrillContext::Library, DrillContext::Result];
                 None
             }
-            None => some(self.restart(None)),
+            None => tasks_effect(self.restart(None)),
         }
     }
 
@@ -270,7 +269,7 @@ impl DrillsPage {
         watched.settle();
     }
 
-    /// Notes an attempt at a real table.
+    /// Records an attempt at a real table.
     fn log(&mut self, made: bool) -> Option<Effect> {
         let turn = self.turn.as_ref()?;
         let (newest, was_with_hint, layout) = (turn.newest(), turn.with_hint, turn.layout);
@@ -279,17 +278,17 @@ impl DrillsPage {
             tasks = self.restart(Some(Venue::Table));
         }
         let turn = self.turn.as_mut()?;
-        // A hint that was seen is known in the new session too.
+        // A hint that was shown for these positions also counts in the new session.
         turn.with_hint |= was_with_hint && turn.layout == layout;
         let mut session = turn.newest().clone();
         match session.log(made) {
             Ok(()) => {
-                // Not if the balls of this repetition have not been shown yet.
+                // Not if the positions of this repetition have not been shown yet.
                 let is_shown = |note: &&mut Attempt| note.layout.unwrap_or(turn.exercise.layout) == turn.layout;
                 if let Some(note) = session.attempts.last_mut().filter(is_shown) {
                     note.helped = turn.with_hint;
-                    // The advised shot goes into the estimate of the skill: it must be the model shot, or have been shown, for
-                    // this layout.
+                    // The advised shot is used for the skill estimate. It must be the exercise's own model shot or have been shown
+                    // for this layout, so that the player can have known it.
                     let known =
                         |model_shot: &&ModelShot| (model_shot.is_own || turn.with_hint) && !turn.session.is_game();
                     let advice = turn.model_shot().filter(known).map(|model_shot| model_shot.advice);
@@ -311,7 +310,7 @@ impl DrillsPage {
     }
 }
 
-/// What is to be done, if anything is.
-pub(super) fn some(tasks: Vec<DrillTask>) -> Option<Effect> {
+/// The effect that runs these tasks; `None` if there are none.
+pub(super) fn tasks_effect(tasks: Vec<DrillTask>) -> Option<Effect> {
     (!tasks.is_empty()).then_some(Effect::Drill(tasks))
 }

@@ -1,42 +1,42 @@
-//! A stroke that was played, while it is watched.
+//! A played stroke during playback.
 
 use crate::{
     physics::CueInputs,
     terminal::{AttemptOutcome, shot::Playback},
 };
 
-/// A stroke that was played.
+/// A played stroke during playback.
 #[derive(Debug)]
 pub struct Watched {
-    /// What came of it.
+    /// Its result.
     pub outcome: AttemptOutcome,
-    /// What the player had meant.
+    /// The stroke that the player meant, without errors.
     pub meant: CueInputs,
-    /// How often the player makes that, as soon as it is known.
+    /// The success rate of the meant stroke; `None` until it has been computed.
     pub chance: Option<f64>,
-    /// The clock of the shot.
+    /// Playback position and speed of the shot.
     pub playback: Playback,
-    /// Whether it has been seen to its end: before, nothing tells what comes of it.
+    /// Whether the end of the shot has been shown. Before that, nothing on the screen may reveal the result.
     pub is_settled: bool,
 }
 
 impl Watched {
-    /// Whether the coach has made the stroke.
+    /// Whether the coach has played the stroke.
     pub fn is_by_coach(&self) -> bool {
         self.outcome.session.attempts.last().is_some_and(|attempt| attempt.by_coach)
     }
 
-    /// Seconds that the shot takes.
+    /// Duration of the shot, s.
     pub fn duration(&self) -> f64 {
         self.outcome.shot.as_ref().map_or(0.0, |shot| shot.recording.duration())
     }
 
-    /// Once it has been seen to its end, its result may be shown.
+    /// Allows the result to be shown if the playback has reached the end.
     pub(super) fn settle(&mut self) {
         self.is_settled |= self.playback.time >= self.duration();
     }
 
-    /// Goes to its end, where its result is shown.
+    /// Jumps to the end, where the result is shown.
     pub(super) fn finish(&mut self) {
         self.playback.jump(self.duration());
         self.settle();

@@ -1,4 +1,4 @@
-//! What if: the stroke that is set beside the model shot, once that was taken over.
+//! "What if": comparing the player's stroke with the model shot from which it was copied.
 
 use std::sync::{Arc, atomic::Ordering};
 
@@ -9,13 +9,13 @@ use crate::terminal::{
 };
 
 impl Turn {
-    /// The stroke beside the model shot, while the player sets it.
+    /// The comparison with the model shot, while the player sets the stroke.
     pub fn what_if(&self) -> Option<&WhatIf> {
         self.what_if.as_ref().filter(|_| self.is_aiming())
     }
 
-    /// Takes the model shot over into the one that is set; the attempt counts as one with a hint.
-    pub(super) fn take_over(&mut self) -> Vec<DrillTask> {
+    /// Copies the model shot into the stroke and starts the comparison. The attempt counts as one with a hint.
+    pub(super) fn copy_model_shot(&mut self) -> Vec<DrillTask> {
         let ModelShotState::Known(model_shot) = &self.model_shot else { return Vec::new() };
         let (cue, shot) = (model_shot.advice.cue, Arc::clone(&model_shot.shot));
         self.stroke.set(cue);
@@ -24,10 +24,10 @@ impl Turn {
         self.judge()
     }
 
-    /// Compares the stroke as it is set now with the model shot, if that is wanted.
+    /// Updates the comparison with the current stroke, if there is one.
     pub(super) fn compare(&mut self) -> Vec<DrillTask> {
         let Some(mut what_if) = self.what_if.take() else { return Vec::new() };
-        // What cannot be simulated cannot be compared; playing it will say why.
+        // A stroke that cannot be simulated cannot be compared. Playing it shows the reason.
         if what_if.strike(self.stroke(), self.situation()).is_err() {
             return Vec::new();
         }
@@ -35,7 +35,7 @@ impl Turn {
         self.judge()
     }
 
-    /// Asks how often the player makes the stroke that is compared.
+    /// Requests the success rate of the compared stroke.
     fn judge(&mut self) -> Vec<DrillTask> {
         let (table, layout, rule) = (self.table.clone(), self.layout, self.exercise.rule);
         let shooter = self.session.shooter();

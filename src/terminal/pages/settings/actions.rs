@@ -1,4 +1,4 @@
-//! What each key of the settings' screen does, and why it may not be used now.
+//! Implementation of the settings page's key actions, and their conditions.
 
 use crossterm::event::KeyEvent;
 
@@ -10,24 +10,25 @@ use crate::{
         config::{ENTRIES, Entry},
         keymap::Chord,
         pages::{
-            Page as _, around,
+            Page as _,
             settings::{LONGEST, Question, SettingsPage, TABLE},
+            wrapping_index,
         },
         ui::TextField,
     },
 };
 
 impl SettingsPage {
-    /// Why a binding may not be used now; `None` where it may.
+    /// Returns the reason why a key binding is disabled now; `None` if it is enabled.
     pub fn disabled_reason(&self, when: SettingsCondition) -> Option<&'static str> {
         let is_changed = match self.page {
             Page::Keys => self.keys.is_changed(&self.settings.keys),
             _ => self.is_changed(self.marked()),
         };
-        (when == SettingsCondition::Changed && !is_changed).then_some("this is as it is by default")
+        (when == SettingsCondition::Changed && !is_changed).then_some("this is the default already")
     }
 
-    /// Does what an enabled binding asks for.
+    /// Performs the action of an enabled key binding.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
             Action::Back => self.is_left = true,
@@ -58,7 +59,7 @@ impl SettingsPage {
         match self.question.take()? {
             Question::Taken(pressed) => Some(self.give(pressed)),
             Question::Key => None,
-            // Nothing was typed: what is in force is meant, where the file does not have it already.
+            // Nothing was typed: write the current value to the file if the file has another one.
             Question::Value(typed) if typed.text().trim().is_empty() => {
                 let entry = self.marked();
                 self.other_in_file(entry).and_then(|_| self.set(&(entry.get)(&self.settings)))
@@ -66,7 +67,7 @@ impl SettingsPage {
             Question::Value(typed) => {
                 let effect = self.set(typed.text().trim());
                 if effect.is_none() {
-                    // What was typed stays, to be mended.
+                    // The typed text stays for a correction.
                     self.question = Some(Question::Value(typed));
                 }
                 effect
@@ -74,7 +75,7 @@ impl SettingsPage {
         }
     }
 
-    /// The value before or after the present one: of numbers the next smaller or larger, of names around the end.
+    /// Chooses the previous or next value: the next smaller or larger number, or the neighbouring name with wrap-around.
     fn step(&mut self, step: isize) -> Option<Effect> {
         let entry = self.marked();
         let (choices, now) = (self.choices(entry), (entry.get)(&self.settings));
@@ -86,10 +87,10 @@ impl SettingsPage {
                 let count = choices.len();
                 let place = choices.iter().position(|choice| *choice == now);
                 let mut others = (1..=count.cast_signed()).map(|steps| match place {
-                    Some(place) => around(place, steps * step, count),
+                    Some(place) => wrapping_index(place, steps * step, count),
                     None => steps.cast_unsigned() - 1,
                 });
-                // A table of the player's own may not be readable.
+                // A custom table may be unreadable, so skip choices that are not accepted.
                 others.find(|other| self.settings.with(entry, &choices[*other]).is_ok()).map(|other| &choices[other])
             }
         };
@@ -99,7 +100,7 @@ impl SettingsPage {
         self.set(&next)
     }
 
-    /// Gives the marked setting a value that was chosen or typed.
+    /// Sets the marked setting to a chosen or typed value.
     fn set(&mut self, typed: &str) -> Option<Effect> {
         let entry = self.marked();
         let own =
@@ -108,12 +109,12 @@ impl SettingsPage {
         self.give_value(entry, path.as_deref().unwrap_or(typed), Change::Value)
     }
 
-    /// Gives the setting `key` a value that was chosen elsewhere.
+    /// Sets the setting `key` to a value that was chosen on another page.
     pub fn choose(&mut self, key: &str, typed: &str) -> Option<Effect> {
         self.give_value(ENTRIES.iter().find(|entry| entry.key == key)?, typed, Change::Value)
     }
 
-    /// Takes a value that is accepted, and makes a change of the file of it.
+    /// Applies a value if it is accepted, and requests the change of the file.
     fn give_value(&mut self, entry: &Entry, typed: &str, change: fn(&'static str, String) -> Change) -> Option<Effect> {
         match self.settings.with(entry, typed) {
             Ok(settings) => self.settings = settings,
@@ -123,7 +124,7 @@ impl SettingsPage {
         Some(self.task(Some(change(entry.key, value))))
     }
 
-    /// A key was pressed that is to do what is marked.
+    /// Handles the key that the user pressed as the new key of the marked command.
     pub fn pressed(&mut self, key: &KeyEvent) -> Option<Effect> {
         match self.keys.check(Chord::of(key), &self.settings.keys) {
             Ok(chord) if self.keys.other_commands(chord, &self.settings.keys).is_empty() => {

@@ -1,4 +1,4 @@
-//! The keys of the settings, a table for each page, and for a key that is asked for.
+//! Key bindings of the settings page: one table for each of its screens, and one for the choice of a new key.
 
 use crossterm::event::KeyCode::{Backspace, Delete, Enter, Esc, Left, Right, Tab};
 
@@ -11,51 +11,51 @@ use crate::terminal::keymap::{
 use SettingsAction as A;
 use SettingsCondition as W;
 
-/// What a key does on the settings' screen.
+/// Action of a key on the settings page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SettingsAction {
-    /// Goes back to the screen before.
+    /// Returns to the previous page.
     Back,
-    /// Moves the mark by lines, down where positive.
+    /// Moves the mark by lines, downwards if positive.
     Line(isize),
-    /// Takes the next value of the marked setting, or the one before.
+    /// Chooses the next value of the marked setting, or the one before if negative.
     Value(isize),
-    /// Begins to type a value.
+    /// Opens the text field for a value.
     Type,
-    /// Goes back to the default of what is marked.
+    /// Resets the marked setting or key to its default.
     Default,
-    /// Goes to the other page.
+    /// Switches between settings and keys.
     Turn,
-    /// Lists the keys of another place, the next where positive.
+    /// Lists the keys of another page of the program: the next one if positive, the one before if negative.
     ChooseKeyPage(isize),
-    /// Asks for another key for what is marked.
+    /// Asks for a new key for the marked command.
     Press,
-    /// Answers what is asked: yes, or what was typed; or no.
+    /// Answers the open question: `true` for yes or the typed text, `false` for no.
     Answer(bool),
 }
 
-/// When a binding of the settings may be used.
+/// Condition under which a key binding of the settings page is enabled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SettingsCondition {
-    /// On its page.
+    /// Always, on the binding's screen.
     Always,
-    /// Where what is marked is not as by default.
+    /// If the marked setting or key differs from its default.
     Changed,
 }
 
-/// What is on the screen.
+/// The key contexts of the settings page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SettingsContext {
     /// The settings with their values.
     Values,
-    /// What can be done, and the keys that do it.
+    /// The commands of the program with their keys.
     Keys,
-    /// A key that is to be pressed.
+    /// Waiting for the user to press a new key.
     Pressing,
 }
 
 impl SettingsContext {
-    /// Its keys.
+    /// The key bindings of the context.
     pub const fn bindings(self) -> &'static [Binding<A, W>] {
         match self {
             Self::Values => VALUES,
@@ -68,7 +68,7 @@ impl SettingsContext {
 const BACK: Binding<A, W> =
     bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the screen before");
 
-/// The settings.
+/// Key bindings of the settings.
 #[rustfmt::skip]
 pub const VALUES: &[Binding<A, W>] = &[
     bind(Settings, W::Always, &[key(Left, A::Value(-1)), key(Right, A::Value(1)), letter('h', A::Value(-1)), letter('l', A::Value(1))],
@@ -81,7 +81,7 @@ pub const VALUES: &[Binding<A, W>] = &[
     BACK,
 ];
 
-/// The keys.
+/// Key bindings of the list of keys.
 #[rustfmt::skip]
 pub const KEYS: &[Binding<A, W>] = &[
     bind(OwnKeys, W::Always, &[key(Enter, A::Press)], Some(("new key", 1)), "choose a key for what is marked"),
@@ -89,12 +89,12 @@ pub const KEYS: &[Binding<A, W>] = &[
         Some(("page", 2)), "list the keys of another page")
         .each(&["list the keys of the page before", "list the keys of the next page"]),
     bind(OwnKeys, W::Always, lines!(A::Line), Some(("choose", 2)), "mark something else").each(marks!("line")),
-    bind(OwnKeys, W::Changed, &[key(Delete, A::Default), key(Backspace, A::Default)], Some(("default", 1)), "back to the keys that it has by default"),
+    bind(OwnKeys, W::Changed, &[key(Delete, A::Default), key(Backspace, A::Default)], Some(("default", 1)), "back to the default keys"),
     bind(OwnKeys, W::Always, &[key(Tab, A::Turn)], Some(("settings", 1)), "to the settings"),
     BACK,
 ];
 
-/// A key that is to be pressed.
+/// Key bindings while the user chooses a new key.
 #[rustfmt::skip]
 pub const PRESSING: &[Binding<A, W>] = &[
     bind(OwnKeys, W::Always, &[key(Esc, A::Answer(false))], Some(("cancel", 1)), "leave all as it is"),

@@ -1,7 +1,7 @@
-//! The state of the settings' screen: which setting or key is marked, and what is typed, pressed or asked.
+//! The settings page: the settings and key bindings, the mark, and the open question.
 //!
-//! It shows what is in force. Every change holds at once; [`SettingsTask`] brings it into the file, which may say
-//! something else as long as that is not asked for. [`super::own_keys`] is the page of the keys.
+//! The page shows the current values. A change takes effect immediately, and a [`SettingsTask`] writes it to the file. The file may
+//! differ from the current values until the user asks to write them. [`own_keys`] is the list of key bindings.
 
 mod actions;
 pub mod keys;
@@ -21,55 +21,55 @@ use crate::{
     },
 };
 
-/// The setting that names the table.
+/// The key of the setting that names the table.
 const TABLE: &str = "table";
 
-/// Longest value that is typed, bytes: the path of a table is one.
+/// Maximum length of a typed value, bytes. The longest are paths of tables.
 const LONGEST: usize = 1000;
 
-/// What is asked.
+/// An open question.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Question {
-    /// A value, as far as it is typed.
+    /// A value, with the text typed so far.
     Value(TextField),
-    /// A key that is to be pressed.
+    /// The new key, which the user must press.
     Key,
-    /// Whether this key may give up what it does otherwise.
+    /// Whether to use this key although it has another command.
     Taken(Chord),
 }
 
-/// The state of the screen.
+/// The state of the settings page.
 #[derive(Debug)]
 pub struct SettingsPage {
-    /// Where the player's files are, that of the settings among them.
+    /// The locations of the player's files, including the settings file.
     pub places: Places,
-    /// The files of the player's own tables, as far as is known.
+    /// The files of the player's custom tables, as last read.
     pub tables: Vec<PathBuf>,
-    /// What is in force.
+    /// The current settings.
     pub settings: Settings,
-    /// What the file says; `None` until it was read, and where it cannot be.
+    /// The settings in the file; `None` until it has been read, or if it cannot be read.
     pub file: Option<Settings>,
-    /// Whether the file can be read and changed, as far as is known.
+    /// Whether the file can be read and written, as last reported.
     pub is_writable: bool,
-    /// The page that is open: the settings, or the keys.
+    /// The open screen: the settings or the keys.
     pub page: SettingsContext,
-    /// What is asked.
+    /// The open question.
     pub question: Option<Question>,
-    /// The page of keys.
+    /// The list of key bindings.
     pub keys: OwnKeys,
-    /// What the status line says.
+    /// The message of the status line.
     pub message: Option<Message>,
-    /// Place of the marked setting among all.
+    /// Index of the marked setting.
     pub mark: usize,
-    /// The number of the last task, and of the last that came back.
+    /// The numbers of the last sent task and of the last received result.
     sent: u64,
     received: u64,
-    /// Whether one has gone back.
+    /// Whether the user has left the page.
     pub is_left: bool,
 }
 
 impl SettingsPage {
-    /// The screen before it is opened.
+    /// Creates the page, closed.
     pub fn new(places: Places, pages: Vec<KeyPage>) -> Self {
         Self {
             places,
@@ -88,7 +88,7 @@ impl SettingsPage {
         }
     }
 
-    /// Opens the page that was open last; the file is read again, and what is in force stays.
+    /// Opens the page at the last open screen. The file is read again; the current settings stay.
     pub fn open(&mut self) -> Effect {
         self.message = None;
         self.is_left = false;
@@ -100,30 +100,30 @@ impl SettingsPage {
         &ENTRIES[self.mark.min(ENTRIES.len() - 1)]
     }
 
-    /// Whether a setting is not at its default, now or in the file.
+    /// Whether a setting differs from its default, now or in the file.
     pub fn is_changed(&self, entry: &Entry) -> bool {
         (entry.get)(&self.settings) != (entry.get)(&Settings::default()) || self.other_in_file(entry).is_some()
     }
 
-    /// The setting as the file has it, where that is not what is in force.
+    /// The value of a setting in the file, if it differs from the current one.
     pub fn other_in_file(&self, entry: &Entry) -> Option<String> {
-        // What the file says is not known while it is being changed.
+        // The content of the file is unknown while it is being changed.
         let file = self.file.as_ref().filter(|_| self.received == self.sent)?;
         Some((entry.get)(file)).filter(|value| *value != (entry.get)(&self.settings))
     }
 
-    /// The files of the player's own tables, if the setting is the table.
+    /// The files of the player's custom tables, if `entry` is the setting of the table; otherwise none.
     pub fn own_tables_of(&self, entry: &Entry) -> impl Iterator<Item = &PathBuf> {
         self.tables.iter().filter(move |_| entry.key == TABLE)
     }
 
-    /// Values of a setting to step through, as TOML.
+    /// The values of a setting that the keys step through, as TOML.
     fn choices(&self, entry: &Entry) -> Vec<String> {
         let own = self.own_tables_of(entry).map(|path| quoted(path.to_string_lossy()));
         (entry.choices)().into_iter().chain(own).collect()
     }
 
-    /// A value without the quotes that TOML wants; one of the player's own tables by its name.
+    /// Formats a value for display: without the quotes of TOML, and a custom table by its name instead of its path.
     pub fn shown(&self, value: &str) -> String {
         let value = value.trim_matches(['"', '\'']);
         let own = self.tables.iter().find(|path| path.as_os_str() == value).and_then(|path| path.file_stem());
@@ -140,7 +140,7 @@ impl SettingsPage {
         Effect::Settings(Box::new(SettingsTask { number: self.sent, places: self.places.clone(), change }))
     }
 
-    /// Takes what has come of a task, and gives what is wrong.
+    /// Handles the result of a task. Returns messages on problems with the file.
     pub fn receive(&mut self, report: SettingsReport) -> Vec<String> {
         let SettingsReport { number, settings, is_writable, troubles, tables } = report;
         self.tables = tables;

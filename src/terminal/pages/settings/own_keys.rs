@@ -1,4 +1,4 @@
-//! The page of the keys: what each page of the program can do, and giving that another key.
+//! State of the list of key bindings: the commands of each page of the program, and the change of their keys.
 
 use crossterm::event::KeyCode::{Char, Down, Enter, Esc, F, Tab, Up};
 
@@ -8,21 +8,21 @@ use crate::terminal::{
         Chord, KeyEntry, KeyPage, commands_of,
         remap::{chord as chord_named, name},
     },
-    pages::around,
+    pages::wrapping_index,
 };
 
-/// The pages whose keys are listed, and what the marks are at.
+/// The list of key bindings, with its marked command.
 #[derive(Debug)]
 pub struct OwnKeys {
     pages: Vec<KeyPage>,
-    /// Place of the page whose keys are listed among `pages`.
+    /// Index in `pages` of the page whose keys are listed.
     page: usize,
-    /// Place of the mark among the commands.
+    /// Index of the marked command.
     pub mark: usize,
 }
 
 impl OwnKeys {
-    /// The keys of `pages`, each in the order of the help.
+    /// Creates the list of the keys of `pages`, sorted like the help.
     pub fn new(mut pages: Vec<KeyPage>) -> Self {
         for page in &mut pages {
             page.entries.sort_by_key(|entry| entry.section as usize);
@@ -35,49 +35,49 @@ impl OwnKeys {
         &self.pages[self.page]
     }
 
-    /// What is marked.
+    /// The marked command.
     pub fn marked(&self) -> Option<&KeyEntry> {
         self.page().entries.get(self.mark)
     }
 
-    /// Moves the mark by lines, down where positive.
+    /// Moves the mark by `lines`, downwards if positive.
     pub fn move_mark(&mut self, lines: isize) {
         let count = self.page().entries.len();
         self.mark = self.mark.saturating_add_signed(lines).min(count.saturating_sub(1));
     }
 
-    /// Lists another page's keys, the next where positive; after the last comes the first.
+    /// Cycles through the pages whose keys are listed, forwards if positive.
     pub fn choose_place(&mut self, pages: isize) {
-        self.page = around(self.page, pages, self.pages.len());
+        self.page = wrapping_index(self.page, pages, self.pages.len());
         self.mark = 0;
     }
 
-    /// The keys that what is marked has by default.
+    /// The default keys of the marked command.
     fn chords(&self) -> &[Chord] {
         self.marked().map_or(&[], |entry| &entry.chords)
     }
 
-    /// Whether the marked command has other keys than by default.
+    /// Whether the keys of the marked command differ from the default.
     pub fn is_changed(&self, keys: &Keys) -> bool {
         !keys.about(self.chords()).is_empty()
     }
 
-    /// Everything that the marked command's first key does, on all pages: another key that does its work does all of it.
+    /// All commands of the marked command's first key, on all pages. A key that replaces it gets all of them.
     pub fn commands(&self) -> Vec<(&'static str, &'static str)> {
         self.chords().first().map_or_else(Vec::new, |chord| commands_of(&self.pages, *chord))
     }
 
-    /// What `pressed` does now that is not the work of what is marked.
+    /// The commands of the key `pressed` that it would lose as a new key of the marked command.
     pub fn other_commands(&self, pressed: Chord, keys: &Keys) -> Vec<(&'static str, &'static str)> {
         let own = self.commands();
         let commands = commands_of(&self.pages, keys.meant_by(pressed).unwrap_or(pressed));
         commands.into_iter().filter(|command| !own.contains(command)).collect()
     }
 
-    /// A key that may be given to what is marked.
+    /// Checks whether `pressed` can become a key of the marked command, and returns it.
     ///
     /// # Errors
-    /// A sentence that says why not.
+    /// Returns a message with the reason if it cannot.
     pub fn check(&self, pressed: Chord, keys: &Keys) -> Result<Chord, String> {
         let written = name(pressed);
         let event = pressed.event();
@@ -98,7 +98,7 @@ impl OwnKeys {
         if does_it { Err(format!("{written} does this already")) } else { Ok(pressed) }
     }
 
-    /// Gives `pressed` the work of what is marked.
+    /// Makes `pressed` a key of the marked command.
     pub fn give(&self, pressed: Chord, keys: &mut Keys) -> Change {
         keys.remove(pressed);
         let chords = self.chords();
@@ -109,7 +109,7 @@ impl OwnKeys {
         Change::Keys(vec![pressed], added)
     }
 
-    /// Brings back the keys that what is marked has by default.
+    /// Restores the default keys of the marked command.
     pub fn to_default(&self, keys: &mut Keys) -> Change {
         let gone = keys.about(self.chords());
         for pressed in &gone {

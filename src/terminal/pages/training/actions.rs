@@ -1,4 +1,4 @@
-//! What each key does to the training screen, and when it may be used.
+//! Implementation of the training page's key actions, and their conditions.
 
 use std::time::Instant;
 
@@ -19,8 +19,8 @@ use crate::{
     },
 };
 
-/// Whether it is about starting a run, or about what one does.
-const fn steers(when: Condition) -> bool {
+/// Whether a condition belongs to an action that starts or controls a run. Guests must not use these.
+const fn controls_run(when: Condition) -> bool {
     matches!(
         when,
         Condition::MayTrain
@@ -33,10 +33,10 @@ const fn steers(when: Condition) -> bool {
 }
 
 impl TrainingPage {
-    /// Why a binding may not be used now; `None` where it may.
+    /// Returns the reason why a key binding is disabled now; `None` if it is enabled.
     pub fn disabled_reason(&self, when: Condition) -> Option<&'static str> {
         let refuse = |refused: bool, reason| refused.then_some(reason);
-        if self.is_guest && steers(when) {
+        if self.is_guest && controls_run(when) {
             return Some("guests can watch runs; only the owner of this machine starts or controls them");
         }
         let Some(watch) = &self.watch else {
@@ -52,7 +52,7 @@ impl TrainingPage {
             Condition::Marked => refuse(self.list.marked().is_none(), "there is no run yet"),
             Condition::MarkedCanGoOn => self.refusal_of_marked(),
             Condition::Charts => refuse(!watch.charts.any(), "no chart is shown; 1 to 9 show some"),
-            Condition::Zoomed => refuse(!watch.charts.is_part(), "all of the run is shown; + shows a part"),
+            Condition::Zoomed => refuse(!watch.charts.is_zoomed(), "all of the run is shown; + shows a part"),
             Condition::Paused => refuse(!watch.is_paused(), "the run is not paused"),
             Condition::AtWork | Condition::Working => {
                 refuse(!watch.is_at_work(), "the run is not training; r resumes one that is unfinished")
@@ -73,13 +73,13 @@ impl TrainingPage {
         }
     }
 
-    /// Why the marked run cannot go on.
+    /// The reason why the marked run cannot be resumed; `None` if it can.
     fn refusal_of_marked(&self) -> Option<&'static str> {
         let is_launched = self.list.marked().is_some_and(|run| self.is_launched(&run.folder));
         is_launched.then_some("the run is being started").or(self.list.refusal_to_go_on())
     }
 
-    /// Does what an enabled binding asks for.
+    /// Performs the action of an enabled key binding.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
             Action::Back => self.back(),
@@ -126,7 +126,7 @@ impl TrainingPage {
         }
     }
 
-    /// Starts the run that the form describes, after a question where it is a long one.
+    /// Starts the run that the form describes. Asks for confirmation if the run is a long one.
     fn start(&mut self) -> Option<Effect> {
         if let Some((shots, seconds)) = self.form.long_run() {
             self.question = Some(Question::Long { shots, seconds });
@@ -157,7 +157,7 @@ impl TrainingPage {
         Some(Effect::Train(Box::new(Launch::resume(&folder))))
     }
 
-    /// What the keys do to the run that is watched, and to how it is shown.
+    /// Performs an action on the watched run or on its display.
     fn steer(&mut self, action: Action) -> Option<Effect> {
         let Self { watch: Some(watch), question, message, .. } = self else { return None };
         let progress = watch.progress();
@@ -194,7 +194,7 @@ impl TrainingPage {
 
     fn yes(&mut self) -> Option<Effect> {
         let question = self.question.take()?;
-        // Between the question and its answer the run may have ended.
+        // The run may have ended between the question and its answer.
         if let Some(reason) = self.disabled_reason(question.when()) {
             return self.refuse(reason);
         }

@@ -1,51 +1,52 @@
-//! Which charts are shown of a run, how, and which part of it.
+//! State of a run's charts: the shown quantities, their scales and smoothing, and the shown range of the run.
 
 use crate::{
     learning::run::quantity::Quantity,
-    terminal::{pages::around, ui::chart::whole},
+    terminal::{pages::wrapping_index, ui::chart::whole},
 };
 
-/// Degrees of smoothing, as shares of the shots that are shown, and the one at the start: what is raw shows behind it.
+/// Widths of the smoothing, as fractions of the shown range, and the index of the default. The raw values are visible behind the
+/// smoothed curve.
 const SMOOTHING: [f64; 4] = [0.0, 0.01, 0.03, 0.1];
 const FIRST_SMOOTHING: usize = 1;
-/// Fewest shots that are shown.
+/// Minimum width of the shown range, shots.
 const LEAST_SHOTS: f64 = 100.0;
-/// A part that follows the end moves by this share of itself at a time: a chart that moves with every line would send
-/// kilobytes with each.
+/// A range that follows the end moves in steps of this fraction of its width. If it moved with every new record of the run, each
+/// would send kilobytes to the terminal.
 const FOLLOW_STEP: f64 = 0.25;
-/// Narrowest part that follows the end, as a share of all shots: a narrower one would move with every line.
+/// Minimum width of a range that follows the end, as a fraction of the whole run. A narrower one would move with every new record.
 const NARROWEST: f64 = 1.0 / 32.0;
-/// Why a part that follows the end gets no narrower.
+/// The reason why a range that follows the end cannot become narrower.
 const FOLLOWS: &str = "no narrower view follows the run; Left holds it still, then + shows less";
-/// Share of the part by which it is moved by hand.
+/// Fraction of the shown range by which panning moves it.
 const PAN_STEP: f64 = 0.25;
 
-/// How far a run is, as far as charts depend on it.
+/// Progress of a run, for the range of the charts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Progress {
     /// Shots played.
     pub shots: u64,
-    /// Shots planned, where that is known.
+    /// Planned shots, if known.
     pub planned: Option<u64>,
 }
 
-/// Part of a run.
+/// A part of a run as the shown range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Part {
-    /// Shots from its beginning to its end.
+    /// Width, shots.
     width: f64,
-    /// Its end, unless it follows the end of the run.
+    /// End, shots; `None` if the part follows the end of the run.
     end: Option<f64>,
 }
 
-/// Which charts are shown, how, and which part of the run.
+/// State of a run's charts.
 #[derive(Debug)]
 pub struct Charts {
     shown: [bool; Quantity::COUNT],
-    /// Which of them have a logarithmic scale.
+    /// Whether each chart has a logarithmic scale.
     pub log: [bool; Quantity::COUNT],
     selected: usize,
-    /// Whether the selected one stands alone.
+    /// Whether only the selected chart is drawn, enlarged.
     pub enlarged: bool,
     smoothing: usize,
     part: Option<Part>,
@@ -66,7 +67,7 @@ impl Default for Charts {
 }
 
 impl Charts {
-    /// The quantities whose charts are drawn, by their indices in [`Quantity::ALL`].
+    /// The indices in [`Quantity::ALL`] of the quantities whose charts are drawn.
     pub fn drawn(&self) -> Vec<usize> {
         if self.enlarged {
             return vec![self.selected];
@@ -79,22 +80,22 @@ impl Charts {
         self.shown.contains(&true)
     }
 
-    /// Whether this chart is the selected one and there are others.
+    /// Whether chart `n` must be marked as selected: it is selected and not the only one.
     pub fn is_selected(&self, n: usize) -> bool {
         n == self.selected && !self.enlarged && self.shown.iter().filter(|shown| **shown).count() > 1
     }
 
-    /// Over which share of the shots that are shown the curves are smoothed.
+    /// Width of the smoothing, as a fraction of the shown range.
     pub const fn smoothing(&self) -> f64 {
         SMOOTHING[self.smoothing]
     }
 
     /// Whether only a part of the run is shown.
-    pub const fn is_part(&self) -> bool {
+    pub const fn is_zoomed(&self) -> bool {
         self.part.is_some()
     }
 
-    /// Shows the chart of a quantity and selects it, or hides it.
+    /// Shows and selects the chart of a quantity, or hides it.
     pub fn toggle(&mut self, n: usize) {
         self.shown[n] = !self.shown[n];
         self.enlarged = false;
@@ -105,12 +106,12 @@ impl Charts {
         }
     }
 
-    /// Selects another of the charts, the next where positive.
+    /// Cycles the selection through the shown charts, forwards if positive.
     pub fn select(&mut self, steps: isize) {
         let all: Vec<usize> = (0..Quantity::COUNT).filter(|&n| self.shown[n]).collect();
-        // The first one beyond where the selected one has just been hidden.
+        // If the selected chart has just been hidden, select the first one after it.
         let place = match all.iter().position(|&n| n == self.selected) {
-            Some(place) => around(place, steps, all.len()),
+            Some(place) => wrapping_index(place, steps, all.len()),
             None => all.iter().position(|&n| n > self.selected).unwrap_or(0),
         };
         if let Some(&n) = all.get(place) {
@@ -118,17 +119,17 @@ impl Charts {
         }
     }
 
-    /// Draws the selected chart on a logarithmic scale, or not.
+    /// Turns the logarithmic scale of the selected chart on or off.
     pub const fn toggle_log(&mut self) {
         self.log[self.selected] = !self.log[self.selected];
     }
 
-    /// Takes the next degree of smoothing.
+    /// Chooses the next width of the smoothing.
     pub const fn smooth(&mut self) {
         self.smoothing = (self.smoothing + 1) % SMOOTHING.len();
     }
 
-    /// The shots that are shown of a run.
+    /// The shown range of a run, shots.
     pub fn range(&self, progress: Progress) -> (f64, f64) {
         let all = whole(progress.shots, progress.planned);
         let Some(Part { width, end }) = self.part else { return all };
@@ -144,11 +145,10 @@ impl Charts {
         (end - width, end)
     }
 
-    /// Shows half as many shots, or twice as many where negative: around the end while that is followed, else around
-    /// the middle.
+    /// Halves the shown range, or doubles it if negative: around the end if the range follows it, else around the middle.
     ///
     /// # Errors
-    /// A sentence where fewer shots cannot be shown.
+    /// Returns a message if the range cannot become narrower.
     pub fn zoom(&mut self, steps: isize, progress: Progress) -> Result<(), &'static str> {
         let (all, (from, to)) = (whole(progress.shots, progress.planned), self.range(progress));
         let is_moved = self.part.is_some_and(|part| part.end.is_some());
@@ -171,11 +171,11 @@ impl Charts {
         Ok(())
     }
 
-    /// Shows later shots, or earlier ones where negative.
+    /// Moves the shown range to later shots, or to earlier ones if negative.
     pub fn pan(&mut self, steps: isize, progress: Progress) {
         let (all, (from, to)) = (whole(progress.shots, progress.planned), self.range(progress));
         if let Some(part) = &mut self.part {
-            // As wide as it is seen: while it follows a run that has grown it is wider than was asked for.
+            // Keep the visible width: a range that follows a growing run is wider than the chosen width.
             part.width = to - from;
             let end = to + steps as f64 * PAN_STEP * part.width;
             part.end = Some(end.min(all.1).max(all.0 + part.width));
@@ -187,7 +187,7 @@ impl Charts {
         self.part = None;
     }
 
-    /// Follows the end of the run.
+    /// Makes the shown range follow the end of the run.
     pub const fn follow_end(&mut self) {
         if let Some(part) = &mut self.part {
             part.end = None;
@@ -226,7 +226,7 @@ mod tests {
         for _ in 0..9 {
             charts.zoom(-1, at(900_000)).unwrap();
         }
-        assert!(!charts.is_part());
+        assert!(!charts.is_zoomed());
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The form for a new run.
+//! State of the form for a new training run.
 
 use std::{
     ffi::OsString,
@@ -14,24 +14,25 @@ use crate::{
     printing::{shell_word, timestamp},
     terminal::{
         Launch,
-        pages::{around, neighbour},
+        pages::{neighbour, wrapping_index},
     },
 };
 
-/// Tables that a run can be started on.
+/// Tables on which a run can be started.
 pub const TABLES: [&str; 3] = ["match", "textbook", "thesis"];
 /// Numbers of shots to choose from; others can be typed.
 const BUDGETS: [u64; 9] =
     [100_000, 300_000, 1_000_000, 3_000_000, 5_000_000, 10_000_000, 30_000_000, 100_000_000, 300_000_000];
 
-/// Seconds beyond which a run is a long one.
+/// Estimated duration above which starting a run needs a confirmation, s.
 const DAY: f64 = 86_400.0;
-/// Shots a second that the agents usually play and learn from, measurements included, on one core of which others work as
-/// well: those of the first 20 s of `carom train`, `ddpg` on `match`, the others on `thesis`. An idle core is two to three
-/// times as fast. They only decide whether a run of more than a day has to be confirmed.
+/// Usual training speed of each agent, shots a second, including evaluations, on one core that is shared with other work.
+///
+/// Measured in the first 20 s of `carom train`: `ddpg` on `match`, the others on `thesis`. An idle core is two to three times as fast.
+/// The speeds only decide whether a run takes more than a day and so needs a confirmation.
 const USUAL_SPEEDS: [(&str, f64); 4] =
     [("ddpg", 3000.0), ("q-learning", 15_000.0), ("dqn", 2500.0), ("thesis-ddpg", 12_000.0)];
-/// The same of an agent that has not been measured.
+/// Assumed speed of an agent that has not been measured, shots a second.
 const SLOWEST: f64 = 2500.0;
 
 /// A field of the form.
@@ -39,7 +40,7 @@ const SLOWEST: f64 = 2500.0;
 pub enum Field {
     /// The agent.
     Agent,
-    /// What it is rewarded for.
+    /// The reward function.
     Reward,
     /// The table.
     Table,
@@ -47,15 +48,15 @@ pub enum Field {
     Shots,
     /// The seed.
     Seed,
-    /// The run whose weights it starts with.
+    /// The run that provides the initial weights.
     From,
 }
 
 impl Field {
-    /// All of them, in their order on the screen.
+    /// All fields, in screen order.
     pub const ALL: [Self; 6] = [Self::Agent, Self::Reward, Self::Table, Self::Shots, Self::Seed, Self::From];
 
-    /// Its name.
+    /// The name of the field.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Agent => "agent",
@@ -68,31 +69,31 @@ impl Field {
     }
 }
 
-/// What is filled in.
+/// The values of the form.
 #[derive(Debug)]
 pub struct Form {
     /// The marked field.
     pub field: Field,
-    /// Whether nothing was typed since the field was entered or its value chosen: the next digit begins another number.
+    /// Whether the next digit replaces the number: nothing was typed since the field was entered or its value was chosen.
     is_fresh: bool,
-    /// Place of the agent in [`AGENTS`].
+    /// Index of the agent in [`AGENTS`].
     pub agent: usize,
-    /// What it is rewarded for.
+    /// The reward function.
     pub reward: Reward,
     /// The table's name.
     pub table: &'static str,
-    /// Shots to play, as they were typed.
+    /// Shots to play, as typed.
     pub shots: String,
-    /// The seed, as it was typed.
+    /// The seed, as typed.
     pub seed: String,
-    /// Name and folder of the run whose weights it starts with.
+    /// Name and folder of the run that provides the initial weights; `None` for new networks.
     pub from: Option<(String, PathBuf)>,
-    /// When the form was opened: the run's name begins with it.
+    /// Time when the form was opened. The run's name begins with it.
     opened: String,
 }
 
 impl Form {
-    /// The form with what is usual.
+    /// Creates the form with default values.
     pub fn new() -> Self {
         Self {
             field: Field::Agent,
@@ -107,19 +108,19 @@ impl Form {
         }
     }
 
-    /// Marks another field, the next where positive.
+    /// Moves the mark by `fields`, downwards if positive.
     pub fn move_mark(&mut self, fields: isize) {
         self.field = neighbour(&Field::ALL, self.field, fields);
         self.is_fresh = true;
     }
 
-    /// Takes the next value of the marked field, or the one before. `runs` are those whose weights can be taken.
+    /// Chooses the next value of the marked field, or the one before if negative. `runs` are the runs that can provide weights.
     pub fn choose(&mut self, step: isize, runs: &[Summary]) {
         self.is_fresh = true;
         match self.field {
             Field::Agent => {
-                self.agent = around(self.agent, step, AGENTS.len());
-                // Another agent's weights are of no use.
+                self.agent = wrapping_index(self.agent, step, AGENTS.len());
+                // Weights of another agent do not fit.
                 self.from = None;
             }
             Field::Reward => self.reward = neighbour(&Reward::ALL, self.reward, step),
@@ -151,7 +152,7 @@ impl Form {
         }
     }
 
-    /// The number in the marked field, if it is one that can be typed.
+    /// The text of the marked field, if it is a number that can be typed.
     fn number(&mut self) -> Option<&mut String> {
         match self.field {
             Field::Shots => Some(&mut self.shots),
@@ -160,11 +161,11 @@ impl Form {
         }
     }
 
-    /// Adds the digits among what is typed to the number in the marked field, or begins another one with them; `false` where
-    /// there are none or it takes none.
+    /// Appends the digits in `letters` to the number in the marked field, or starts a new number with them. Returns `false` if there are
+    /// no digits or the field is not a number.
     ///
     /// # Errors
-    /// A sentence that says what is accepted, where the number would be too large; it stays as it was.
+    /// Returns a message with the accepted range if the number would be too large. The field stays unchanged.
     pub fn typed(&mut self, letters: &str) -> Result<bool, String> {
         let digits: String = letters.chars().filter(char::is_ascii_digit).collect();
         let (name, is_fresh) = (self.field.name(), self.is_fresh);
@@ -178,7 +179,7 @@ impl Form {
         Ok(true)
     }
 
-    /// Takes the last digit of the number in the marked field back; what is typed then follows what is left.
+    /// Deletes the last digit of the number in the marked field. Digits typed afterwards are appended to the rest.
     pub fn erase(&mut self) {
         self.is_fresh = false;
         if let Some(number) = self.number() {
@@ -186,14 +187,14 @@ impl Form {
         }
     }
 
-    /// The number of shots and how long they usually take, s, where that is beyond a day.
+    /// The number of shots and their estimated duration, s, if that is more than a day.
     pub fn long_run(&self) -> Option<(u64, f64)> {
         let shots = self.shots.parse::<u64>().ok()?;
         let seconds = shots as f64 / self.usual_speed();
         (seconds > DAY).then_some((shots, seconds))
     }
 
-    /// Shots a second that the agent usually plays and learns from.
+    /// Usual training speed of the chosen agent, shots a second.
     fn usual_speed(&self) -> f64 {
         let name = AGENTS[self.agent].name;
         USUAL_SPEEDS.iter().find(|(agent, _)| *agent == name).map_or(SLOWEST, |(_, speed)| *speed)
@@ -204,7 +205,7 @@ impl Form {
         run_name(&self.opened, AGENTS[self.agent].name, self.table, self.reward, &self.seed)
     }
 
-    /// The command line that starts the same run, an option after the other; in `elsewhere` where that is not the folder of the
+    /// The parts of the command line that starts the same run. `elsewhere` is the folder for the run if it is not the folder of the
     /// user's runs.
     pub fn command(&self, elsewhere: Option<&Path>) -> Vec<String> {
         let mut options = self.options(elsewhere.is_some());
@@ -213,7 +214,8 @@ impl Form {
         std::iter::once("carom train".to_owned()).chain(options.into_iter().map(told)).collect()
     }
 
-    /// The options of `carom train` but the run's folder; the run that it begins with by its folder or else by its name.
+    /// The options of `carom train`, except the run's folder. The run that provides the weights is given by its folder if `by_folder`, else
+    /// by its name.
     fn options(&self, by_folder: bool) -> Vec<(&'static str, OsString)> {
         let from = self.from.as_ref().map(|(name, path)| if by_folder { path.into() } else { name.into() });
         [
@@ -228,10 +230,10 @@ impl Form {
         .collect()
     }
 
-    /// What starts the run in a folder of `runs`.
+    /// Returns the command that starts the run in a new folder in `runs`.
     ///
     /// # Errors
-    /// A sentence that says which number is wrong.
+    /// Returns a message on the number that is not valid.
     pub fn launch(&self, runs: &Path) -> Result<Launch, String> {
         if !self.shots.parse::<u64>().is_ok_and(|shots| shots > 0) {
             return Err(format!("{:?} is not a number of shots; use 1 or more", self.shots));

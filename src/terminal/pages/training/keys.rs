@@ -1,4 +1,4 @@
-//! The keys of the training screen, a table for each of its pages and questions.
+//! Key bindings of the training page: one table for each of its screens.
 
 use crossterm::event::KeyCode::{BackTab, Backspace, Down, End, Enter, Esc, Left, Right, Tab, Up};
 
@@ -11,48 +11,48 @@ use crate::terminal::keymap::{
 use TrainingAction as A;
 use TrainingCondition as W;
 
-/// What a key does on the training screen.
+/// Action of a key on the training page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TrainingAction {
-    /// Goes back to the page before.
+    /// Returns to the previous screen.
     Back,
-    /// Moves the mark in the list by lines, down where positive.
+    /// Moves the mark in the list by lines, downwards if positive.
     Line(isize),
-    /// Takes the marked run: watches it, or compares with it.
+    /// Chooses the marked run: to watch it, or to compare with it.
     Choose,
     /// Opens the form for a new run.
     New,
-    /// Goes on with a run that is not training.
+    /// Resumes a run that is not training.
     Resume,
-    /// Moves the mark in the form by fields, down where positive.
+    /// Moves the mark in the form by fields, downwards if positive.
     Field(isize),
-    /// Takes the next value of the marked field, or the one before.
+    /// Chooses the next value of the marked field, or the one before if negative.
     Value(isize),
-    /// Takes the last digit back.
+    /// Deletes the last digit.
     Erase,
     /// Starts the new run.
     Start,
-    /// Shows or hides the chart of a quantity, by its place in [`Quantity::ALL`](crate::learning::run::quantity::Quantity).
+    /// Shows or hides the chart of a quantity, by its index in [`Quantity::ALL`](crate::learning::run::quantity::Quantity).
     Show(usize),
-    /// Selects another of the charts, the next where positive.
+    /// Selects another chart: the next one if positive, the one before if negative.
     Chart(isize),
     /// Enlarges the selected chart, or shows all again.
     Enlarge,
-    /// Draws the selected chart on a logarithmic scale, or not.
+    /// Turns the logarithmic scale of the selected chart on or off.
     Log,
-    /// Takes the next degree of smoothing.
+    /// Chooses the next width of the smoothing.
     Smooth,
-    /// Shows fewer shots, or more where negative.
+    /// Shows fewer shots, or more if negative.
     Zoom(isize),
-    /// Shows later shots, or earlier ones where negative.
+    /// Shows later shots, or earlier ones if negative.
     Pan(isize),
     /// Shows all of the run.
     All,
     /// Follows the end of the run.
     Follow,
-    /// Chooses a run to compare with, or ends that.
+    /// Opens the choice of a run to compare with, or ends the comparison.
     Compare,
-    /// Pauses the run, or lets it go on.
+    /// Pauses or continues the run.
     Pause,
     /// Asks whether to stop and save the run.
     Stop,
@@ -60,31 +60,31 @@ pub enum TrainingAction {
     Abandon,
     /// Uses the run's policy in the coach.
     Use,
-    /// Asks for a name under which the policy is kept.
+    /// Asks for a name under which to save the policy.
     Keep,
     /// Plays or pauses the replay.
     Play,
-    /// Shows another shot, the next where positive.
+    /// Shows another shot: the next one if positive, the one before if negative.
     Shot(isize),
-    /// Answers what is asked: yes, or what was typed; or no.
+    /// Answers the open question: `true` for yes or the typed text, `false` for no.
     Answer(bool),
 }
 
-/// What is on the screen.
+/// The screens of the training page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TrainingContext {
     /// The list of runs.
     Runs,
-    /// The same, to choose one to compare with.
+    /// The list of runs, to choose one for a comparison.
     Compare,
     /// The form for a new run.
     Form,
-    /// A run that is watched.
+    /// A watched run.
     Watch,
 }
 
 impl TrainingContext {
-    /// Its keys.
+    /// The key bindings of the screen.
     pub const fn bindings(self) -> &'static [Binding<A, W>] {
         match self {
             Self::Runs => RUNS,
@@ -95,34 +95,34 @@ impl TrainingContext {
     }
 }
 
-/// When a binding of the training screen may be used.
+/// Condition under which a key binding of the training page is enabled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TrainingCondition {
-    /// On its page.
+    /// Always, on the binding's screen.
     Always,
-    /// Where runs may be started.
+    /// If the user may start runs.
     MayTrain,
-    /// Where a run is marked.
+    /// If a run is marked.
     Marked,
-    /// Where the marked run can go on.
+    /// If the marked run can be resumed.
     MarkedCanGoOn,
-    /// Where a chart is shown.
+    /// If a chart is shown.
     Charts,
-    /// Where not all of the run is shown.
+    /// If only a part of the run is shown.
     Zoomed,
-    /// While the run is training.
+    /// While the run is training, paused or not.
     AtWork,
-    /// While the run is training, but paused.
+    /// While the run is paused.
     Paused,
     /// While the run is training and not paused.
     Working,
-    /// Where the run can go on.
+    /// If the run can be resumed.
     CanGoOn,
-    /// Where the run is known, whatever it does.
+    /// If the run exists, whatever its state.
     Known,
-    /// Where the run has a policy that the coach can use.
+    /// If the run has a policy that the coach can use.
     HasPolicy,
-    /// Where there are shots to replay.
+    /// If there are shots to replay.
     Shots,
 }
 
@@ -133,7 +133,7 @@ const BACK: Binding<A, W> =
 const MARK: Binding<A, W> = bind(List, W::Marked, lines!(A::Line), Some(("choose", 2)), "mark another run")
     .each(marks!("run"));
 
-/// The list of runs.
+/// Key bindings of the list of runs.
 #[rustfmt::skip]
 pub const RUNS: &[Binding<A, W>] = &[
     bind(List, W::Marked, &[key(Enter, A::Choose)], Some(("watch", 1)), "watch the marked run"),
@@ -143,7 +143,7 @@ pub const RUNS: &[Binding<A, W>] = &[
     BACK,
 ];
 
-/// The list, when a run is chosen to compare with.
+/// Key bindings of the list of runs, for choosing one for a comparison.
 #[rustfmt::skip]
 pub const COMPARE: &[Binding<A, W>] = &[
     bind(List, W::Marked, &[key(Enter, A::Choose)], Some(("compare", 1)), "compare with the marked run"),
@@ -151,7 +151,7 @@ pub const COMPARE: &[Binding<A, W>] = &[
     BACK,
 ];
 
-/// The form for a new run.
+/// Key bindings of the form for a new run.
 #[rustfmt::skip]
 pub const FORM: &[Binding<A, W>] = &[
     bind(Form, W::Always, &[key(Enter, A::Start)], Some(("start", 1)), "start the run"),
@@ -165,7 +165,7 @@ pub const FORM: &[Binding<A, W>] = &[
     BACK,
 ];
 
-/// What the keys of the charts do, in the order of the quantities.
+/// Descriptions of the keys that show and hide charts, in the order of the quantities.
 const SHOW: &[&str] = &[
     "show or hide the mean reward",
     "show or hide the mean Q-value",
@@ -178,7 +178,7 @@ const SHOW: &[&str] = &[
     "show or hide the exploration",
 ];
 
-/// A run that is watched.
+/// Key bindings of a watched run.
 #[rustfmt::skip]
 pub const WATCH: &[Binding<A, W>] = &[
     bind(Run, W::CanGoOn, &[letter('r', A::Resume)], Some(("go on", 1)), "go on with a run that is not training"),

@@ -1,7 +1,6 @@
-//! The state of the training screen: which page is open, the list of runs, the form, and the run that is watched.
+//! The training page: the list of runs, the form for a new run, and a watched run.
 //!
-//! Training happens in processes of its own, which this screen only starts, follows and steers. [`actions`] is what
-//! each key does.
+//! Training runs in separate processes, which this page only starts, follows and controls. [`actions`] implements the key actions.
 
 mod actions;
 mod charts;
@@ -44,38 +43,38 @@ pub use question::Question;
 pub use runs::RunList;
 pub use watch::{Named, Watch, name_in};
 
-/// Time for which a run that is started is believed to come: within it nothing else is started in its folder.
+/// Time that a started run has to show up. Within this time, nothing else is started in its folder.
 const LAUNCHING: Duration = Duration::from_secs(5);
 
-/// The state of the training screen.
+/// The state of the training page.
 #[derive(Debug)]
 pub struct TrainingPage {
-    /// Where runs and policies are.
+    /// The folders of runs and policies.
     pub places: Places,
-    /// The folder whose runs are listed, and in which new ones are started.
+    /// The folder whose runs are listed and in which new ones are started.
     pub folder: PathBuf,
     /// The list of runs.
     pub list: RunList,
     /// The form for a new run.
     pub form: Form,
-    /// The run that is watched.
+    /// The watched run.
     pub watch: Option<Watch>,
-    /// What is asked.
+    /// The open question.
     pub question: Option<Question>,
-    /// What the status line says.
+    /// The message of the status line.
     pub message: Option<Message>,
-    /// Whether there is nothing behind the first page.
+    /// Whether the program shows only this page, so that there is no page to return to.
     pub alone: bool,
-    /// Whether runs may only be looked at.
+    /// Whether the user is a guest, who can only watch runs.
     pub is_guest: bool,
-    /// The folder of the run that was started last, and when, until it is seen to be training or to have failed.
+    /// The folder and start time of the last started run, until it is seen training or has failed.
     launched: Option<(PathBuf, Instant)>,
-    /// The pages one has come through; the last one is open.
+    /// The stack of screens; the last one is open.
     pages: Vec<TrainingContext>,
 }
 
 impl TrainingPage {
-    /// The screen before it is opened.
+    /// Creates the page, closed.
     pub fn new(places: Places) -> Self {
         Self {
             folder: places.runs.clone(),
@@ -92,7 +91,7 @@ impl TrainingPage {
         }
     }
 
-    /// Opens the page that was open last, or the list.
+    /// Opens the page at the last open screen, or at the list.
     pub fn open(&mut self) {
         self.message = None;
         if self.pages.is_empty() {
@@ -100,8 +99,7 @@ impl TrainingPage {
         }
     }
 
-    /// Opens with a run, or with the list of those in `list`, by default the user's; there is nothing behind its first
-    /// page.
+    /// Opens this page as the only one: with a run, or with the list of the runs in the folder `list`, by default the user's.
     pub fn open_alone(&mut self, run: Option<PathBuf>, list: Option<PathBuf>) {
         self.alone = true;
         self.pages = vec![TrainingContext::Runs];
@@ -113,7 +111,7 @@ impl TrainingPage {
         }
     }
 
-    /// Opens the page of the run in `folder`.
+    /// Opens the screen of the run in `folder`.
     fn show(&mut self, folder: &Path) {
         self.list.mark_named(&name_in(&self.folder, folder));
         self.watch = Some(Watch::new(folder, &self.places.runs));
@@ -121,22 +119,22 @@ impl TrainingPage {
         self.pages.push(TrainingContext::Watch);
     }
 
-    /// Whether a process for the run in `folder` has been started and may still be on its way.
+    /// Whether a process for the run in `folder` has been started and may not have reported yet.
     fn is_launched(&self, folder: &Path) -> bool {
         self.launched.as_ref().is_some_and(|(launched, since)| launched == folder && since.elapsed() < LAUNCHING)
     }
 
-    /// Whether one has gone back from the first page.
+    /// Whether the user has left the page.
     pub const fn is_left(&self) -> bool {
         self.pages.is_empty()
     }
 
-    /// The page that is open.
+    /// The open screen.
     pub fn page(&self) -> TrainingContext {
         self.pages.last().copied().unwrap_or(TrainingContext::Runs)
     }
 
-    /// What has to be found out now.
+    /// The data that the page needs from background tasks now.
     pub fn subscriptions(&self) -> Subscriptions {
         let lists = matches!(self.page(), TrainingContext::Runs | TrainingContext::Form | TrainingContext::Compare);
         let folder = |named: &Named| named.run.folder.clone();
@@ -150,7 +148,7 @@ impl TrainingPage {
         }
     }
 
-    /// Takes what has come of something; a policy that is to be used in the coach goes on to it, with its table.
+    /// Handles the result of a background task. Returns a policy with its table if the coach must use it.
     pub fn receive(&mut self, report: TrainingReport) -> Option<(Table, CoachQuery)> {
         match report {
             TrainingReport::Runs(found) => self.list.take(found),
@@ -178,7 +176,7 @@ impl TrainingPage {
                     Request::Pause => "the run is asked to pause",
                     Request::GoOn => "the run is asked to go on",
                     Request::Stop => "the run is asked to stop: it measures itself and saves first",
-                    Request::Abandon => "the run is asked to end, and its folder goes",
+                    Request::Abandon => "the run is asked to end; its folder will be deleted",
                 }));
             }
             TrainingReport::Sent(_, Err(sentence)) => {
@@ -190,25 +188,25 @@ impl TrainingPage {
         None
     }
 
-    /// News of the run in `folder`.
+    /// Handles an update of the run in `folder`.
     fn followed(&mut self, folder: &Path, update: Update) {
         let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) else { return };
         let before = watch.condition();
         watch.replay.is_outdated |= update.begins;
         watch.own.run.apply(update);
         let has_changed = !watch.condition().is_like(before);
-        // Before it is seen for the first time it may have been as it was still.
+        // The first update may still show the state before the start.
         if has_changed && before != Condition::Unknown && self.is_launched(folder) {
             self.launched = None;
         }
-        // What was said of what was is no news any more.
+        // The message was about the former state.
         if has_changed && !matches!(before, Condition::Stalled(_)) {
             self.message = None;
         }
         self.close_question();
     }
 
-    /// A process that was to train in `folder` has failed. That is nothing to worry about where another one trains there.
+    /// Handles the failure of a process that should train in `folder`. Ignores it if another process trains there.
     fn failed(&mut self, folder: &Path, failure: &TrainerFailure) {
         let watch = self.watch.as_ref().filter(|watch| watch.folder() == folder && watch.is_at_work());
         let at_work = watch.and_then(|watch| watch.own.run.status.as_ref()).map(|status| status.process);
@@ -225,7 +223,7 @@ impl TrainingPage {
         self.message = Some(Message::warning(format!("{name}: {}", failure.sentence)));
     }
 
-    /// What makes no sense any more is not asked any more.
+    /// Closes the open question if its condition no longer holds.
     fn close_question(&mut self) {
         let when = self.question.as_ref().map(Question::when);
         if let Some(reason) = when.and_then(|when| self.disabled_reason(when)) {
@@ -239,9 +237,9 @@ impl TrainingPage {
         match outcome {
             Ok(true) => {
                 let call = shell_word(&name);
-                self.message = Some(Message::good(format!("kept; use them by: carom recommend --policy {call}")));
+                self.message = Some(Message::good(format!("kept; use them with: carom recommend --policy {call}")));
             }
-            // Asked only while the run is still watched and nothing else is asked; otherwise told.
+            // Ask only if the run is still watched and no question is open; otherwise show a message.
             Ok(false) if self.page() == TrainingContext::Watch && self.question.is_none() => {
                 self.question = Some(Question::Replace(name));
             }
@@ -295,7 +293,7 @@ impl Page for TrainingPage {
     }
 
     fn tick(&mut self, seconds: f64) {
-        // Ticks come for toasts too.
+        // There are ticks for toasts too, so only a visible replay may advance.
         let is_seen = self.page() == TrainingContext::Watch;
         if let Some(watch) = self.watch.as_mut().filter(|_| is_seen) {
             watch.replay.tick(seconds);

@@ -1,4 +1,4 @@
-//! What the training screen asks before it does something.
+//! The questions of the training page.
 
 use crate::{
     storage::{LONGEST_NAME, is_letter},
@@ -13,25 +13,25 @@ use crate::{
 /// A question that waits for an answer.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Question {
-    /// Whether to start a run of so many shots, which takes so many seconds if the agent is as fast as usual.
+    /// Whether to start a long run.
     Long {
-        /// Its shots.
+        /// Number of shots.
         shots: u64,
-        /// The seconds.
+        /// Estimated duration at the agent's usual speed, s.
         seconds: f64,
     },
     /// Whether to stop the run and save it.
     Stop,
     /// Whether to abandon the run.
     Abandon,
-    /// Under which name the policy is kept, as far as it is typed.
+    /// The name under which to save the policy, with the text typed so far.
     Name(TextField),
-    /// Whether the policy that has this name already may be replaced.
+    /// Whether to replace the saved policy with this name.
     Replace(String),
 }
 
 impl Question {
-    /// The question about the run that is watched, if there is one, without what is typed.
+    /// The question, without the typed text; `watch` is the watched run, if there is one.
     pub fn text(&self, watch: Option<&Watch>) -> String {
         let name = watch.map_or("the run", |watch| &watch.own.name);
         match self {
@@ -54,7 +54,7 @@ impl Question {
         }
     }
 
-    /// As long as what it may be asked and answered.
+    /// The condition under which the question makes sense.
     pub const fn when(&self) -> TrainingCondition {
         match self {
             Self::Long { .. } => TrainingCondition::Always,
@@ -63,18 +63,18 @@ impl Question {
         }
     }
 
-    /// The question under which name the policy of the run called `run` is kept.
+    /// Creates the question for a name of the policy of the run `run`.
     pub fn name(run: &str) -> Self {
         Self::Name(TextField::new(LONGEST_NAME).offering(&proposed_name(run)))
     }
 
-    /// The text that is typed, where some is.
+    /// The text field of the answer; `None` if the answer is yes or no.
     pub const fn field(&self) -> Option<&TextField> {
         if let Self::Name(typed) = self { Some(typed) } else { None }
     }
 }
 
-/// A name for the policy of the run called `run`: the last part of that, as far as it may stand in a name.
+/// Proposes a name for the policy of the run `run`: the last part of its path, with characters that names do not allow replaced.
 fn proposed_name(run: &str) -> String {
     let last = run.rsplit(['/', '\\']).find(|part| !part.is_empty()).unwrap_or_default();
     let letters = last.chars().enumerate().map(|(n, letter)| {

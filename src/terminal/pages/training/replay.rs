@@ -1,48 +1,48 @@
-//! The latest shots on held-out layouts, played one after the other.
+//! Replay of a run's latest shots on held-out layouts, one after the other.
 //!
-//! A new set of shots plays through once and rests at its last shot; then nothing moves until another set comes or
-//! somebody wants to see it again.
+//! A new set of shots is played once and stops at its last shot. After that nothing moves until the next set arrives or the user
+//! starts the replay again.
 
 use crate::terminal::{Reel, ReplayShot, shot::Playback};
 
-/// Seconds between two pictures.
+/// Time between two frames, s.
 pub const INTERVAL: f64 = 0.1;
-/// Seconds that the balls lie still before the next shot.
+/// Pause between two shots, s.
 const REST: f64 = 1.0;
 
-/// What moves.
+/// State of the replay.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Motion {
-    /// Nothing: the set has been played, or the user has stopped it.
+    /// Stopped: the set has been played, or the user has stopped it.
     #[default]
     Stopped,
-    /// The shot.
+    /// A shot is playing.
     Playing,
-    /// Nothing for so many seconds, then the next shot.
+    /// Pause before the next shot, with the remaining time, s.
     Resting(f64),
 }
 
-/// Shots that are replayed.
+/// The replay of a set of shots.
 #[derive(Debug, Default)]
 pub struct Replay {
-    /// The set that is shown.
+    /// The set on the screen.
     pub reel: Option<Reel>,
-    /// A newer set that waits until this one is through.
+    /// A newer set that waits for the end of this one.
     waiting: Option<Reel>,
-    /// The present shot's number in the set, from 0.
+    /// Index of the current shot in the set.
     pub index: usize,
-    /// The clock of that shot.
+    /// Playback position of the current shot.
     pub playback: Playback,
     motion: Motion,
-    /// Whether the user has stopped it: then nothing moves until it is started again.
-    held: bool,
-    /// Whether the run has gone on from before the shown set: then the next one is newer, whatever its number.
+    /// Whether the user has stopped the replay, so that only the user can start it again.
+    stopped_by_user: bool,
+    /// Whether the run was resumed from a point before the set on the screen. Then the next set is newer, whatever its number.
     pub is_outdated: bool,
 }
 
 impl Replay {
-    /// Takes a new set; it plays at once, or after the one that is playing. A set that is not newer than the one that is
-    /// shown is no news, nor is that one itself, which is read again when somebody comes back to the run.
+    /// Accepts a new set, and plays it now or after the one that is playing. A set that is not newer than the latest one is ignored.
+    /// So is that set itself, which is read again when the user returns to the run.
     pub fn offer(&mut self, reel: Reel) {
         let newest = self.waiting.as_ref().or(self.reel.as_ref());
         let is_old = |newest: &Reel| newest.after >= reel.after && !self.is_outdated || newest.is_of(&reel);
@@ -50,7 +50,7 @@ impl Replay {
             return;
         }
         self.is_outdated = false;
-        if self.reel.is_some() && (self.motion != Motion::Stopped || self.held) {
+        if self.reel.is_some() && (self.motion != Motion::Stopped || self.stopped_by_user) {
             self.waiting = Some(reel);
         } else {
             self.begin(reel);
@@ -63,31 +63,31 @@ impl Replay {
         self.motion = Motion::Playing;
     }
 
-    /// Puts the shot with this number on the table, before its stroke.
+    /// Shows the shot with this index, before its stroke.
     fn show(&mut self, index: usize) {
         self.index = index;
         self.playback.jump(0.0);
     }
 
-    /// The present shot.
+    /// The current shot.
     pub fn shot(&self) -> Option<&ReplayShot> {
         self.reel.as_ref()?.shots.get(self.index)
     }
 
-    /// Whether anything moves.
+    /// Whether the replay is running.
     pub fn is_playing(&self) -> bool {
         self.motion != Motion::Stopped
     }
 
-    /// Plays, or stops; at the end of the set it plays the newest from its beginning.
+    /// Starts or stops the replay. At the end of the set it starts the newest set from its beginning.
     pub fn toggle(&mut self) {
         if self.is_playing() {
             self.motion = Motion::Stopped;
-            self.held = true;
+            self.stopped_by_user = true;
             return;
         }
-        self.held = false;
-        if self.is_through() {
+        self.stopped_by_user = false;
+        if self.is_finished() {
             match self.waiting.take() {
                 Some(newer) => self.begin(newer),
                 None => self.show(0),
@@ -106,12 +106,12 @@ impl Replay {
         self.playback.time >= self.duration()
     }
 
-    fn is_through(&self) -> bool {
+    fn is_finished(&self) -> bool {
         let last = self.reel.as_ref().map_or(0, |reel| reel.shots.len().saturating_sub(1));
         self.index >= last && self.is_at_the_end()
     }
 
-    /// Shows another shot before its stroke, the next where positive, and stops there.
+    /// Stops the replay and shows another shot, before its stroke: the next one if positive, the one before if negative.
     pub fn step(&mut self, shots: isize) {
         let count = self.reel.as_ref().map_or(0, |reel| reel.shots.len());
         if count > 0 {
@@ -119,10 +119,10 @@ impl Replay {
             self.show(index);
         }
         self.motion = Motion::Stopped;
-        self.held = true;
+        self.stopped_by_user = true;
     }
 
-    /// Lets `seconds` pass.
+    /// Advances the replay by `seconds`.
     pub fn tick(&mut self, seconds: f64) {
         match self.motion {
             Motion::Stopped => {}
@@ -134,7 +134,7 @@ impl Replay {
                 }
             }
             Motion::Resting(left) if left > seconds => self.motion = Motion::Resting(left - seconds),
-            Motion::Resting(_) if !self.is_through() => {
+            Motion::Resting(_) if !self.is_finished() => {
                 self.show(self.index + 1);
                 self.motion = Motion::Playing;
             }

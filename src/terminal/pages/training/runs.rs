@@ -1,4 +1,4 @@
-//! The list of runs and the mark in it.
+//! The list of training runs and its marked (selected) run.
 
 use crate::learning::run::{
     follow::Condition,
@@ -9,18 +9,18 @@ use crate::learning::run::{
 /// The list of runs.
 #[derive(Debug, Default)]
 pub struct RunList {
-    /// The runs, newest first; nothing before they were looked for.
+    /// The runs, newest first; `None` until the folder has been read.
     pub known: Option<Vec<Summary>>,
-    /// Why they cannot be listed.
+    /// The reason why the runs cannot be listed.
     pub trouble: Option<String>,
-    /// Sentences on those that cannot be read.
+    /// Messages on runs that cannot be read.
     pub unreadable: Vec<String>,
-    /// Name of the marked run: it keeps its mark where others come before it.
+    /// Name of the marked run. A name keeps the mark on the run if new runs are listed before it.
     marked: Option<String>,
 }
 
 impl RunList {
-    /// Takes what was found.
+    /// Replaces the list with what was found in the folder.
     pub fn take(&mut self, found: Result<Listing, String>) {
         match found {
             Ok(Listing { mut runs, unreadable }) => {
@@ -38,30 +38,30 @@ impl RunList {
         self.known.as_deref().unwrap_or_default()
     }
 
-    /// Place of the marked run in the list; the first where none was marked or it is gone.
+    /// Index of the marked run in the list; 0 if none was marked or the run is gone.
     pub fn mark(&self) -> usize {
         let is_marked = |run: &Summary| Some(&run.name) == self.marked.as_ref();
         self.runs().iter().position(is_marked).unwrap_or(0)
     }
 
-    /// The marked run; none where there are no runs.
+    /// The marked run; `None` if there are no runs.
     pub fn marked(&self) -> Option<&Summary> {
         self.runs().get(self.mark())
     }
 
-    /// Moves the mark by lines, down where positive, as far as there are any.
+    /// Moves the mark by `lines`, downwards if positive, within the list.
     pub fn move_mark(&mut self, lines: isize) {
         let last = self.runs().len().saturating_sub(1);
         let mark = self.mark().saturating_add_signed(lines).min(last);
         self.marked = self.runs().get(mark).map(|run| run.name.clone());
     }
 
-    /// Marks the run called `name`.
+    /// Marks the run `name`.
     pub fn mark_named(&mut self, name: &str) {
         self.marked = Some(name.to_owned());
     }
 
-    /// Marks the run below the one called `name`, or else the one above it.
+    /// Marks the run below the run `name`, or the one above it if there is none below.
     pub fn mark_beside(&mut self, name: &str) {
         self.mark_named(name);
         let own = self.mark();
@@ -71,7 +71,7 @@ impl RunList {
         }
     }
 
-    /// Why the marked run cannot go on; `None` where it can.
+    /// The reason why the marked run cannot be resumed; `None` if it can.
     pub fn refusal_to_go_on(&self) -> Option<&'static str> {
         match self.marked().map(|run| run.state) {
             None => Some("there is no run yet; n starts one"),

@@ -1,4 +1,4 @@
-//! A run that is watched, perhaps beside another one.
+//! State of a watched training run, with a second run if they are compared.
 
 use std::path::Path;
 
@@ -16,7 +16,7 @@ use crate::{
     },
 };
 
-/// What a run is called among those in the folder `runs`.
+/// The name of a run: its path relative to the folder `runs`, if it is in there.
 pub fn name_in(runs: &Path, run: &Path) -> String {
     run.strip_prefix(runs).unwrap_or(run).display().to_string()
 }
@@ -24,102 +24,102 @@ pub fn name_in(runs: &Path, run: &Path) -> String {
 /// A run and its name.
 #[derive(Debug)]
 pub struct Named {
-    /// How the command line calls it.
+    /// The name of the run on the command line.
     pub name: String,
-    /// What is known of it.
+    /// The followed run.
     pub run: Followed,
 }
 
 impl Named {
-    /// The run in `folder`, of which nothing is known yet. Runs in `runs` are called by what follows.
+    /// Creates the entry of the run in `folder`, which has not been read yet. `runs` is the folder to which names are relative.
     pub fn new(folder: &Path, runs: &Path) -> Self {
         Self { name: name_in(runs, folder), run: Followed::new(folder) }
     }
 
-    /// Whether what its shots earn is a success or none; that is not known before its reward is.
+    /// Whether its reward is success or failure, so that a mean is a success rate. `false` if its reward is not known yet.
     pub fn is_share(&self) -> bool {
         self.run.config.as_ref().is_some_and(|config| config.plan.reward.rule().is_some())
     }
 }
 
-/// A run that is watched.
+/// A watched run.
 #[derive(Debug)]
 pub struct Watch {
     /// The run.
     pub own: Named,
-    /// The run that it is compared with.
+    /// The run to compare with.
     pub other: Option<Named>,
-    /// Which charts are shown, and how.
+    /// The state of its charts.
     pub charts: Charts,
-    /// Its latest shots.
+    /// The replay of its latest shots.
     pub replay: Replay,
-    /// Whether it has left a policy that the coach can use.
+    /// Whether the run has saved a policy that the coach can use.
     pub has_policy: bool,
-    /// Why the process failed that was to train it, where one did.
+    /// The reason why its training process failed, if it did.
     pub failure: Option<String>,
 }
 
 impl Watch {
-    /// The run in `folder`, of which nothing is known yet. Runs in `runs` are called by what follows.
+    /// Creates the state for the run in `folder`, which has not been read yet. `runs` is the folder to which names are relative.
     pub fn new(folder: &Path, runs: &Path) -> Self {
         let (charts, replay) = (Charts::default(), Replay::default());
         Self { own: Named::new(folder, runs), other: None, charts, replay, has_policy: false, failure: None }
     }
 
-    /// Where it is.
+    /// The folder of the run.
     pub fn folder(&self) -> &Path {
         &self.own.run.folder
     }
 
-    /// How it is.
+    /// The condition of the run.
     pub const fn condition(&self) -> Condition {
         self.own.run.condition
     }
 
-    /// Whether there is anything in its folder.
+    /// Whether the run is known to exist.
     pub const fn is_known(&self) -> bool {
         !matches!(self.condition(), Condition::Unknown | Condition::Missing)
     }
 
-    /// Whether it is there and its configuration cannot be read.
+    /// Whether the run exists but its configuration cannot be read.
     pub const fn lacks_config(&self) -> bool {
         self.is_known() && self.own.run.config.is_none()
     }
 
-    /// Shots planned, where that is known.
+    /// Planned shots, if known.
     pub fn planned(&self) -> Option<u64> {
         self.own.run.config.as_ref().map(|config| config.plan.shots)
     }
 
-    /// What it is rewarded for, where that is known.
+    /// The reward function, if known.
     pub fn reward(&self) -> Option<Reward> {
         self.own.run.config.as_ref().map(|config| config.plan.reward)
     }
 
-    /// Its table, where that is known.
+    /// The table, if known.
     pub fn table(&self) -> Option<&Table> {
         self.own.run.config.as_ref().map(|config| &config.table)
     }
 
-    /// How far it is, or the run that it is compared with: charts show both.
+    /// The progress of the run, or of the one to compare with if that has more shots: the charts show both.
     pub fn progress(&self) -> Progress {
         let runs = [Some(&self.own.run), self.other.as_ref().map(|other| &other.run)].into_iter().flatten();
-        // The last iteration of the run may end a few shots beyond the plan.
+        // The last iteration of a run may exceed the plan by a few shots.
         let planned = self.planned().map(|planned| planned.max(self.own.run.shots()));
         Progress { shots: runs.map(Followed::shots).max().unwrap_or(0), planned }
     }
 
-    /// Whether a process works on it.
+    /// Whether a process is training the run.
     pub const fn is_at_work(&self) -> bool {
         self.condition().is_at_work()
     }
 
-    /// Whether it is paused until a request to go on.
+    /// Whether the run is paused until a request to continue.
     pub fn is_paused(&self) -> bool {
         self.condition() == Condition::Is(Phase::Paused)
     }
 
-    /// Why one cannot go on with it; `None` where one can.
+    /// The reason why the run cannot be resumed; `None` if it can.
     pub const fn refusal_to_go_on(&self) -> Option<&'static str> {
         match self.condition() {
             Condition::Is(Phase::Stopped | Phase::Failed) | Condition::Died | Condition::Interrupted => None,
@@ -133,7 +133,7 @@ impl Watch {
         }
     }
 
-    /// What stands in the way of the run, or what can be done now, in a sentence; and whether that is bad news.
+    /// A sentence on the run's problem or on the possible next steps, and whether it is a problem.
     pub fn advice(&self) -> (String, bool) {
         let Self { own: Named { name, run }, .. } = self;
         let resume = format!("r goes on with it, or: carom train --resume {}", shell_word(name));

@@ -16,7 +16,7 @@ fn an_exam_begins_with_a_page_that_tells_what_comes() {
     assert_eq!((begun.app.place(), begun.kept()), (EXERCISE, 0), "the first Enter plays nothing");
     begun.says("exercise 1 of 20").says("set the stroke and play it");
     let once_more = begun.press("Enter");
-    once_more.says("the stroke is unchanged; Space twice plays it all the same");
+    once_more.says("the stroke is unchanged; Space twice plays it anyway");
     assert_eq!((once_more.kept(), once_more.press("Left Enter").kept()), (0, 1));
     let back = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Esc");
     assert_eq!(back.app.place(), LIBRARY, "nothing has begun: nothing is asked");

@@ -1,29 +1,29 @@
-//! The left of the page: the tests with what is entered of each, the strokes of the marked one, and the values so far.
+//! The left column of the calibration page: the tests with their progress, the strokes of the marked test, and the values so far.
 
 use ratatui::layout::{Position, Rect};
 
 use crate::{
     calibration::{Calibration, Change, Entry, NO_BETTER, Test},
     terminal::{
-        pages::calibration::{CalibrationPage, view::values::draw_called},
+        pages::calibration::{CalibrationPage, view::values::draw_constant_name},
         ui::{Ui, columns, draw_title, list, shorten, write_right},
     },
 };
 
-/// Columns, from the right, at which the strokes and the bits of a test end.
+/// Right ends of a test's strokes and bits, from the right edge, columns.
 const STROKES_END: u16 = 8;
 const BITS_END: u16 = 1;
-/// Columns of what a constant is called, at least.
+/// Minimum width of a constant's name, columns.
 const NAME: usize = 12;
 
-/// Draws it.
+/// Draws the column.
 pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let below = draw_tests(page, area, ui);
     let below = draw_strokes(page, below, ui);
     draw_values(page, below, ui);
 }
 
-/// What is left of `area` below its first `rows`.
+/// The part of `area` below its first `rows`.
 fn rest(area: Rect, rows: u16) -> Rect {
     let rows = rows.min(area.height);
     Rect { y: area.y + rows, height: area.height - rows, ..area }
@@ -62,12 +62,12 @@ fn draw_tests(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> Rect {
     rest(area, 1 + sheet.tests().count() as u16)
 }
 
-/// Whether a stroke of a test is odd or a mark of it looks misread.
+/// Whether a stroke of a test is implausible or one of its marks looks misread.
 fn is_odd(page: &CalibrationPage, test: &Test) -> bool {
     page.sheet().strokes(test).into_iter().any(|(place, entry)| is_doubtful(page, place, entry))
 }
 
-/// The same of the stroke at `place` among all entries.
+/// Whether the stroke with index `place` among all entries is implausible or one of its marks looks misread.
 fn is_doubtful(page: &CalibrationPage, place: usize, entry: &Entry) -> bool {
     let Some(found) = page.sheet().found() else { return !entry.readings(&page.table).1.is_empty() };
     !entry.readings(&page.table).1.is_empty()
@@ -105,7 +105,7 @@ fn draw_strokes(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> Rect {
     rest(area, 1 + most as u16)
 }
 
-/// The values of which most is known, as many as there is room for.
+/// Draws the values that have become most accurate, as many as fit.
 fn draw_values(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     if area.height < 3 {
         return;
@@ -121,12 +121,12 @@ fn draw_values(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let mut constants: Vec<&Change> = found.constants.iter().collect();
     constants.sort_by(|one, other| left(one).total_cmp(&left(other)));
     for (one, y) in constants.into_iter().zip(inner.y..inner.bottom()) {
-        // As wide as each other, so that the name has a blank behind it.
+        // Both signs have the same width, so that a blank fits after the name.
         let sign = ui.caps.pick("± ", "+-");
         let value = format!("{:.4} {sign}{:.4}", one.after, one.after_deviation);
         let room = NAME.max(usize::from(inner.width).saturating_sub(columns(&value) + 4));
         let style = if found.known(one) == NO_BETTER { ui.theme.faint() } else { ui.theme.text() };
-        draw_called(one, room, style, Position::new(inner.x + 2, y), ui);
+        draw_constant_name(one, room, style, Position::new(inner.x + 2, y), ui);
         write_right(ui.buffer, inner.x, inner.right() - 1, y, &value, style);
     }
 }

@@ -1,5 +1,4 @@
-//! The calibration's page: the tests, the strokes and the values on the left; the marked test, or all that was found, beside
-//! them.
+//! The view of the calibration page: tests, strokes and values on the left, and the marked test or all values on the right.
 
 mod list;
 mod test;
@@ -19,16 +18,16 @@ use crate::terminal::{
     ui::{self, Message, TextField, Ui, columns, split},
 };
 
-/// Columns of the tests: at least, and where there is room.
+/// Width of the left column: minimum, and on screens of at least [`WIDE`] columns.
 const LIST: u16 = 31;
 const LIST_WIDE: u16 = 41;
-/// Columns of the screen from which on there is.
+/// Screen width from which on the left column is wide, columns.
 const WIDE: u16 = 110;
 
 impl PageView for CalibrationPage {
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> Message {
         draw_header(self, area.header, ui);
-        // At 80 columns what is asked of a mark takes two rows: no other mark may stand behind the first of them.
+        // At 80 columns the question for a mark takes two rows. The body gives up one, so that the question does not cover a mark.
         let is_asked = matches!(self.question, Some(Question::Marks(_))) && area.body.width < WIDE;
         let body = Rect { height: area.body.height.saturating_sub(u16::from(is_asked)), ..area.body };
         let [left, right] = halves(body);
@@ -42,7 +41,7 @@ impl PageView for CalibrationPage {
 
     fn asked(&self, _: Capabilities) -> Option<Asked<'_>> {
         let (question, typed) = question(self)?;
-        // The form of a stroke has rows for its question alone.
+        // The form for a stroke has only enough rows for its question.
         let has_own_keys = matches!(self.question, Some(Question::Marks(_)));
         let asked = Asked::new(self.message.as_ref().filter(|_| !has_own_keys), &question, typed);
         Some(Asked { has_own_keys, ..asked })
@@ -53,13 +52,13 @@ impl PageView for CalibrationPage {
         let sheet = self.sheet();
         let rows = sheet.tests().count() as u16;
         let list = Rect { height: left.height.min(rows + 1), ..left };
-        // The first row is the title's.
+        // The first row is the title.
         let line = at.y.checked_sub(left.y + 1).map(usize::from);
         (self.question.is_none() && list.contains(at)).then(|| Target::list(line, sheet.mark))
     }
 }
 
-/// What is asked, and what is typed behind it.
+/// The open question, and the text field of its answer.
 fn question(page: &CalibrationPage) -> Option<(String, Option<&TextField>)> {
     Some(match page.question.as_ref()? {
         Question::Marks(form) => {
@@ -68,18 +67,18 @@ fn question(page: &CalibrationPage) -> Option<(String, Option<&TextField>)> {
         }
         Question::Name(field) => ("the table's name = ".to_owned(), Some(field)),
         Question::Replace(name) => (format!("there is a table called {name} already; replace it?"), None),
-        Question::Anew => ("begin anew? What is entered is kept beside the file.".to_owned(), None),
+        Question::Anew => ("start again? The entries are kept next to the file.".to_owned(), None),
     })
 }
 
-/// What the status line says while there is no news.
+/// The default text of the status line.
 fn status_line(page: &CalibrationPage) -> Message {
     let sheet = page.sheet();
-    // What is wrong in it has been a toast.
+    // A toast has shown the error already.
     if sheet.trouble.is_some() {
-        return Message::warning("the entries cannot be read (F6: why); N keeps the file aside and begins anew");
+        return Message::warning("the entries cannot be read (F6: why); N moves the file aside and starts again");
     }
-    if let Some(sentence) = &sheet.unjudged {
+    if let Some(sentence) = &sheet.evaluation_error {
         return Message::warning(sentence.clone());
     }
     if sheet.entries.is_none() {
@@ -87,7 +86,7 @@ fn status_line(page: &CalibrationPage) -> Message {
     }
     let (entered, wanted) = sheet.count();
     match sheet.best() {
-        _ if sheet.is_asking() => Message::plain("working out what the marks say"),
+        _ if sheet.is_asking() => Message::plain("evaluating the marks"),
         Some(best) if entered == 0 => {
             Message::plain(format!("play a test, then Enter; {} helps most ({})", best.test, bits_words(best.bits)))
         }
@@ -107,12 +106,12 @@ fn status_line(page: &CalibrationPage) -> Message {
     }
 }
 
-/// How much a stroke tells, and what that is.
+/// The information gain of a stroke in words, with an explanation of the unit.
 fn bits_words(bits: f64) -> String {
     format!("{bits:.1} bits; 1 halves a doubt")
 }
 
-/// The first row behind the tabs: what is measured, from what on, and how much of it is entered.
+/// Draws the part of the first row after the tabs: what is measured, the table it starts from, and the number of entered strokes.
 fn draw_header(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let sheet = page.sheet();
     let (entered, wanted) = sheet.count();
@@ -125,7 +124,7 @@ fn draw_header(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     ui::draw_header(&what, "", &Span::styled(count, ui.theme.faint()), area, ui);
 }
 
-/// The part of the tests, and that beside them.
+/// The areas of the left column and of the panel next to it.
 fn halves(area: Rect) -> [Rect; 2] {
     split(if area.width >= WIDE { LIST_WIDE } else { LIST }, area)
 }

@@ -1,4 +1,4 @@
-//! The marked test: the table with its balls, the stroke's way and the places to mark, and what to do in words.
+//! The panel of the marked test: the table with the balls, the paths and the positions to mark, and the instructions.
 
 use glam::DVec2;
 use ratatui::{
@@ -24,27 +24,27 @@ use crate::{
     },
 };
 
-/// Columns of the tip beside the table, rows of its title and of the largest face that leaves a column free at the page's edge,
-/// and columns from which on the tip has room there.
+/// Width of the tip next to the table; rows of its title and of the largest face that leaves a column free at the page's edge; and the
+/// panel width from which on the tip fits there.
 const TIP: u16 = 14;
 const TIP_ROWS: u16 = 7;
 const BESIDE: u16 = 46;
-/// Rows of the tip's words.
+/// Rows of the text below the tip.
 const WORDS: u16 = 3;
-/// Columns of a mark's sign, letter and name with a blank behind it, and of what is typed: at least, and at most.
+/// Width of a mark's sign, letter and name with a blank after it; then the minimum and maximum width of the typed value; columns.
 const NAME: u16 = 11;
 const TYPED: [usize; 2] = [3, 18];
-/// The letters of the marks: the diamonds have the numbers.
+/// The letters of the marks. Numbers are used for the diamonds.
 const LETTERS: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
-/// Fewest rows of what the marks say.
+/// Minimum rows of the panel "What the marks say".
 const SAID: u16 = 3;
-/// Columns from one dot of a way to the next.
+/// Columns between two dots of a path.
 const DOT_COLUMNS: f64 = 2.0;
-/// Length of the cue, m, and the distance of its dots.
+/// Length of the drawn cue and distance between its dots, m.
 const CUE: f64 = 0.3;
 const CUE_DOTS: f64 = 0.01;
 
-/// Draws it.
+/// Draws the panel.
 pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let test = page.sheet().test();
     let room = usize::from(area.width.saturating_sub(4));
@@ -74,7 +74,7 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     for (((n, name), typed), y) in asked.iter().enumerate().zip(typed).zip(below..text.bottom()) {
         draw_mark(page, test, (n, name), (&typed, room), Rect { y, height: 1, ..text }, ui);
     }
-    // Where there is room, what the marks say stands here as well.
+    // If there is room, the results are shown here too.
     let end = (below + asked.len() as u16 + 1).min(inner.bottom());
     let rest = Rect { y: end, height: inner.bottom() - end, ..inner };
     if let Some(found) = page.sheet().found().filter(|_| rest.height > SAID) {
@@ -83,7 +83,7 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     }
 }
 
-/// The tip, and the stroke in numbers below it.
+/// Draws the tip and, below it, the stroke in numbers.
 fn draw_stroke(page: &CalibrationPage, sketch: &Sketch, area: Rect, ui: &mut Ui) {
     let (table, unit, cue) = (&page.table, page.units.tip, &sketch.cue);
     let height = area.height.saturating_sub(WORDS).min(TIP_ROWS);
@@ -96,13 +96,13 @@ fn draw_stroke(page: &CalibrationPage, sketch: &Sketch, area: Rect, ui: &mut Ui)
     }
     words.push(format!("at {}", speed_words(cue.speed, page.units.length, 1)));
     for (text, y) in words.iter().zip(area.y + height..area.bottom()) {
-        // The longest begins at the table, and no word touches the page's edge.
+        // The longest text begins at the table, and the last column of the page stays free.
         let x = (area.right() - 1).saturating_sub(columns(text) as u16).clamp(area.x, area.x + 1);
         ui.buffer.set_stringn(x, y, text, usize::from(area.width - 1), ui.theme.faint());
     }
 }
 
-/// The table with the balls, the way of the stroke, and the letters of the marks where they are expected.
+/// Draws the table with the balls, their paths, and the letters of the marks at the expected positions.
 fn draw_picture(table: &Table, test: &Test, sketch: &Sketch, area: Rect, ui: &mut Ui) {
     let mapping = Mapping::fit(table, area);
     if mapping.bed.is_empty() {
@@ -111,7 +111,7 @@ fn draw_picture(table: &Table, test: &Test, sketch: &Sketch, area: Rect, ui: &mu
     let dot = ui.caps.pick('·', '.');
     let stride = (DOT_COLUMNS / (mapping.scale().x * Sketch::SPACING)).round().max(1.0) as usize;
     let mut spots = Vec::new();
-    // The balls' own ways lie over that of the cue ball.
+    // The paths of the object balls are drawn over that of the cue ball.
     for ball in 0..BALLS {
         let color = ui.theme.paths[ball];
         let dots = sketch.ways[ball].iter().step_by(stride);
@@ -130,7 +130,7 @@ fn draw_picture(table: &Table, test: &Test, sketch: &Sketch, area: Rect, ui: &mu
     letter_marks(test, sketch, &mapping, ui);
 }
 
-/// The numbers of the diamonds: along the table on the rail below, across it on the left.
+/// Writes the numbers of the diamonds: along the table on the bottom rail, across it on the left rail.
 fn number_rails(table: &Table, mapping: &Mapping, ui: &mut Ui) {
     let bed = mapping.bed;
     let diamond = table.diamond() * mapping.scale();
@@ -139,7 +139,7 @@ fn number_rails(table: &Table, mapping: &Mapping, ui: &mut Ui) {
     let style = ui.theme.text().fg(ui.theme.sight).bg(behind);
     let column = |n: u16| (f64::from(n) * diamond.x) as u16;
     for n in 0..=8_u16 {
-        // From both ends inwards, as the sights are.
+        // Rounded from both ends inwards, like the diamonds themselves.
         let x = if n <= 4 { bed.x + column(n) } else { bed.right().saturating_sub(1 + column(8 - n)) };
         ui.buffer.set_string(x, bed.bottom(), n.to_string(), style);
     }
@@ -149,7 +149,7 @@ fn number_rails(table: &Table, mapping: &Mapping, ui: &mut Ui) {
     }
 }
 
-/// The letters of the marks beside the places where they are expected: on the rail, or to the right of a ball that has stopped.
+/// Writes the letters of the marks next to their expected positions: on the rail, or to the right of a ball that has stopped.
 fn letter_marks(test: &Test, sketch: &Sketch, mapping: &Mapping, ui: &mut Ui) {
     let bed = mapping.bed;
     let half = 0.5 * f64::from(bed.height);
@@ -157,7 +157,7 @@ fn letter_marks(test: &Test, sketch: &Sketch, mapping: &Mapping, ui: &mut Ui) {
     let mut taken: Vec<DVec2> = Vec::new();
     for (n, place) in sketch.places.iter().enumerate() {
         let Some(place) = *place else { continue };
-        // What one ball is marked for twice has its letters side by side.
+        // Two marks at the same position have their letters side by side.
         let beside = taken.iter().filter(|other| **other == place).count() as u16;
         taken.push(place);
         let (x, y) = mapping.to_cell(place);
@@ -173,17 +173,17 @@ fn letter_marks(test: &Test, sketch: &Sketch, mapping: &Mapping, ui: &mut Ui) {
     }
 }
 
-/// The letter of the mark with this number.
+/// The letter of the mark with this index.
 const fn letter(n: usize) -> &'static str {
     LETTERS[n % LETTERS.len()]
 }
 
-/// The form that is open, if one is.
+/// The open form, if there is one.
 const fn form(page: &CalibrationPage) -> Option<&Form> {
     if let Some(Question::Marks(form)) = &page.question { Some(form) } else { None }
 }
 
-/// What is typed of the mark with this number and name, or was entered, with its unit.
+/// The typed or entered value of the mark with this index and name, with its unit.
 fn typed(page: &CalibrationPage, test: &Test, n: usize, name: &str, ui: &Ui) -> String {
     let typed = match form(page) {
         Some(form) => form.fields[n].1.text().to_owned(),
@@ -197,7 +197,7 @@ fn typed(page: &CalibrationPage, test: &Test, n: usize, name: &str, ui: &Ui) -> 
     }
 }
 
-/// A mark with its number's letter and its name, what is typed of it in so much room, and its words.
+/// Draws a mark: its letter and name, its value in `room` columns, and its description.
 fn draw_mark(
     page: &CalibrationPage,
     test: &Test,
@@ -215,7 +215,7 @@ fn draw_mark(
     let usual = test.rails.map_or_else(String::new, |rails| format!(", if not {rails}"));
     let mark = test.marks.iter().find(|mark| mark.name == name);
     let words = match mark {
-        // What is typed has its unit.
+        // The value shows its unit already.
         Some(mark) if typed.ends_with(" s") => mark.words.replacen("seconds ", "", 1),
         Some(mark) => mark.words.to_owned(),
         None if name == RAILS => format!("how many short rails it has met{usual}"),
@@ -226,8 +226,8 @@ fn draw_mark(
     ui.buffer.set_string(area.x + x, area.y, words, ui.theme.faint());
 }
 
-/// What a mark is, in ever fewer words until `room` columns hold them; its name stands before them, and whoever types it reads them
-/// all.
+/// Shortens the description of a mark step by step until it fits into `room` columns. That is acceptable because its name stands before
+/// it and the question for the mark shows the full text.
 fn brief(words: String, room: usize, ui: &Ui) -> String {
     let ever_shorter = [
         ("where it ", ""),
@@ -240,16 +240,16 @@ fn brief(words: String, room: usize, ui: &Ui) -> String {
         (" after that", ""),
         (" your own ", " own "),
     ];
-    let mut said = words;
+    let mut text = words;
     for (long, short) in ever_shorter {
-        if columns(&said) > room {
-            said = said.replacen(long, short, 1);
+        if columns(&text) > room {
+            text = text.replacen(long, short, 1);
         }
     }
-    if columns(&said) > room
-        && let Some((main, _)) = said.split_once([',', '('])
+    if columns(&text) > room
+        && let Some((main, _)) = text.split_once([',', '('])
     {
-        said = main.trim_end().to_owned();
+        text = main.trim_end().to_owned();
     }
-    shorten(&said, room, ui.caps)
+    shorten(&text, room, ui.caps)
 }

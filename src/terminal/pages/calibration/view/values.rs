@@ -1,4 +1,4 @@
-//! All that was found: the table's values, which marks look misread, and what to play next.
+//! The panel with all results: the table's values, the marks that look misread, and the best next test.
 
 use ratatui::{
     layout::{Position, Rect},
@@ -14,36 +14,36 @@ use crate::{
     },
 };
 
-/// Columns at which the values and the word for how well they are known end, and where the words for a constant begin.
+/// Right ends of the values and of the word for their accuracy, and the first column of a constant's description.
 const VALUE_END: u16 = 36;
 const KNOWN_END: u16 = 46;
 const WORDS: u16 = 48;
-/// Columns that the words need, but for those of a single rail.
+/// Width that the descriptions need, columns, except those of a single rail.
 const WORDS_ROOM: usize = 30;
-/// Where the value and the word for it end if the words have no room: what the constant is called then stands before them.
+/// Right ends of the value and of the word for its accuracy if the description has no room. The constant's name is then before them.
 const NARROW_VALUE_END: u16 = 37;
 const NARROW_KNOWN_END: u16 = 47;
 
-/// A row of the part.
+/// A row of the panel.
 enum Row<'a> {
     Constant(&'a Change, &'static str),
     Text(String, Style),
 }
 
-/// Draws it, a page at a time where it is longer than its room.
+/// Draws the panel, one page at a time if it does not fit.
 pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let found = page.sheet().found();
     let width = usize::from(area.width.saturating_sub(2));
-    let said = said(page, found, ui)
+    let lines = result_sentences(page, found, ui)
         .into_iter()
         .flat_map(|(words, style)| wrap(&words, width).into_iter().map(move |line| Row::Text(line, style)));
     let constants =
         found.into_iter().flat_map(|found| found.constants.iter().map(|one| Row::Constant(one, found.known(one))));
-    // What makes all values unsure stands before them.
+    // If the strokes contradict each other, the warnings come before the values.
     let rows: Vec<Row> = if found.is_some_and(Calibration::is_contradictory) {
-        said.chain(constants).collect()
+        lines.chain(constants).collect()
     } else {
-        constants.chain(said).collect()
+        constants.chain(lines).collect()
     };
     let height = usize::from(area.height.saturating_sub(1)).max(1);
     let pages = rows.len().div_ceil(height).max(1);
@@ -59,21 +59,21 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     }
 }
 
-/// What is odd about the entries, then what the marks say.
-fn said(page: &CalibrationPage, found: Option<&Calibration>, ui: &Ui) -> Vec<(String, Style)> {
+/// The implausible values among the entries, then the results.
+fn result_sentences(page: &CalibrationPage, found: Option<&Calibration>, ui: &Ui) -> Vec<(String, Style)> {
     let sheet = page.sheet();
-    let mut said: Vec<(String, Style)> = Vec::new();
-    said.extend(sheet.odd(&page.table).iter().map(|odd| (format!("{odd}; it is left out"), ui.theme.warning())));
+    let mut lines: Vec<(String, Style)> = Vec::new();
+    lines.extend(sheet.odd(&page.table).iter().map(|odd| (format!("{odd}; it is left out"), ui.theme.warning())));
     match found {
-        Some(found) => said.extend(sentences(page, found, ui)),
-        None => said.push((
+        Some(found) => lines.extend(sentences(page, found, ui)),
+        None => lines.push((
             "Nothing is entered yet. Play the tests in any order, as many as you like: after each stroke its values stand here, \
              with how sure they are."
                 .to_owned(),
             ui.theme.faint(),
         )),
     }
-    said
+    lines
 }
 
 fn draw_constant(one: &Change, known: &str, area: Rect, ui: &mut Ui) {
@@ -93,14 +93,14 @@ fn draw_constant(one: &Change, known: &str, area: Rect, ui: &mut Ui) {
         ui.buffer.set_string(area.x + WORDS, area.y, words, ui.theme.faint());
     } else {
         let room = usize::from(value_end).saturating_sub(2 + columns(&value));
-        draw_called(one, room, style, Position::new(area.x + 1, area.y), ui);
+        draw_constant_name(one, room, style, Position::new(area.x + 1, area.y), ui);
     }
     write_right(ui.buffer, area.x, area.x + value_end, area.y, &value, style);
     write_right(ui.buffer, area.x, area.x + known_end, area.y, known, style);
 }
 
-/// Writes what a constant is called in so many columns: the short words for it, and behind them its name where that has room.
-pub fn draw_called(one: &Change, room: usize, style: Style, at: Position, ui: &mut Ui) {
+/// Writes the short description of a constant in `room` columns, followed by its name if that fits.
+pub fn draw_constant_name(one: &Change, room: usize, style: Style, at: Position, ui: &mut Ui) {
     let words = one.short_words();
     if words.is_empty() {
         ui.buffer.set_string(at.x, at.y, shorten(&one.name, room, ui.caps), style);
@@ -112,19 +112,19 @@ pub fn draw_called(one: &Change, room: usize, style: Style, at: Position, ui: &m
     }
 }
 
-/// What is said of the marks.
+/// The sentences on the results.
 pub fn sentences(page: &CalibrationPage, found: &Calibration, ui: &Ui) -> Vec<(String, Style)> {
-    let mut said: Vec<(String, Style)> = Vec::new();
+    let mut lines: Vec<(String, Style)> = Vec::new();
     let stroke = |trial: usize, test: &str| {
         let strokes = Test::named(test).map_or_else(Vec::new, |test| page.sheet().strokes(test));
         let number = strokes.iter().position(|(place, _)| place + 1 == trial).map_or(trial, |place| place + 1);
         format!("stroke {number} of {test}")
     };
     let misread = found.verdicts.iter().filter(|verdict| verdict.misread);
-    said.extend(misread.map(|one| (one.doubtful(&stroke(one.trial, one.test)), ui.theme.warning())));
+    lines.extend(misread.map(|one| (one.doubtful(&stroke(one.trial, one.test)), ui.theme.warning())));
     let strange = found.strange.iter();
-    said.extend(strange.map(|one| (one.words(&stroke(one.trial, one.test)), ui.theme.warning())));
-    said.extend(found.rails_apart().into_iter().map(|sentence| (sentence, ui.theme.accent())));
+    lines.extend(strange.map(|one| (one.words(&stroke(one.trial, one.test)), ui.theme.warning())));
+    lines.extend(found.rails_apart().into_iter().map(|sentence| (sentence, ui.theme.accent())));
     let agreement = if found.is_contradictory() {
         ui.theme.warning()
     } else if found.misread().is_empty() {
@@ -132,19 +132,19 @@ pub fn sentences(page: &CalibrationPage, found: &Calibration, ui: &Ui) -> Vec<(S
     } else {
         ui.theme.text()
     };
-    said.push((found.agreement(stroke), agreement));
-    said.extend(found.meanings().into_iter().map(|sentence| (sentence, ui.theme.text())));
+    lines.push((found.agreement(stroke), agreement));
+    lines.extend(found.meanings().into_iter().map(|sentence| (sentence, ui.theme.text())));
     if let Some([before, now]) = page.sheet().judged.as_ref().and_then(|judged| judged.play) {
-        said.push((format!("today {}", now.against(&before)), ui.theme.accent()));
+        lines.push((format!("today {}", now.against(&before)), ui.theme.accent()));
     }
     if let Some(best) = page.sheet().best() {
         let words = format!("next: {} helps most, with {:.1} bits; each bit halves one doubt", best.test, best.bits);
-        said.push((words, ui.theme.text()));
+        lines.push((words, ui.theme.text()));
     }
     if !ui.caps.unicode {
-        for (text, _) in &mut said {
+        for (text, _) in &mut lines {
             *text = text.replace('±', "+-");
         }
     }
-    said
+    lines
 }

@@ -1,4 +1,4 @@
-//! The panel that says for whom and by which rule the coach answers, while there is no shot to tell of.
+//! The panel that shows the player skill and the rule of the query, as long as there is no shot.
 
 use ratatui::layout::Rect;
 
@@ -18,15 +18,18 @@ pub fn draw_asked(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let inner = draw_title("The coach", area, ui);
     let [skill_key, rule_key] = [CoachAction::NextSkill, CoachAction::NextRule].map(|action| ui.key_of(COACH, &action));
     let paragraphs = [
-        (format!("Its shots are for {} at {}.", whom(coach.query.skill), game(coach.query.rule)), ui.theme.text()),
+        (
+            format!("Its shots are for {} at {}.", player_noun(coach.query.skill), game(coach.query.rule)),
+            ui.theme.text(),
+        ),
         (format!("{skill_key}: how well you play; {rule_key}: the rule."), ui.theme.faint()),
     ];
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     write_paragraphs(&paragraphs, text, ui);
 }
 
-/// Who plays, as one says it of a person.
-fn whom(skill: Skill) -> String {
+/// Describes the player of this skill as a person, with an article.
+fn player_noun(skill: Skill) -> String {
     match named_skill(skill) {
         None => player_words(skill).replacen("me", "you", 1).replacen("my", "your", 1),
         Some("expert") => "an expert".to_owned(),
@@ -35,7 +38,7 @@ fn whom(skill: Skill) -> String {
     }
 }
 
-/// What players call the game by this rule.
+/// The game with this rule, as players call it.
 const fn game(rule: Rule) -> &'static str {
     match rule {
         Rule::StraightRail => "straight rail",

@@ -1,4 +1,4 @@
-//! The panel of the three balls: where they lie, how fast they move and how.
+//! The panel of the three balls: positions, speeds and kinds of motion.
 
 use ratatui::{
     layout::Rect,
@@ -18,16 +18,16 @@ use crate::{
     },
 };
 
-/// Columns at which the numbers end, from the panel's left edge.
+/// Right ends of the number columns, from the panel's left edge. The kind of motion starts at [`MOTION`].
 const X_END: u16 = 17;
 const Y_END: u16 = 24;
 const SPEED_END: u16 = 30;
 const MOTION: u16 = 31;
-/// The same of the places in diamonds, while no shot is watched.
+/// Right ends of the positions in diamonds, which are shown if no shot is watched.
 const X_DIAMONDS_END: u16 = 31;
 const Y_DIAMONDS_END: u16 = 37;
 
-/// Draws the panel; below the balls, if there is room, more about the layout or the shot.
+/// Draws the panel. If there is room, further lines on the layout or the shot follow below the balls.
 pub fn draw_balls(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let inner = draw_title("Balls", area, ui);
     let speed = format!(" {} ", coach.units.length.speed().1);

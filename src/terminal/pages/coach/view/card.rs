@@ -1,4 +1,4 @@
-//! The shot as a card: ball, thickness, side, height, speed and cue, a row each, to be read at a glance.
+//! The shot card: object ball and thickness, side, height, speed and cue elevation, one row each.
 
 use ratatui::{
     layout::Rect,
@@ -24,9 +24,9 @@ use crate::{
     },
 };
 
-/// Columns of a row's name with the blanks around it.
+/// Width of a row's name with the blanks around it, columns.
 const NAME: usize = 8;
-/// Parts of a ball in which thickness is told.
+/// Denominator of displayed thicknesses: parts of a ball.
 const PARTS: u32 = 16;
 
 /// Draws the panel of a shot that the coach proposes.
@@ -43,7 +43,7 @@ pub fn draw_card(proposal: &Proposal, coach: &CoachPage, area: Rect, ui: &mut Ui
         if is_wide {
             line.push_span(Span::styled(format!(" {name:<width$}", width = NAME - 1), ui.theme.faint()));
         } else {
-            // The whole word has no room.
+            // A narrow row has no room for " degrees".
             value = value.replace('\u{b0}', ui.caps.pick("\u{b0}", " deg"));
         }
         line.push_span(Span::styled(spell(&value, ui.caps), ui.theme.text()));
@@ -60,7 +60,7 @@ pub fn chance_title(proposal: &Proposal, is_wide: bool, ui: &Ui) -> Vec<Span<'st
     vec![Span::styled("Shot", ui.theme.text()), ui.dash(), chance]
 }
 
-/// How often the shot is made, or whether it makes the point at all.
+/// The success rate of the shot, or whether the shot makes the point at all if it has no rate.
 pub fn chance_span(proposal: &Proposal, is_wide: bool, ui: &Ui) -> Span<'static> {
     let (words, style) = match &proposal.made {
         _ if !proposal.shot.solved => ("misses".to_owned(), ui.theme.warning()),
@@ -74,19 +74,21 @@ pub fn chance_span(proposal: &Proposal, is_wide: bool, ui: &Ui) -> Span<'static>
 
 type Row = (&'static str, String);
 
-/// Diamonds as a cushion on the way is told.
+/// Formats a position along a cushion before the first ball, in diamonds.
 fn to_tenths(diamonds: f64) -> String {
     short(diamonds, 1)
 }
 
-/// Fourteen columns at most, the more needful rows first.
+/// The rows of a narrow card, at most 14 columns wide, the more important rows first.
 fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
     let words = &proposal.shot.words;
-    // The unit has no room.
-    let bare = |diamonds: f64, told: fn(f64) -> String| place_along(coach, diamonds, told).replace(" mm", "");
+    // There is no room for the unit.
+    let bare = |diamonds: f64, format_diamonds: fn(f64) -> String| {
+        place_along(coach, diamonds, format_diamonds).replace(" mm", "")
+    };
     let mut rows = Vec::new();
     rows.extend(words.before.first().map(|cushion| {
-        // The side of the ball has no row then; the sentence has it.
+        // The card then has no row for the side on which the ball is hit; the sentence in the other panel contains it.
         format!("off {} {}", cushion.rail.name(), bare(cushion.diamond, to_tenths))
     }));
     match words.first {
@@ -111,7 +113,7 @@ fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
     rows.into_iter().map(|row| ("", row)).collect()
 }
 
-/// Rows of so many columns, and so many of them if that can be.
+/// The rows of a wide card of `width` columns, at most `most` rows if possible.
 fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) -> Vec<Row> {
     let words = &proposal.shot.words;
     let hit = words.first.map_or_else(
@@ -124,7 +126,7 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) 
             }
         },
     );
-    // All cushions before the ball have a row of their own.
+    // The cushions before the first ball share one row.
     let cushions = words.before.split_first().map(|(first, others)| {
         let first = format!("{} {}", first.rail.name(), place_along(coach, first.diamond, to_tenths));
         others.iter().fold(first, |words, other| format!("{words}, {}", other.rail.name()))
@@ -140,7 +142,7 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) 
         degrees if words.is_level => format!("{degrees}\u{b0}, as level as can be"),
         degrees => format!("raised {degrees}\u{b0}"),
     };
-    // Systems count on the wood behind the noses.
+    // "nose" is written because diamond systems count on the wood behind the noses.
     let mark =
         |mark: RailPoint| format!("{} nose {}", mark.rail.name(), place_along(coach, mark.diamond, to_hundredths));
     let lengths = lengths_words(words.table_lengths);
@@ -164,7 +166,7 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) 
     rows
 }
 
-/// How far the tip is beside the middle of the cue ball, and above it, to half a tip or a tenth of a millimetre, as in the sentence.
+/// Side and height of the tip on the cue ball in words, rounded to half a tip or a tenth of a millimetre, as in the sentence.
 fn tip_words(proposal: &Proposal, coach: &CoachPage) -> [String; 2] {
     let ShotWords { tips_right, tips_above, .. } = proposal.shot.words;
     [(tips_right, ["no side", "right", "left"]), (tips_above, ["centre height", "above", "below"])]
@@ -184,7 +186,7 @@ fn offset_words(tips: f64, [middle, more, less]: [&str; 3], coach: &CoachPage) -
     format!("{} {unit}{plural} {}", short(value, 1), if tips > 0.0 { more } else { less })
 }
 
-/// How much of the ball is hit, to a sixteenth.
+/// The thickness of the hit as a fraction, rounded to a sixteenth.
 fn fraction(fullness: f64) -> String {
     let (mut part, mut of) = ((f64::from(PARTS) * fullness.clamp(0.0, 1.0)).round() as u32, PARTS);
     if part == 0 || part == PARTS {

@@ -1,4 +1,4 @@
-//! The panel of chances: the shots that the coach lists, how often the player makes each, and what sort each is.
+//! The panel "Chances": the proposed shots with the player's success rate and a description of each.
 
 use ratatui::{layout::Rect, text::Span};
 
@@ -15,13 +15,13 @@ use crate::{
     },
 };
 
-/// Columns at which the number of a shot and its probability end, and before its words.
+/// Right ends of a shot's number and success rate, and the first column of its description.
 const NUMBER_END: u16 = 2;
 const CHANCE_END: u16 = 9;
 const WORDS: u16 = 10;
 
-/// Draws the panel: the chosen shot is marked and in view. Without advice it says `empty`; why the first shot leads it says where
-/// no other panel does.
+/// Draws the panel, with the chosen shot marked and in view. Without advice it shows the text `empty`. `says_why` adds the explanation
+/// of the first shot's rank, which is set if no other panel shows it.
 pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, area: Rect, ui: &mut Ui) {
     let mut title = vec![Span::styled("Chances", ui.theme.text())];
     if let Some(advised) = advised {
@@ -48,14 +48,14 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, 
         let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate) + " %");
         write_right(ui.buffer, inner.x, inner.x + CHANCE_END, row, &chance, style);
         let room = usize::from(inner.width.saturating_sub(WORDS));
-        let sort = |proposal: &Proposal, is_exact: bool| sort_words(proposal, is_exact, room, ui);
+        let sort = |proposal: &Proposal, is_exact: bool| shot_summary(proposal, is_exact, room, ui);
         let words = sort(proposal, false);
         let like = |(other, choice): (usize, &Choice)| other != n && sort(&choice.proposal, false) == words;
         let is_unclear = advised.choices.iter().enumerate().any(like);
         let words = if is_unclear { sort(proposal, true) } else { words };
         ui.buffer.set_stringn(inner.x + WORDS, row, words, room, style);
     }
-    // What would miss the first shot by itself.
+    // The failure rate that each source of error causes alone, for the first shot.
     let mut row = inner.y + advised.choices.len() as u16;
     if let (Some(risk), true) = (advised.choices[0].proposal.risk, row < inner.bottom()) {
         let width = usize::from(inner.width.saturating_sub(1));
@@ -71,10 +71,10 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, 
     }
 }
 
-/// How often each of the three would miss the shot if it alone erred, in lines; in fewer words where `rows` ask for it.
+/// Lines with the failure rate that each of the three sources of error would cause alone, shortened to fit into `rows`.
 fn risk_lines(risk: &Risk, width: usize, rows: usize) -> Vec<String> {
     let [hand, table, balls] = [risk.hand, risk.table, risk.placing].map(percent);
-    // They are no parts of one sum: each is what would be missed if nothing else erred.
+    // The three rates do not add up: each is the failure rate if the other two sources had no errors.
     let whole = ["each error alone would miss:".to_owned(), format!("hand {hand} %, table {table} %, balls {balls} %")];
     let in_one = [
         whole.join(" "),
@@ -88,7 +88,7 @@ fn risk_lines(risk: &Risk, width: usize, rows: usize) -> Vec<String> {
     vec![in_one.iter().find(|words| columns(words) <= width).unwrap_or(shortest).clone()]
 }
 
-/// Draws a panel of why the first shot leads; `false` where that is not known.
+/// Draws a panel that explains why the first shot ranks first. Returns `false` if the explanation is not known.
 pub fn draw_why(advised: &AdviceState, area: Rect, ui: &mut Ui) -> bool {
     if beside_the_list(advised, ui).next().is_none() {
         return false;
@@ -98,13 +98,13 @@ pub fn draw_why(advised: &AdviceState, area: Rect, ui: &mut Ui) -> bool {
     true
 }
 
-/// What the list does not say of why the first shot leads, once that is known, ever shorter.
+/// The explanations of the first shot's rank that add to the list, from long to short; empty if not known.
 fn beside_the_list(advised: &AdviceState, ui: &Ui) -> impl Iterator<Item = String> + use<> {
     let why = advised.why.as_ref().map(|why| why.beside_the_list(ui.theme.cue_ball).collect::<Vec<_>>());
     why.unwrap_or_default().into_iter()
 }
 
-/// Writes it after the word for it, as much as there is room for.
+/// Writes the explanation after the introduction `word`, as much as there is room for.
 fn write_why(advised: &AdviceState, word: &str, area: Rect, ui: &mut Ui) {
     let width = usize::from(area.width.saturating_sub(2));
     if area.is_empty() {
@@ -117,20 +117,22 @@ fn write_why(advised: &AdviceState, word: &str, area: Rect, ui: &mut Ui) {
     }
 }
 
-/// Why the first shot leads, once that is known: as much as `rows` hold of such width.
+/// Lines that explain why the first shot ranks first, as much as fits into `rows` of `width` columns; `None` if not known.
 pub fn why_lines(advised: &AdviceState, width: usize, rows: usize, ui: &Ui) -> Option<Vec<String>> {
     let name = if advised.chosen == 0 { "Why" } else { "Why shot 1 leads" };
     let sentences = advised.why.as_ref()?.brief(ui.theme.cue_ball);
     fitting(sentences.map(|words| format!("{name}: {words}")), width, rows, ui)
 }
 
-/// Why the first shot leads while that is the one shown, in one row: as many facts as it holds, none where it holds no sentence.
+/// One row of `width` columns that explains why the first shot ranks first, with as many facts as fit. `None` if another shot is shown,
+/// the explanation is not known or no sentence fits.
 pub fn why_line(advised: &AdviceState, width: usize, ui: &Ui) -> Option<String> {
     let sentences = advised.why.as_ref().filter(|_| advised.chosen == 0)?.brief(ui.theme.cue_ball);
     sentences.map(|words| spell(&format!("Why: {words}"), ui.caps)).find(|line| columns(line) <= width)
 }
 
-/// The first of ever shorter sentences that `rows` of such width hold, in lines; the last is cut where it does not fit either.
+/// Wraps the first sentence that fits into `rows` of `width` columns. The sentences come from long to short; if even the last one does not
+/// fit, it is cut.
 fn fitting(sentences: impl Iterator<Item = String>, width: usize, rows: usize, ui: &Ui) -> Option<Vec<String>> {
     let mut tries = sentences.map(|sentence| wrap(&spell(&sentence, ui.caps), width));
     let mut lines = tries.next()?;
@@ -142,15 +144,16 @@ fn fitting(sentences: impl Iterator<Item = String>, width: usize, rows: usize, u
     Some(cut(lines, rows, width, ui.caps))
 }
 
-/// The place of the shot that the panel in `area` tells in this row of the screen.
+/// The index of the shot that the panel in `area` lists in this screen row.
 pub fn choice_at(advised: &AdviceState, area: Rect, row: u16) -> Option<usize> {
     list::line_at(advised.chosen, advised.choices.len(), below_title(area), row)
 }
 
-/// What sort of shot it is, as players call it, or that it makes no point: the first ball, the pattern, how full, and how hard,
-/// the last two as far as `room` columns hold them, the first two cut with a sign where they do not; where it `is_exact`, how hard
-/// in table lengths, and before how full.
-pub fn sort_words(proposal: &Proposal, is_exact: bool, room: usize, ui: &Ui) -> String {
+/// Describes the shot in players' words: first ball, pattern, thickness and speed; or that it makes no point.
+///
+/// Thickness and speed are left out if `room` columns do not hold them; ball and pattern are cut with an ellipsis. If `is_exact`, the
+/// speed is in table lengths and comes before the thickness.
+pub fn shot_summary(proposal: &Proposal, is_exact: bool, room: usize, ui: &Ui) -> String {
     if !proposal.shot.solved {
         return "no point".to_owned();
     }

@@ -1,4 +1,4 @@
-//! The first row behind the tabs: the table, what is asked, and how far the shot has played.
+//! The coach's part of the first screen row, after the tabs: table, query terms and playback progress.
 
 use ratatui::{
     layout::Rect,
@@ -15,26 +15,26 @@ use crate::{
     },
 };
 
-/// Cells of the bar that shows how far the shot has played: at least, and at most; and from how many on words stand before
-/// it.
+/// Minimum and maximum width of the progress bar, columns; and the width from which on the state before it is written in words.
 const BAR: (usize, usize) = (6, 40);
 const WORDY: usize = 16;
-/// Columns behind the tabs from which on the usual table is named, and its size given.
+/// Widths of the row after the tabs, columns, from which on the name and the size of the default table are shown.
 const NAMED: usize = 60;
 const MEASURED: usize = 90;
-/// What is said where jumps and massés are forbidden; the answer says it too.
+/// Note that jumps and massés are forbidden. The coach's answer repeats it.
 const FORBIDDEN: &str = " no jumps";
-/// Most columns of the table's name where somebody else's is followed.
+/// Maximum width of the table's name while another player's table is followed, columns.
 const TABLE: usize = 12;
-/// Fewest columns of a policy's name that still tell something.
+/// Minimum width of a policy's name that is still readable, columns.
 const NAME: usize = 8;
 
-/// Draws the coach's row. What is asked and the time of the shot always have room; the rest comes as it fits.
+/// Draws the row. The query terms and the time of the shot are always shown, the rest if it fits.
 pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let room = usize::from(area.width);
-    // How long the shot takes and how fast it plays go before all that decides what it is.
+    // If room is short, the duration and the playback speed are dropped before any query term.
     let time = transport(coach, Form::Now, 0, ui).width() + 2;
-    // Of the rest the player's average goes first, then the plan; a wish for this very shot stays, and the name of another table.
+    // Of the query terms the player's average is dropped first, then the plan. The wish for the first contact and the name of another
+    // table stay.
     let is_named = coach.query.policy.is_some() || coach.table().name != "match";
     let has_plan = coach.query.plan && coach.query.first == FirstMet::Any && !is_named;
     let taken = time + if is_named { NAME } else { 0 };
@@ -43,7 +43,7 @@ pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let question = [whole, brief].into_iter().find(|line| line.width() + taken <= room).unwrap_or(least);
     let name = name(coach, room.saturating_sub(question.width() + time), room, ui);
     let left = room.saturating_sub(question.width() + name.width() + 1);
-    // The bar says more than words do.
+    // The bar is more informative than words.
     let wanted = [
         (Form::Words, WORDY),
         (Form::Sign, BAR.0),
@@ -62,8 +62,7 @@ pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     ui.buffer.set_line(start, area.y, &right, area.right() - start);
 }
 
-/// What is asked, each after the key that changes it; whether the next point counts, and the player's average, only where that is
-/// wanted.
+/// The query terms, each after the key that changes it. The plan and the player's average are included on request.
 fn question(coach: &CoachPage, has_plan: bool, has_average: bool, ui: &Ui) -> Line<'static> {
     let query = &coach.query;
     if let Some(followed) = coach.followed() {
@@ -96,7 +95,7 @@ fn question(coach: &CoachPage, has_plan: bool, has_average: bool, ui: &Ui) -> Li
     line
 }
 
-/// The policy that is asked or the table, where it is not the usual one or there is room for it; then that jumps are forbidden.
+/// The name of the policy or of the table, if it is not the default one or there is room; then the note that jumps are forbidden.
 fn name(coach: &CoachPage, left: usize, room: usize, ui: &Ui) -> Line<'static> {
     if coach.followed().is_some() {
         return Line::default();
@@ -124,18 +123,18 @@ fn policy_or_table(coach: &CoachPage, left: usize, room: usize, ui: &Ui) -> Line
     line
 }
 
-/// How much is said about the shot's time.
+/// Level of detail of the playback state.
 #[derive(Clone, Copy, PartialEq)]
 enum Form {
-    /// What goes on, in words.
+    /// State in words, time, duration and speed.
     Words,
-    /// The same as a sign.
+    /// The same with a symbol for the state.
     Sign,
-    /// The same close together.
+    /// The same without blanks and unit.
     Short,
     /// The same without the speed.
     Time,
-    /// Only what has played so far.
+    /// Only the symbol and the current time.
     Now,
 }
 
@@ -160,7 +159,7 @@ fn transport(coach: &CoachPage, form: Form, bar: usize, ui: &Ui) -> Line<'static
     };
     let duration = shot.recording.duration();
     let end = fixed(duration, 2);
-    // As wide as the time gets, so that nothing moves.
+    // The time is padded to the width of the duration so that the text does not move.
     let now = format!("{:>width$}", fixed(playback.readout, 2), width = end.len());
     let times = ui.caps.pick("×", "x");
     let (state, of, speed) = match form {

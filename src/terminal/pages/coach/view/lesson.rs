@@ -1,4 +1,4 @@
-//! The lesson on a diamond system or a parallel shift: the numbers at the rails of the table, the ball's way, and the arithmetic.
+//! The view of the lesson on a diamond system or a parallel shift: numbers at the rails, path of the ball, and arithmetic.
 
 use glam::DVec2;
 use ratatui::{
@@ -21,10 +21,10 @@ use crate::{
     },
 };
 
-/// Distance of the dots of the way, m.
+/// Distance between the dots of the path, m.
 const DOTS: f64 = 0.05;
 
-/// The ball's way as dots, from the diamond that it comes from.
+/// The ball's path as dots, starting at the diamond behind the ball.
 pub fn lesson_spots(lesson: &Lesson, theme: &Theme) -> Vec<Spot> {
     let dot = |place: DVec2| Spot { place, is_ball: false, color: theme.accent, letter: '.' };
     let legs = lesson.path.windows(2).flat_map(|leg| {
@@ -36,7 +36,7 @@ pub fn lesson_spots(lesson: &Lesson, theme: &Theme) -> Vec<Spot> {
     legs.chain(lesson.path.last().copied()).map(dot).collect()
 }
 
-/// Writes the numbers: starts and first cushion on the rails, the third cushion on the cloth before it.
+/// Writes the numbers: those of the start and the first cushion on the rails, those of the third cushion on the cloth next to it.
 pub fn draw_numbers(lesson: &Lesson, table: &Table, mapping: &Mapping, ui: &mut Ui) {
     let back = if ui.caps.glyphs == Glyphs::Letters { ui.theme.background } else { ui.theme.wood };
     let on_rail = ui.theme.text().bg(back).add_modifier(Modifier::BOLD);
@@ -48,7 +48,7 @@ pub fn draw_numbers(lesson: &Lesson, table: &Table, mapping: &Mapping, ui: &mut 
     }
 }
 
-/// Numbers with their places on the edge, in diamonds, and whether they stand on the cloth.
+/// The numbers, their positions along the edge in diamonds, and whether they are written on the cloth.
 fn labels(guide: &Guide) -> Vec<(String, DVec2, bool)> {
     match guide {
         Guide::System(Applied { system, mirror, .. }) => {
@@ -64,7 +64,7 @@ fn labels(guide: &Guide) -> Vec<(String, DVec2, bool)> {
     }
 }
 
-/// Writes a number at a place on the edge, in diamonds: on the rail, or on the cloth before it.
+/// Writes a number at a position along the edge, in diamonds: on the rail or on the cloth next to it.
 fn write_at(
     text: &str,
     place: DVec2,
@@ -90,7 +90,7 @@ fn write_at(
         };
         (column.saturating_sub(width / 2).clamp(bed.x, bed.right().saturating_sub(width)), y)
     } else {
-        // In the corner the number stands where both rails meet.
+        // A number in the corner is written at the junction of both rails.
         let y = match () {
             () if is_below && !is_inside => bed.bottom(),
             () if is_above && !is_inside => bed.y - 1,
@@ -107,8 +107,8 @@ fn write_at(
     ui.buffer.set_string(x, y, text, style);
 }
 
-/// Draws the panel: the arithmetic, in fewer words where there is no room for all of them, then what it is; before an example, that the
-/// shot on the table `has_no_system`. A sentence that has no room says so by its end.
+/// Draws the panel: the arithmetic, shortened if room is short, then the explanation. Before an example it states that no system
+/// describes the shot, if `has_no_system`. A sentence without room ends in an ellipsis.
 pub fn draw_lesson(lesson: &Lesson, has_no_system: bool, area: Rect, ui: &mut Ui) {
     let name = match &lesson.guide {
         Guide::System(applied) => applied.system.name(),
@@ -138,7 +138,7 @@ pub fn draw_lesson(lesson: &Lesson, has_no_system: bool, area: Rect, ui: &mut Ui
     write_paragraphs(&paragraphs, inner, ui);
 }
 
-/// The sentences of the panel, and whether each is part of the arithmetic; empty ones where there is nothing to say.
+/// The sentences of the panel, and whether each is part of the arithmetic. A sentence may be empty.
 fn sentences(guide: &Guide) -> Vec<(String, bool)> {
     let applied = match guide {
         Guide::System(applied) => applied,
@@ -148,7 +148,7 @@ fn sentences(guide: &Guide) -> Vec<(String, bool)> {
                 (capital(&shift.correction().unwrap_or_default()), true),
                 ("The dots are the line to the diamond.".to_owned(), false),
                 (shift.rule().to_owned(), false),
-                ("On the rail: the diamond. On the cloth: where the dots come to the third cushion.".to_owned(), false),
+                ("On the rail: the diamond. On the cloth: where the dots reach the third cushion.".to_owned(), false),
             ];
         }
     };

@@ -1,4 +1,4 @@
-//! Maps of the outcome: over the tip's place on the ball's face, and over direction and speed around the stroke.
+//! Maps of the shot's outcome: over the tip position on the cue ball, and over direction and speed around the stroke.
 
 use glam::DVec2;
 use ratatui::{
@@ -18,7 +18,7 @@ use crate::{
     },
 };
 
-/// All outcomes in the order of the theme's colours, with their letters where there are no blocks, and in words.
+/// All outcomes in the order of the theme's colours, with their letters for terminals without block characters, and in words.
 const OUTCOMES: [(Outcome, char, &str); 5] = [
     (Outcome::NoStroke, ' ', "no stroke"),
     (Outcome::NoBall, '.', "no ball"),
@@ -27,27 +27,27 @@ const OUTCOMES: [(Outcome, char, &str); 5] = [
     (Outcome::Point, '#', "point"),
 ];
 
-/// Weights of what shares a cell (see [`Ink`]): the stroke and the player's errors stay before the outcomes.
+/// Priorities of marks that share a cell (see [`Ink`]): the stroke and the player's errors hide the outcomes.
 const OUTCOME_WEIGHT: u8 = 3;
 const ERRORS_WEIGHT: u8 = 7;
 const STROKE_WEIGHT: u8 = 16;
 
-/// Radius of the mark of the stroke, as a share of half of the map.
+/// Radius of the mark of the stroke in each map, as a fraction of half the map.
 const TIP_RADIUS: f64 = 0.12;
 const STROKE_RADIUS: f64 = 0.07;
 
-/// Standard errors at which the player's errors are outlined: 86 of 100 strokes lie inside in both inputs.
+/// Size of the outline of the player's errors, in standard errors: 86 of 100 strokes lie inside in both inputs.
 const OUTLINE: f64 = 2.0;
 
-/// Half the width of the outline, as a share of its radius: a sub-pixel or two, and a line without gaps.
+/// Half the line width of the outline, as a fraction of its radius: one or two sub-pixels, so that the line has no gaps.
 const LINE: f64 = 0.09;
 const COARSE_LINE: f64 = 0.2;
 
-/// Columns of the panel from which on the speeds stand beside the map, and theirs.
+/// Panel width from which on the speeds are written next to the map, and the width of these labels, columns.
 const WIDE: u16 = 24;
 const GUTTER: u16 = 6;
 
-/// What a place of a map shows.
+/// What a point of a map shows.
 #[derive(Clone, Copy, PartialEq)]
 enum Sign {
     Outcome(Outcome),
@@ -57,28 +57,27 @@ enum Sign {
     Stroke,
 }
 
-/// Draws the outcomes over the part of the ball's face where the tip does not slip off, with its rim, as the shooter sees it,
-/// and where the tip meets it; how far the map reaches is told in `unit`.
+/// Draws the outcomes over the part of the cue ball's face where the tip does not slip off, as the shooter sees it, and the tip
+/// position. The title shows the extent of the map in `unit`.
 pub fn draw_tip_map(map: &Map, cue: &CueInputs, table: &Table, unit: LengthUnit, area: Rect, ui: &mut Ui) {
     let reach = map.columns.last().copied().unwrap_or_default();
     let (factor, symbol) = map.across.told_in(unit);
     let decimals = usize::from(unit == LengthUnit::Feet);
     let title = format!("Tip {}{} {symbol}", ui.caps.pick("±", "+-"), fixed(factor * reach, decimals));
     let inner = draw_title(title, area, ui);
-    // How far the tip is from the middle of the map, as a share of its half; positive `a` is on the left.
+    // Offset of the tip from the centre of the map, as a fraction of half the map; positive `a` is on the left.
     let share = 1e3 * table.radius / reach;
     let face = face_in(inner);
     let tip = Dot::new(share * DVec2::new(-cue.a, cue.b), TIP_RADIUS, face, ui.caps);
     draw_signs(face, ui, |x, y, _| match () {
         () if x.hypot(y) > 1.0 => None,
         () if tip.covers(x, y) => Some(Sign::Stroke),
-        () => Some(Sign::Outcome(at(map, -x, y))),
+        () => Some(Sign::Outcome(outcome_at(map, -x, y))),
     });
 }
 
-/// Draws the outcomes over direction, to the left as the shooter sees it, and speed, upwards, with the outline of the
-/// player's errors around the stroke in the middle; speeds are told in `unit`. The two are called by the thesis'
-/// letters where they are told `in_letters`.
+/// Draws the outcomes over direction (positive to the left, as the shooter sees it) and speed (upwards), with the outline of the
+/// player's errors around the stroke in the centre. Speeds are shown in `unit`. If `in_letters`, the axes have the thesis' letters.
 pub fn draw_aim_map(map: &Map, skill: Skill, (unit, in_letters): (LengthUnit, bool), area: Rect, ui: &mut Ui) {
     let (factor, symbol) = map.up.told_in(unit);
     let degree = ui.caps.pick("°", "");
@@ -86,7 +85,7 @@ pub fn draw_aim_map(map: &Map, skill: Skill, (unit, in_letters): (LengthUnit, bo
     let wide = area.width >= WIDE;
     let span = |values: &[f64]| values.last().copied().unwrap_or_default();
     let plus_minus = ui.caps.pick("±", "+-");
-    // A narrow map names one along each of its sides.
+    // A narrow map names the speed in the title and the direction below.
     let title = if wide {
         vec![Span::styled(format!("Map: {aim}, {speed}"), ui.theme.text())]
     } else {
@@ -125,7 +124,7 @@ pub fn draw_aim_map(map: &Map, skill: Skill, (unit, in_letters): (LengthUnit, bo
         let is_stroke = if cell > 0.0 {
             x.abs() <= 1.0 / f64::from(plot.width) && y.abs() <= 1.0 / f64::from(plot.height)
         } else {
-            // Round on the screen, whatever the panel's shape.
+            // The mark is a circle on the screen, whatever the shape of the panel is.
             let aspect = f64::from(plot.width) / (2.0 * f64::from(plot.height));
             (x * aspect.max(1.0)).hypot(y / aspect.min(1.0)) <= STROKE_RADIUS.max(1.0 / f64::from(plot.height) / 2.0)
         };
@@ -133,12 +132,12 @@ pub fn draw_aim_map(map: &Map, skill: Skill, (unit, in_letters): (LengthUnit, bo
         match () {
             () if is_stroke => Some(Sign::Stroke),
             () if cell == 0.0 && (from_errors - 1.0).abs() <= line => Some(Sign::Errors),
-            () => Some(Sign::Outcome(at(map, -x, y))),
+            () => Some(Sign::Outcome(outcome_at(map, -x, y))),
         }
     });
 }
 
-/// Draws what the colours or letters of these maps mean by `rule`.
+/// Draws the legend: the meaning of the colours or letters of these maps under `rule`.
 pub fn draw_legend(maps: [&Map; 2], rule: Rule, area: Rect, ui: &mut Ui) {
     let inner = draw_title("The maps", area, ui);
     let letters = ui.caps.glyphs == Glyphs::Letters;
@@ -153,7 +152,7 @@ pub fn draw_legend(maps: [&Map; 2], rule: Rule, area: Rect, ui: &mut Ui) {
         }
     };
     for (n, (outcome, letter, words)) in OUTCOMES.into_iter().enumerate().rev() {
-        // Nothing is drawn with a blank.
+        // The blank draws nothing, so it needs no legend.
         if letters && letter == ' ' {
             continue;
         }
@@ -176,8 +175,8 @@ pub fn draw_legend(maps: [&Map; 2], rule: Rule, area: Rect, ui: &mut Ui) {
     draw_lines(lines, inner, ui);
 }
 
-/// The words of an outcome in the legend of these maps; `None` where `rule` knows no such outcome. Where no cushion is needed, a
-/// shot that meets both balls makes the point unless a ball leaves the table, which few maps show.
+/// The words for an outcome in the legend of these maps; `None` if the outcome does not exist under `rule`. If no cushion is needed,
+/// a shot that hits both balls makes the point unless a ball leaves the table, which few maps show.
 fn words_by(rule: Rule, outcome: Outcome, words: &'static str, maps: [&Map; 2]) -> Option<&'static str> {
     if outcome != Outcome::TooFewCushions || rule.cushions() > 0 {
         return Some(words);
@@ -186,8 +185,8 @@ fn words_by(rule: Rule, outcome: Outcome, words: &'static str, maps: [&Map; 2]) 
     is_seen.then_some("foul")
 }
 
-/// The outcome at a place of the map: `x` and `y` from -1 to 1, to its ends.
-fn at(map: &Map, x: f64, y: f64) -> Outcome {
+/// The outcome at a point of the map; `x` and `y` go from -1 to 1 at its ends.
+fn outcome_at(map: &Map, x: f64, y: f64) -> Outcome {
     let index = |at: f64, count: usize| {
         let place = 0.5 * (at + 1.0) * (count as f64 - 1.0);
         (place.round().max(0.0) as usize).min(count.saturating_sub(1))
@@ -195,13 +194,13 @@ fn at(map: &Map, x: f64, y: f64) -> Outcome {
     map.outcomes[index(y, map.rows.len())][index(x, map.columns.len())]
 }
 
-/// Paints `area` with what `sign` says of each place, as [`draw_field`] asks for it.
+/// Paints `area` with the marks that `sign` returns for each point; its arguments are those of [`draw_field`].
 fn draw_signs(area: Rect, ui: &mut Ui, sign: impl Fn(f64, f64, f64) -> Option<Sign>) {
     let theme = ui.theme;
     draw_field(area, theme.background, ui, |x, y, cell| {
         Some(match sign(x, y, cell)? {
             Sign::Stroke => spot_mark(theme, STROKE_WEIGHT),
-            // Letters have no outline.
+            // With letters there is no outline.
             Sign::Errors => Mark { ink: Ink { color: theme.outline, weight: ERRORS_WEIGHT }, ..spot_mark(theme, 0) },
             Sign::Outcome(outcome) => {
                 let index = OUTCOMES.iter().position(|(one, ..)| *one == outcome).unwrap_or_default();
@@ -218,7 +217,7 @@ mod tests {
     use super::*;
     use crate::coach::Input;
 
-    /// A map of points with these outcomes in its corners, the lower ones first.
+    /// A map of made points with these outcomes in its corners, the lower ones first.
     fn cornered([[one, two], [three, four]]: [[Outcome; 2]; 2]) -> Map {
         let row = |one, other| vec![one, Outcome::Point, other];
         Map {
@@ -247,7 +246,8 @@ mod tests {
     fn the_corners_of_a_map_are_its_ends() {
         use Outcome::{NoBall, NoStroke, OneBall, Point, TooFewCushions};
         let map = cornered([[NoStroke, NoBall], [OneBall, TooFewCushions]]);
-        let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (0.1, -0.2)].map(|(x, y)| at(&map, x, y));
+        let corners =
+            [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (0.1, -0.2)].map(|(x, y)| outcome_at(&map, x, y));
         assert_eq!(corners, [NoStroke, NoBall, OneBall, TooFewCushions, Point]);
     }
 }

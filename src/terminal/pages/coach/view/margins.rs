@@ -1,4 +1,4 @@
-//! The panel of margins: how far off each input may be beside how far the player is off as a rule.
+//! The panel "Margins": the error margin of each input of the stroke, next to the player's usual error.
 
 use ratatui::{layout::Rect, style::Style, text::Span};
 
@@ -14,21 +14,20 @@ use crate::{
     },
 };
 
-/// Rows from which on every input has one of its own.
+/// Panel height above which every input has its own row, rows.
 const TALL: u16 = 6;
 
-/// Columns of the tall table: where its names and its numbers end, from the panel's left edge. Behind a number stands which way.
+/// Right ends of names and numbers in the tall table, from the panel's left edge, columns. The direction of the error follows each number.
 const NAME_END: u16 = 7;
 const LESS_END: u16 = 13;
 const MORE_END: u16 = 25;
 const YOURS_END: u16 = 38;
 
-/// Columns of an input where two share a row: at least, and where there is room for the player's errors as well, which the maps
-/// beside it tell too.
+/// Widths of an input if two share a row, columns: without and with the player's error, which the maps next to it show too.
 const HALF: (u16, u16) = (20, 24);
 
-/// Draws the panel of a shot that is studied, with distances in `unit`; the tightest input, the one that the player's errors leave
-/// first, is marked. The inputs have the thesis' letters where they are told `in_letters`. Without a study it says `empty`.
+/// Draws the panel of an analysed shot, with distances in `unit`. The tightest input, whose margin the player's errors exceed first, is
+/// marked. If `in_letters`, the inputs have the thesis' letters. Without an analysis the panel shows the text `empty`.
 pub fn draw_margins(
     studied: Option<(&ShotAnalysis, &Shot)>,
     (unit, in_letters): (LengthUnit, bool),
@@ -93,26 +92,26 @@ pub fn draw_margins(
         for (row, (column, y)) in rows.iter().zip(places) {
             row.draw_half(has_yours, inner.x + half * column, y, ui);
         }
-        // The other panels tell the speed in table lengths alone.
+        // The other panels show the speed in table lengths only.
         if 2 * usize::from(inner.height) > rows.len() {
-            let told = fixed(unit.speed().0 * shot.cue.speed, 1);
+            let speed_value = fixed(unit.speed().0 * shot.cue.speed, 1);
             let x = inner.x + half + 1;
             let room = usize::from(inner.right().saturating_sub(x));
-            let mut words = format!("{told} {speed}, {}", lengths_words(shot.words.table_lengths));
+            let mut words = format!("{speed_value} {speed}, {}", lengths_words(shot.words.table_lengths));
             if columns(&words) > room {
-                words = format!("{told} {speed}");
+                words = format!("{speed_value} {speed}");
             }
             ui.buffer.set_stringn(x, inner.bottom() - 1, words, room, ui.theme.faint());
         }
     }
 }
 
-/// A standard error with no more digits than it has, and than there is room for: 0.5, 0.125, 2.2.
+/// Formats a standard error without trailing zeros and as short as the room demands: 0.5, 0.125, 2.2.
 fn yours(error: f64) -> String {
     short(error, if error < 0.2 { 3 } else { 2 })
 }
 
-/// The input whose nearer margin is the fewest of the player's standard errors.
+/// Index of the input whose smaller margin is the smallest multiple of the player's standard error; `None` if none is finite.
 fn tightest(margins: &[Margin; 5], skill: Skill) -> Option<usize> {
     let errors = |margin: &Margin| {
         let nearer = margin.less.unwrap_or(f64::INFINITY).min(margin.more.unwrap_or(f64::INFINITY));
@@ -124,10 +123,10 @@ fn tightest(margins: &[Margin; 5], skill: Skill) -> Option<usize> {
 
 struct Row<'a> {
     margin: &'a Margin,
-    /// How many of the unit in which it is told are one of its own, and that unit.
+    /// Factor from the input's own unit to the displayed unit, and that unit.
     factor: f64,
     unit: &'static str,
-    /// The player's standard error, in that unit.
+    /// The player's standard error, in the displayed unit.
     yours: String,
     is_tightest: bool,
     in_letters: bool,
@@ -138,7 +137,7 @@ impl Row<'_> {
         if self.is_tightest { theme.accent() } else { theme.text() }
     }
 
-    /// The word that other views have for it, or the thesis' letter; and the word where there is less room.
+    /// The input's name as in other views, or the thesis' letter; then a short form for narrow tables.
     fn names(&self, caps: Capabilities) -> [&'static str; 2] {
         match self.margin.input {
             Input::Elevation if self.in_letters => [caps.pick("θ", "th"); 2],
@@ -152,8 +151,8 @@ impl Row<'_> {
         }
     }
 
-    /// Which way less and more of it is, and the sign for that. Side and direction are counted to the shooter's left.
-    const fn ways(&self) -> [(&'static str, &'static str); 2] {
+    /// The directions of less and more of the input, each with its sign. Side and direction are positive to the shooter's left.
+    const fn directions(&self) -> [(&'static str, &'static str); 2] {
         match self.margin.input {
             Input::Side | Input::Direction => [("right", "R"), ("left", "L")],
             Input::Height | Input::Elevation => [("lower", "-"), ("higher", "+")],
@@ -161,7 +160,7 @@ impl Row<'_> {
         }
     }
 
-    /// How much less and more the input may be.
+    /// The margins downwards and upwards, in the displayed unit; `None` if there is no limit in reach.
     fn sizes(&self) -> [Option<f64>; 2] {
         [self.margin.less, self.margin.more].map(|margin| margin.map(|margin| self.factor * margin))
     }
@@ -170,9 +169,9 @@ impl Row<'_> {
         let [name, _] = self.names(ui.caps);
         list::draw_mark(self.is_tightest, x, y, ui);
         ui.buffer.set_string(x + 1, y, name, ui.theme.faint());
-        // An inch has hundredths that are a quarter of a millimetre.
+        // Inches need a third decimal: a hundredth of an inch is a quarter of a millimetre.
         let decimals = if self.unit == LengthUnit::Feet.fine().1 { 3 } else { 2 };
-        for ((margin, (way, _)), end) in self.sizes().into_iter().zip(self.ways()).zip([LESS_END, MORE_END]) {
+        for ((margin, (way, _)), end) in self.sizes().into_iter().zip(self.directions()).zip([LESS_END, MORE_END]) {
             write_right(ui.buffer, x + NAME_END, x + end, y, &size(margin, "", decimals), self.style(ui.theme));
             ui.buffer.set_string(x + end + 1, y, way, ui.theme.faint());
         }
@@ -183,7 +182,7 @@ impl Row<'_> {
         let [_, name] = self.names(ui.caps);
         list::draw_mark(self.is_tightest, x, y, ui);
         ui.buffer.set_string(x + 1, y, name, ui.theme.faint());
-        for ((margin, (_, sign)), end) in self.sizes().into_iter().zip(self.ways()).zip([12, 19]) {
+        for ((margin, (_, sign)), end) in self.sizes().into_iter().zip(self.directions()).zip([12, 19]) {
             write_right(ui.buffer, x + 5, x + end, y, &size(margin, sign, 2), self.style(ui.theme));
         }
         if has_yours {
@@ -192,7 +191,7 @@ impl Row<'_> {
     }
 }
 
-/// A margin with so many decimals, one where it is large: with two in five columns at most.
+/// Formats a margin with `decimals` decimals, or one if it is large. With two decimals it takes at most five columns.
 fn size(margin: Option<f64>, sign: &str, decimals: usize) -> String {
     let decimals = if margin.is_some_and(|margin| margin >= 9.995) { 1 } else { decimals };
     margin.map_or("wide".to_owned(), |margin| format!("{sign}{}", fixed(margin, decimals)))
@@ -220,7 +219,7 @@ mod tests {
         let ways = margins.each_ref().map(|margin| {
             let row =
                 Row { margin, factor: 1.0, unit: "", yours: String::new(), is_tightest: false, in_letters: false };
-            row.ways().map(|(way, _)| way).join(" ")
+            row.directions().map(|(way, _)| way).join(" ")
         });
         assert_eq!(ways, ["right left", "lower higher", "lower higher", "right left", "softer harder"]);
         assert_eq!([0.5, 0.125, 0.934, 2.1994].map(yours), ["0.5", "0.125", "0.93", "2.2"]);

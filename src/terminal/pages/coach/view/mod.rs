@@ -1,4 +1,4 @@
-//! The coach's screen: the table, what the coach recommends, and the shot as it plays.
+//! The view of the coach page: the table, the coach's advice, and the playback of the shot.
 
 mod asked;
 mod balls;
@@ -52,7 +52,7 @@ use crate::{
     },
 };
 
-/// Where balls are that are not to be seen, m: so far from the table that no picture of one reaches it.
+/// Positions of hidden balls, m: far enough from the table that nothing of them is drawn on it.
 const NOWHERE: [DVec2; BALLS] = [DVec2::splat(1e3), DVec2::new(1e3, -1e3), DVec2::new(-1e3, 1e3)];
 
 impl PageView for CoachPage {
@@ -73,7 +73,7 @@ impl PageView for CoachPage {
         if let Some(lesson) = lesson {
             spots = lesson_spots(lesson, ui.theme);
         }
-        // An example is not of these balls.
+        // The lesson's example is not about the balls on the table.
         let is_example = lesson.is_some_and(|lesson| !lesson.is_of_shot);
         let nowhere = Layout::new(NOWHERE);
         let kiss = kiss_note(self);
@@ -84,9 +84,9 @@ impl PageView for CoachPage {
             front: self.selected,
             other: self.what_if().and_then(|what_if| what_if.coach.as_deref()),
             other_name: COACH,
-            // While the coach thinks each better shot would move them all.
+            // During a search each better shot would change the paths of all balls, which would flicker.
             cue_path_only: planned.is_some() || lesson.is_some() || self.spinner().is_some(),
-            // Those of a system are there then.
+            // A lesson writes the numbers of its system instead.
             is_numbered: lesson.is_none(),
             spots: &spots,
             note: kiss.as_ref().map(|(place, words)| (*place, words.as_str())),
@@ -102,11 +102,12 @@ impl PageView for CoachPage {
             draw_profile(profile, time, self.units.length, side, ui);
         }
         let room = usize::from(area.status.width.saturating_sub(2));
-        // The chance alone stands above, too; why the shot leads may stand nowhere else.
+        // A message with the success rate alone repeats the panel above, so the explanation of the ranking replaces it if no panel shows
+        // that.
         let message = self
             .message
             .clone()
-            .filter(|message| says_why || !self.is_bare_chance(message) || why_told(self, room, ui).is_none());
+            .filter(|message| says_why || !self.is_bare_chance(message) || ranking_line(self, room, ui).is_none());
         let message = message.unwrap_or_else(|| status_line(self, says_why, room, ui));
         self.marked(message)
     }
@@ -136,10 +137,11 @@ impl PageView for CoachPage {
     }
 }
 
-/// Where the kiss lies in wait that spoils most strokes, and how many, before the shot that it is known of is played.
+/// Position and label of the kiss that spoils the most strokes, with its share of them. Shown before the first proposed shot is played.
 fn kiss_note(coach: &CoachPage) -> Option<(DVec2, String)> {
     let advised = coach.shown().filter(|advised| advised.chosen == 0 && coach.what_if().is_none());
-    let kiss = advised.filter(|_| coach.told().is_some() && coach.info == InfoPanel::Shot)?.why.as_ref()?.kiss?;
+    let kiss =
+        advised.filter(|_| coach.described_shot().is_some() && coach.info == InfoPanel::Shot)?.why.as_ref()?.kiss?;
     let names = coach.cue_ball().names();
     let balls = match kiss.balls {
         [0, other] | [other, 0] => format!("kiss with {}", names[other]),
@@ -148,14 +150,14 @@ fn kiss_note(coach: &CoachPage) -> Option<(DVec2, String)> {
     Some((kiss.place, format!("{balls} {} %", percent(kiss.share))))
 }
 
-/// Which part of the screen is for what, and where the jump is drawn from the side, if it is.
+/// The areas of the screen, and the area of the jump's side view, which is empty if there is none.
 fn panes(coach: &CoachPage, area: Rect) -> (Panes, Rect) {
     let panes = Panes::new(coach.table(), area);
     if coach.profile().is_some() { panes.with_side_view() } else { (panes, Rect::ZERO) }
 }
 
-/// Draws the panels: the chosen info panel's, with the maps in place of shot, tip and events beside the margins; then others as
-/// far as there is room. Whether one of them says why the first shot leads.
+/// Draws the panels: the chosen info panel, then others if there is room. With the margins, the maps replace shot, tip and events.
+/// Returns whether one of the panels explains why the first shot ranks first.
 fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
     let (table, shot) = (coach.table(), coach.shot().map(AsRef::as_ref));
     let chosen = coach.panel();
@@ -163,27 +165,28 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
         draw_own_stroke(coach, what_if, panes, ui);
         return false;
     }
-    let told = coach.told().filter(|_| chosen == InfoPanel::Shot);
+    let described = coach.described_shot().filter(|_| chosen == InfoPanel::Shot);
     let is_beside = panes.is_beside();
-    // Before the stroke words have the room of what only tells later, or tells the same.
+    // Before the stroke, the description also uses the room of panels that matter only later or repeat it.
     let is_wide = !is_beside && !coach.is_in_numbers;
-    let has_told_why = told.is_some_and(|told| {
+    let shot_explains_why = described.is_some_and(|described| {
         let area = match () {
             () if is_beside => panes.info.union(panes.events),
             () if is_wide => panes.info.union(panes.shot),
             () => panes.info,
         };
-        draw_shot_words(coach, told, area, ui)
+        draw_shot_words(coach, described, area, ui)
     });
-    let explained = coach.shown().filter(|_| is_beside && chosen == InfoPanel::Chances && coach.told().is_some());
+    let explained =
+        coach.shown().filter(|_| is_beside && chosen == InfoPanel::Chances && coach.described_shot().is_some());
     let is_explained = explained.is_some_and(|advised| draw_why(advised, panes.events, ui));
-    // Where all panels stand below, the chances among them say it.
-    let says_why = has_told_why || is_explained || !is_beside;
+    // If all panels are below the table, the panel "Chances" is among them and shows the explanation.
+    let says_why = shot_explains_why || is_explained || !is_beside;
     for (panel, area) in info_panels(chosen, panes) {
         match coach.lesson.as_ref().filter(|_| panel == chosen) {
             Some(lesson) => draw_lesson(lesson, coach.has_no_system(), area, ui),
-            None if told.is_some() && panel == chosen => {}
-            None => draw_info(coach, panel, !has_told_why && !is_explained, area, ui),
+            None if described.is_some() && panel == chosen => {}
+            None => draw_info(coach, panel, !shot_explains_why && !is_explained, area, ui),
         }
     }
     if let (InfoPanel::Margins, Some(advised), Some(shot)) = (chosen, coach.shown(), shot)
@@ -197,7 +200,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
     }
     let told_in = (table, coach.units.length);
     match coach.proposal() {
-        Some(_) if told.is_some() && is_wide => {}
+        Some(_) if described.is_some() && is_wide => {}
         Some(proposal) if coach.is_in_numbers => draw_proposal(proposal, told_in, coach.layout(), panes.shot, ui),
         Some(proposal) => draw_card(proposal, coach, panes.shot, ui),
         None if coach.followed().is_some() => draw_shot(None, &["no shot yet"], told_in, panes.shot, ui),
@@ -209,14 +212,14 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
     let spin = shot.zip(time).and_then(|(shot, time)| shot.spin(time, table.radius));
     draw_spin_or_hit(spin, shot.map(Shot::meeting), panes.hit, ui);
     match () {
-        () if told.is_some() && is_beside || is_explained => {}
+        () if described.is_some() && is_beside || is_explained => {}
         () if shot.is_none() && coach.followed().is_none() => draw_asked(coach, panes.events, ui),
         () => draw_listed(coach, shot, time, panes.events, ui),
     }
     says_why
 }
 
-/// Draws the events of a shot that are to be listed.
+/// Draws the list of the shot's events or contacts.
 fn draw_listed(coach: &CoachPage, shot: Option<&Shot>, time: Option<f64>, area: Rect, ui: &mut Ui) {
     let events = shot.map(|shot| coach.events(shot));
     let name = if coach.has_all_events { "Events" } else { "Contacts" };
@@ -224,19 +227,19 @@ fn draw_listed(coach: &CoachPage, shot: Option<&Shot>, time: Option<f64>, area: 
     draw_events(name, listed, time, coach.units.length, area, ui);
 }
 
-/// The chosen info panel and the others that there is room for, each with its area.
+/// The chosen info panel and the others that fit, each with its area.
 fn info_panels(chosen: InfoPanel, panes: &Panes) -> impl Iterator<Item = (InfoPanel, Rect)> {
     let others =
         [InfoPanel::Chances, InfoPanel::Margins, InfoPanel::Plan].into_iter().filter(move |panel| *panel != chosen);
     std::iter::once((chosen, panes.info)).chain(others.zip(panes.more).filter(|(_, area)| !area.is_empty()))
 }
 
-/// Where the table is drawn.
+/// The mapping between the table and the screen cells.
 pub fn table_mapping(coach: &CoachPage, area: Rect) -> Mapping {
     Mapping::fit(coach.table(), panes(coach, area).0.table)
 }
 
-/// Draws what one of the info panels tells; the chances say why the first shot leads, if nothing else does.
+/// Draws one of the info panels. `says_why` lets the panel "Chances" explain why the first shot ranks first.
 fn draw_info(coach: &CoachPage, panel: InfoPanel, says_why: bool, area: Rect, ui: &mut Ui) {
     let advised = coach.shown();
     let is_followed = coach.followed().is_some();
@@ -246,7 +249,7 @@ fn draw_info(coach: &CoachPage, panel: InfoPanel, says_why: bool, area: Rect, ui
         (None, Some(_)) if is_followed => "only the player sees this",
         (None, None) if is_followed => "no shot yet",
         (None, Some(choice)) if choice.is_studied => FAILED,
-        (None, Some(_)) => "being worked out",
+        (None, Some(_)) => "being computed",
         (None, None) => "no shot yet; Enter asks the coach",
     };
     match panel {
@@ -261,13 +264,14 @@ fn draw_info(coach: &CoachPage, panel: InfoPanel, says_why: bool, area: Rect, ui
     }
 }
 
-/// Why the shot leads that is about to be played, where its words stand on the page and a row of `room` columns holds it.
-fn why_told(coach: &CoachPage, room: usize, ui: &Ui) -> Option<String> {
-    let is_told = coach.info == InfoPanel::Shot && coach.what_if().is_none() && coach.told().is_some();
-    why_line(coach.shown().filter(|_| is_told)?, room, ui)
+/// Explanation of the ranking of the shot that is about to be played, for a row of `room` columns. `None` if the shot's description is not
+/// displayed or nothing fits.
+fn ranking_line(coach: &CoachPage, room: usize, ui: &Ui) -> Option<String> {
+    let is_described = coach.info == InfoPanel::Shot && coach.what_if().is_none() && coach.described_shot().is_some();
+    why_line(coach.shown().filter(|_| is_described)?, room, ui)
 }
 
-/// What the status line says in `room` columns while there is no news.
+/// The text of the status line, `room` columns wide, if there is no message.
 fn status_line(coach: &CoachPage, says_why: bool, room: usize, ui: &Ui) -> Message {
     if let Some(picture) = coach.spinner() {
         let pictures =
@@ -281,14 +285,14 @@ fn status_line(coach: &CoachPage, says_why: bool, room: usize, ui: &Ui) -> Messa
     if let Some(doing) = coach.followed().and_then(Followed::doing) {
         return Message::plain(doing);
     }
-    // Beside a stroke of one's own it is told already.
+    // For the player's own stroke its panel shows the result already.
     if let Some(verdict) = coach.verdict().filter(|_| coach.what_if().is_none()) {
         let words = verdict.words(coach.cue_ball(), coach.units.length);
         return if verdict.is_made() { Message::good(words) } else { Message::poor(words) };
     }
     Message::plain(match coach.watched() {
         Some(shot) if coach.playback.time == 0.0 => {
-            let why = why_told(coach, room, ui).filter(|_| !says_why && coach.guide().is_none());
+            let why = ranking_line(coach, room, ui).filter(|_| !says_why && coach.guide().is_none());
             why.unwrap_or_else(|| aim_words(coach, shot, room, ui))
         }
         Some(shot) => {
@@ -305,17 +309,17 @@ fn status_line(coach: &CoachPage, says_why: bool, room: usize, ui: &Ui) -> Messa
     })
 }
 
-/// The line of aim, and what a system counts for the shot: as much of it as a row has room for, what is counted before the line, which
-/// is told above as well. Beside another system's example it is the line alone.
+/// The line of aim and the numbers of the shot's diamond system, as much as fits into a row. The numbers have priority, since the panel
+/// above shows the line of aim too. During the example of another system it is the line of aim alone.
 fn aim_words(coach: &CoachPage, shot: &Shot, room: usize, ui: &Ui) -> String {
     let aim = spell(&shot.words.aim(coach.units), ui.caps);
-    // The systems count on the wood behind the noses.
+    // "nose to nose" is written because diamond systems count on the wood behind the noses.
     let at_noses = format!("{}, nose to nose.", aim.trim_end_matches('.'));
     let alone = if columns(&at_noses) <= room { at_noses.clone() } else { aim.clone() };
     let is_counted = coach.what_if().is_none() && coach.lesson.as_ref().is_none_or(|lesson| lesson.is_of_shot);
     let Some(guide) = coach.guide().filter(|_| is_counted) else { return alone };
     let named = guide.shot_words();
-    // What the sum comes to is where to aim.
+    // The result of the sum is the point of aim, so it need not be repeated.
     let brief = match guide {
         Guide::System(applied) => named.replacen(&format!(", aim at {}", applied.aim()), "", 1),
         Guide::Shift(_) => guide.to_string(),
@@ -325,7 +329,7 @@ fn aim_words(coach: &CoachPage, shot: &Shot, room: usize, ui: &Ui) -> String {
     fits.unwrap_or(alone)
 }
 
-/// Where the selected ball lies, how far the nearest other one is, and how far a key moves it.
+/// The position of the selected ball, the gap to the nearest other ball, and the step size.
 fn selected_ball(coach: &CoachPage) -> String {
     let (ball, balls, names) = (coach.selected, coach.layout().balls, coach.cue_ball().names());
     let others = (0..BALLS).filter(|&other| other != ball);

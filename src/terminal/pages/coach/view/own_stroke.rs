@@ -1,4 +1,4 @@
-//! The panels while the player sets a stroke of their own.
+//! The panels of the player's own stroke.
 
 use ratatui::layout::Rect;
 
@@ -20,15 +20,15 @@ use crate::{
     },
 };
 
-/// Whose shot the other one is.
+/// Name of the other shot in the comparison.
 pub const COACH: &str = "coach";
 
-/// Draws the panels: both strokes where the info panel is, the others for the player's own.
+/// Draws the panels: the comparison of both strokes in place of the info panel, the others for the player's own stroke.
 pub fn draw_own_stroke(coach: &CoachPage, what_if: &WhatIf, panes: &Panes, ui: &mut Ui) {
     let (table, shot) = (coach.table(), &*what_if.shot);
     let proposal = coach.proposal().filter(|proposal| !proposal.is_early);
     let made = proposal.and_then(|proposal| proposal.made).map(|made| made.rate);
-    // Before the stroke its words have the room of what only tells later.
+    // Before the stroke, the comparison also uses the room of the event list, which matters only later.
     let time = coach.playback.readout;
     let is_wide = panes.is_beside() && time == 0.0;
     let area = if is_wide { panes.info.union(panes.events) } else { panes.info };
@@ -45,19 +45,19 @@ pub fn draw_own_stroke(coach: &CoachPage, what_if: &WhatIf, panes: &Panes, ui: &
     }
 }
 
-/// Draws the panel of the stroke as the keys change it, and whether it makes the point.
+/// Draws the panel with the current inputs of the stroke, and whether it makes the point.
 fn draw_set(shot: &Shot, coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let inner = draw_title(shot_title(shot, ui), area, ui);
     let (unit, speed) = (coach.units.length, shot.cue.speed);
     let rows = stroke_rows(&shot.cue, coach.units, coach.table().radius, ui.caps);
     let (indent, columns) = if area.width >= WIDE { (1, 7) } else { (0, 6) };
     let lines = rows.map(|(name, value)| {
-        // The longest name has no blank of its own in a narrow column, and the whole word for an angle no room.
+        // In a narrow column the longest name needs an extra blank, and there is no room for " deg".
         let value = match name {
-            // Two digits before the point leave one behind it.
+            // With two digits before the decimal point, there is room for only one after it.
             "speed" if columns <= 6 && unit.speed().0 * speed >= 9.995 => speed_words(speed, unit, 1),
             "speed" if columns > 6 => format!("{value}, {}", lengths_words(shot.words.table_lengths)),
-            // As the coach's words call it.
+            // The coach's words call this elevation level.
             "cue" if shot.words.has_level_cue() && value != "level" => level_words(shot, columns > 6, ui),
             _ if columns > 6 => value,
             _ => value.replace(" deg", ""),
@@ -67,7 +67,7 @@ fn draw_set(shot: &Shot, coach: &CoachPage, area: Rect, ui: &mut Ui) {
     draw_lines(lines, Rect { x: inner.x + indent, width: inner.width.saturating_sub(indent), ..inner }, ui);
 }
 
-/// A cue that players call level, and how far what is behind the ball raises it all the same.
+/// Words for a cue that players call level, with the small elevation that the cushion or ball behind the cue ball forces.
 fn level_words(shot: &Shot, is_wide: bool, ui: &Ui) -> String {
     let degrees = |decimals| fixed(shot.words.elevation_deg, decimals);
     if is_wide {

@@ -1,5 +1,5 @@
-//! Which part of the screen is for what: the arrangement that leaves the table the most room wins, by a little for panels
-//! beside it.
+//! Screen layout of the coach page. Of two arrangements the one with the larger table wins; the one with panels next to the table has
+//! a small disadvantage that it must overcome.
 
 use ratatui::layout::Rect;
 
@@ -11,58 +11,58 @@ use crate::{
     },
 };
 
-/// Rows of the panels below the table where all of them stand there: a title and seven lines at least; of every so many
-/// rows beyond those of the second size one more is theirs, up to the third number.
+/// Rows of the panels if all of them are below the table: minimum (a title and seven lines), the screen height from which on they grow,
+/// and maximum. They get one more row for every [`ROWS_A_PANEL_ROW`] rows above that height.
 const BELOW: (u16, u16, u16) = (8, 40, 12);
 const ROWS_A_PANEL_ROW: u16 = 5;
-/// Rows of the panels below the table where there is a column beside it: a title and three balls.
+/// Rows of the panels below the table if there is a column next to it: a title and three balls.
 const BELOW_BESIDE: u16 = 4;
-/// Columns beside the table: at least, and at most.
+/// Minimum and maximum width of the column next to the table.
 const BESIDE: (u16, u16) = (16, 36);
-/// Columns of what an info panel tells, of the shot, the tip, the hit and the events where they stand side by side: where there is
-/// just room for them, and where there is more. The tip's may be wider.
+/// Widths of the panels info, shot, tip, hit and events if they are side by side: the minimum, and with more room. The tip's panel may
+/// be wider, up to [`MOST_TIP_WIDTH`].
 const NARROW: [u16; 5] = [38, 32, 12, 12, 22];
 const WIDE: [u16; 5] = [39, 33, 14, 16, 29];
 const MOST_TIP_WIDTH: u16 = 18;
-/// Columns of what other info panels tell beside them.
+/// Width of each further info panel.
 const MORE_WIDTH: u16 = 38;
-/// Columns from which on all of these find room.
+/// Screen width from which on all of these fit.
 const ALL_BELOW_WIDTH: u16 = width(NARROW);
-/// Rows of the panels from which on the hit stands below the tip, in columns that are as wide as both of its balls.
+/// Height of the panels from which on the hit is below the tip, and their width then, which holds both balls of the hit.
 const STACKED_ROWS: u16 = 12;
 const STACKED_WIDTH: u16 = 16;
-/// Rows of the shot's numbers with their title where the column beside the table is narrow: as few as hold them all, and as
-/// many as are easy to read, where the column has rows enough; and where it is wide.
+/// Rows of the shot's numbers with their title. In a narrow column next to the table: the minimum, and the comfortable height if the
+/// column has at least [`TALL`] rows. The third value is for a wide column.
 const SHOT_ROWS: [u16; 3] = [7, 9, 8];
 const TALL: u16 = 20;
-/// Columns of a column from which on its panels are the wide ones.
+/// Width of the column from which on its panels use their wide form.
 const WIDE_COLUMN: u16 = 30;
-/// Most rows of tip and hit, one below the other and side by side, and those of the hit below the tip: at least, and where
-/// there are more than so many for both.
+/// Maximum rows of tip and hit, stacked and side by side. Then the rows of the hit below the tip: the minimum, and the number if both
+/// together have at least [`MANY_ROWS`] rows.
 const PRECISION_ROWS: (u16, u16) = (13, 10);
 const HIT_ROWS: [u16; 2] = [4, 5];
 const MANY_ROWS: u16 = 13;
 
-/// How large the table has to be above all panels, against the one that has some beside it: a twentieth is a fair price for
-/// several panels at once.
+/// Minimum size of the table with all panels below it, relative to the table with some panels next to it. Losing a twentieth is
+/// acceptable for seeing several panels at once.
 const LARGE: f64 = 0.95;
 
-/// The areas of the coach's screen.
+/// The screen areas of the coach page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Panes {
-    /// Rails and cloth are drawn as large as fits in here.
+    /// The table with its rails, drawn as large as fits.
     pub table: Rect,
-    /// What the chosen info panel tells.
+    /// The chosen info panel.
     pub info: Rect,
-    /// What other info panels tell, where there is room; empty where there is none.
+    /// Further info panels; empty if there is no room.
     pub more: [Rect; 2],
     /// The cue inputs and the impulse.
     pub shot: Rect,
     /// The cue ball's face.
     pub tip: Rect,
-    /// The shooter's view of the first ball; beside or below the tip.
+    /// The shooter's view of the first ball, next to or below the tip.
     pub hit: Rect,
-    /// What happens in the shot.
+    /// The list of the shot's events.
     pub events: Rect,
 }
 
@@ -76,13 +76,13 @@ impl Panes {
         if area.width >= ALL_BELOW_WIDTH && is_large { below } else { beside }
     }
 
-    /// Whether a column of panels stands beside the table; else all stand below.
+    /// Whether there is a column of panels next to the table. Otherwise all panels are below it.
     pub const fn is_beside(&self) -> bool {
         self.shot.y < self.info.y
     }
 
-    /// The same with room for a jump from the side, and that room: below the table where panels stand beside it, which takes rows
-    /// from the table, else in the place of the info panel and the shot's.
+    /// Returns the areas with room for the side view of a jump, and that room. If there is a column of panels next to the table, the
+    /// view takes rows from the table. Otherwise it replaces the info panel and the shot's panel.
     pub fn with_side_view(self) -> (Self, Rect) {
         if !self.is_beside() {
             return (self, self.info.union(self.shot));
@@ -91,7 +91,7 @@ impl Panes {
         (Self { table, ..self }, side)
     }
 
-    /// All rows but the first, which is the header's, and the last two, for news and keys.
+    /// All rows except the header and the last two, which are for messages and keys.
     fn middle(area: Rect) -> Rect {
         Rect::new(area.x, area.y + 1, area.width, area.height.saturating_sub(3))
     }
@@ -114,7 +114,7 @@ impl Panes {
         if is_stacked {
             widths = [WIDE[0], WIDE[1], STACKED_WIDTH, 0, WIDE[4]];
         }
-        // A face is twice as many columns as rows, and its panel has a title.
+        // The cue ball's face needs twice as many columns as rows, and its panel has a title row.
         let spare = area.width.saturating_sub(width(widths));
         let [info, shot, tip, hit, events] = widths;
         let tip = (tip + spare).min(2 * (rows - 1)).clamp(tip, MOST_TIP_WIDTH);
@@ -155,13 +155,13 @@ impl Panes {
     }
 }
 
-/// Columns of panels side by side, with a blank between every two that are there.
+/// Total width of panels side by side, with a blank column between neighbours.
 const fn width(panels: [u16; 5]) -> u16 {
     let [info, shot, tip, hit, events] = panels;
     info + shot + tip + hit + events + if hit > 0 { 4 } else { 3 }
 }
 
-/// Tip and hit one below the other.
+/// Divides `area` into the tip and, below it, the hit.
 fn stacked(area: Rect) -> (Rect, Rect) {
     let rows = HIT_ROWS[usize::from(area.height >= MANY_ROWS)].min(area.height);
     let tip = Rect { height: area.height - rows, ..area };

@@ -1,4 +1,4 @@
-//! The panel of the plan: this shot, where the balls stop, and the next shot; and what of it is drawn on the table.
+//! The panel "Plan": this shot, where the balls stop, and the next shot; and the marks of the plan on the table.
 
 use ratatui::{
     layout::Rect,
@@ -10,28 +10,28 @@ use crate::{
     table::BALLS,
     terminal::{
         Glyphs, Proposal,
-        pages::coach::{Choice, view::chances::sort_words},
+        pages::coach::{Choice, view::chances::shot_summary},
         ui::{Spot, Theme, Ui, draw_lines, draw_nothing, draw_title, wrap},
         words::{fixed, percent},
     },
 };
 
-/// Sign of the cue ball's next way where only letters are drawn.
+/// Sign of the cue ball's next path on terminals that draw only letters.
 const WAY_LETTER: char = '*';
 
-/// Columns of the rows' names.
+/// Width of the rows' names, columns.
 const NAMES: u16 = 6;
 
-/// How many there are.
+/// Number of rows.
 const ROWS: usize = 3;
 
-/// What the distances of the stops are.
+/// Explanation of the distances in the row "stop".
 const SPREAD_WORDS: &str = "half of the made shots stop this close";
 
-/// What is said where the closer look at a shot has failed.
-pub const FAILED: &str = "could not be worked out";
+/// Text for a shot whose background analysis has failed.
+pub const FAILED: &str = "could not be computed";
 
-/// Draws the panel; without a shot it says `empty`.
+/// Draws the panel; without a shot it shows the text `empty`.
 pub fn draw_plan(choice: Option<&Choice>, unit: LengthUnit, empty: &str, area: Rect, ui: &mut Ui) {
     let mut title = vec![Span::styled("Plan", ui.theme.text())];
     if let Some(next) = choice.and_then(|choice| choice.proposal.next) {
@@ -75,12 +75,12 @@ fn shot_words(proposal: &Proposal, room: usize, ui: &Ui) -> String {
     let chance = proposal.made.map_or("?".to_owned(), |made| percent(made.rate));
     let so_far = if proposal.is_early { "so far " } else { "" };
     let chance = format!("{so_far}{chance} % ");
-    let sort = sort_words(proposal, false, room.saturating_sub(chance.len()), ui);
+    let sort = shot_summary(proposal, false, room.saturating_sub(chance.len()), ui);
     chance + &sort
 }
 
-/// How near to the planned positions the balls stop, in half of the attempts that make the point. Where that is not explained
-/// below, the row's name and these words say it, and the balls have their letters alone.
+/// The row "stop": the distance from the planned positions within which each ball stops in half of the attempts that make the point.
+/// Unless a line below explains this (`is_explained`), the row itself says "half within" and names the balls by letters.
 fn stop_words(choice: &Choice, unit: LengthUnit, is_explained: bool, theme: &Theme) -> (&'static str, String) {
     let (in_a_metre, symbol) = unit.small();
     let Some(study) = &choice.study else {
@@ -111,7 +111,7 @@ fn next_words(choice: &Choice, room: usize, ui: &Ui) -> String {
     }
 }
 
-/// What is drawn of the plan: where the balls stop in many attempts, and the way of the cue ball in the next shot.
+/// The marks of the plan on the table: where the balls stop in many attempts, and the path of the cue ball in the next shot.
 pub fn plan_spots(choice: &Choice, theme: &Theme) -> Vec<Spot> {
     let ends = choice.study.iter().flat_map(|study| &study.scatter.ends);
     let cloud = ends.flat_map(|end| {
@@ -127,7 +127,7 @@ pub fn plan_spots(choice: &Choice, theme: &Theme) -> Vec<Spot> {
     let way = next.into_iter().flat_map(|next| {
         let spot = |place, is_ball| Spot { place, is_ball, color: theme.way, letter: WAY_LETTER };
         let dots = next.shot.paths[0].iter().step_by(2).enumerate();
-        // The way through the air is broken, as it is when that shot is shown.
+        // The path through the air is dashed, as it is when that shot itself is displayed.
         let dots = dots.filter(|(number, dot)| !dot.is_aloft() || number % 2 == 0);
         let dots = dots.map(move |(_, dot)| spot(dot.place, false));
         dots.chain(next.shot.words.first.map(|contact| spot(contact.place, true)))

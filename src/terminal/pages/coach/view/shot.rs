@@ -1,4 +1,4 @@
-//! The panel of the shot: the five cue inputs and what they give the ball.
+//! The panel of the shot in numbers: the five cue inputs, and the velocity and spin that they give the cue ball.
 
 use ratatui::{
     layout::Rect,
@@ -16,14 +16,14 @@ use crate::{
     },
 };
 
-/// Columns from which on the panel explains the numbers.
+/// Width from which on the panel explains the numbers, columns.
 pub const WIDE: u16 = 30;
-/// Columns of a row where there are fewest: the last column of the screen stays free.
+/// Width of a row in the narrowest panel, columns. The last column of the screen stays free.
 const NARROW: usize = 14;
-/// Columns of the spin where its three numbers share a narrow row.
+/// Width of the spin if its three numbers share a narrow row, columns.
 const SPIN_WIDTH: usize = 12;
 
-/// Draws the panel, with speeds in `unit`; without a shot it says `empty`, a line a row.
+/// Draws the panel, with speeds in `unit`; without a shot it shows the lines of `empty`.
 pub fn draw_shot(shot: Option<&Shot>, empty: &[&str], (table, unit): (&Table, LengthUnit), area: Rect, ui: &mut Ui) {
     let mut title = shot.map_or_else(|| vec![Span::styled("Shot", ui.theme.text())], |shot| shot_title(shot, ui));
     if let Some(shot) = shot.filter(|_| area.width >= WIDE) {
@@ -42,7 +42,7 @@ pub fn shot_title(shot: &Shot, ui: &Ui) -> Vec<Span<'static>> {
     vec![Span::styled("Shot", ui.theme.text()), ui.dash(), Span::styled(words, style)]
 }
 
-/// Draws the panel of a shot that the coach proposes: how often it is made, and the aim in diamonds.
+/// Draws the panel of a proposed shot, with its success rate and the line of aim in diamonds.
 pub fn draw_proposal(
     proposal: &Proposal,
     (table, unit): (&Table, LengthUnit),
@@ -54,7 +54,7 @@ pub fn draw_proposal(
     let wide = area.width >= WIDE;
     let mut title = chance_title(proposal, wide, ui);
     let source = format!(" {}", shot.source);
-    // The rule before the title, and a blank on either side of it.
+    // The line before the title, and a blank on either side of the title.
     let taken = 3 + title.iter().map(Span::width).sum::<usize>() + source.len();
     if wide && taken <= usize::from(area.width) {
         title.push(Span::styled(source, ui.theme.faint()));
@@ -66,7 +66,7 @@ pub fn draw_proposal(
     draw_rows(shot, aim, (table, unit), inner, ui);
 }
 
-/// The numbers, with a note on the direction.
+/// Draws the numbers; `aim` is the note on the direction.
 fn draw_rows(shot: &Shot, aim: String, (table, unit): (&Table, LengthUnit), inner: Rect, ui: &mut Ui) {
     let wide = inner.width >= WIDE;
     let rows = if wide { wide_rows(shot, aim, table.radius, unit, ui.caps) } else { narrow_rows(shot, unit, ui.caps) };
@@ -82,7 +82,7 @@ fn draw_rows(shot: &Shot, aim: String, (table, unit): (&Table, LengthUnit), inne
 
 type Row = (&'static str, String, String);
 
-/// A row whose name takes so many columns.
+/// Formats a row whose name is `columns` wide.
 fn line((name, value, note): Row, columns: usize, theme: &Theme) -> Line<'static> {
     Line::from(vec![
         Span::styled(format!("{name:<columns$}"), theme.faint()),
@@ -91,14 +91,14 @@ fn line((name, value, note): Row, columns: usize, theme: &Theme) -> Line<'static
     ])
 }
 
-/// The narrow rows in two fewer: both angles stand in one, and the spin in another.
+/// Merges the narrow rows into two fewer: both angles share a row, and so do the three parts of the spin.
 fn low_lines(shot: &Shot, rows: Vec<Row>, theme: &Theme, caps: Capabilities) -> Vec<Line<'static>> {
     let degree = caps.pick("°", "");
     let (phi, theta) = (caps.pick("φ", "ph"), caps.pick("θ", "th"));
     let room = NARROW - columns(phi) - columns(theta);
     let [phi_angle, theta_angle] =
         [shot.cue.phi_text(1), fixed(shot.cue.theta.to_degrees(), 1)].map(|angle| angle + degree);
-    // Blanks go where the numbers leave them room.
+    // Blanks are dropped if the numbers leave no room for them.
     let phi_width = (room.saturating_sub(columns(&theta_angle) + 1)).min(6 + columns(degree));
     let gap = usize::from(columns(&phi_angle).max(phi_width) + columns(&theta_angle) < room);
     let angles = Line::from(vec![
@@ -109,7 +109,7 @@ fn low_lines(shot: &Shot, rows: Vec<Row>, theme: &Theme, caps: Capabilities) -> 
     ]);
     let w = shot.recording.impulse().spin;
     let spin = [w.x, w.y, w.z].map(|part| fixed(part, 0));
-    // Where blanks have no room, the signs divide the numbers.
+    // Without room for blanks, minus signs separate the numbers.
     let blank = |part: &String| if part.starts_with('-') { part.clone() } else { format!(" {part}") };
     let close: String = spin.iter().map(blank).collect();
     let apart = spin.join(" ");

@@ -1,4 +1,4 @@
-//! The panel of the shot in words: how to strike, which way the cue ball goes, where to aim, and why.
+//! The panel of the shot in words: the stroke, the course of the cue ball, the line of aim, and the reason for the shot.
 
 use ratatui::{
     layout::{Margin, Rect},
@@ -19,14 +19,14 @@ use crate::{
     },
 };
 
-/// Draws the panel. The line of aim stands in the title, or where that has no room for it in a row; what else has no room is left
-/// out from the end. Whether it says why the first shot leads.
+/// Draws the panel. The line of aim is in the title or, if it does not fit there, in the text. Whatever does not fit is left out from the
+/// end. Returns whether the panel explains why the first shot ranks first.
 pub fn draw_shot_words(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui) -> bool {
     let (words, units, cue_ball) = (&proposal.shot.words, coach.units, coach.cue_ball());
     let part = |text: String, style| (spell(&text, ui.caps), style);
     let (width, rows) = (usize::from(area.width.saturating_sub(2)), usize::from(area.height.saturating_sub(1)));
     let [titles @ .., bare] = titles(coach, proposal, ui);
-    // A blank on either side, behind the rule.
+    // There is a line before the title and a blank on either side.
     let fits = |title: &Vec<Span>| title.iter().map(Span::width).sum::<usize>() < width;
     let title = titles.into_iter().find(fits);
     let aim = title.is_none().then(|| part(words.aim(units), ui.theme.text()));
@@ -34,8 +34,8 @@ pub fn draw_shot_words(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &
     let way = |course: &str| Some(part(course.to_owned(), ui.theme.accent()));
     let [sentence, brief] = [words.sentence(cue_ball, units), words.short_sentence(cue_ball, units)];
     let [long, short] = [words.course(cue_ball, units), words.short_course(cue_ball, units)];
-    // The line of aim, which the card has, too, goes before the end of the course, and then what the sentence says twice. The
-    // course is never cut: the card has what the sentence says.
+    // If room is short, the line of aim is dropped first, since the card contains it too. Then the end of the course is dropped, and
+    // then repetitions in the sentence. The course itself is never cut, because only the sentence is repeated by the card.
     let tries = [
         [how(&sentence), way(&long), aim.clone()],
         [how(&sentence), way(&short), aim],
@@ -54,7 +54,7 @@ pub fn draw_shot_words(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &
     says_why
 }
 
-/// The titles, the longest first: the pattern's name, how often the shot is made, and the line of aim; the last without that.
+/// The titles, from long to short: pattern name, success rate and line of aim. The last one has no line of aim.
 fn titles(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [Vec<Span<'static>>; 4] {
     let name = proposal
         .shot
@@ -69,21 +69,21 @@ fn titles(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [Vec<Span<'static>
     [title(true, Some(&long)), title(true, Some(&short)), title(false, Some(&short)), title(true, None)]
 }
 
-/// A place along a cushion in the player's unit; `told` writes diamonds.
-pub fn place_along(coach: &CoachPage, diamonds: f64, told: impl FnOnce(f64) -> String) -> String {
+/// Formats a position along a cushion in the player's unit; `format_diamonds` formats a number of diamonds.
+pub fn place_along(coach: &CoachPage, diamonds: f64, format_diamonds: impl FnOnce(f64) -> String) -> String {
     match coach.units.place {
-        PlaceUnit::Diamonds => told(diamonds),
+        PlaceUnit::Diamonds => format_diamonds(diamonds),
         PlaceUnit::Mm => format!("{} mm", fixed(1e3 * coach.table().diamond() * diamonds, 0)),
     }
 }
 
-/// Diamonds as marks to aim at are told.
+/// Formats the diamonds of a point of aim.
 pub fn to_hundredths(diamonds: f64) -> String {
     fixed(diamonds, 2)
 }
 
-/// The line of aim in few words, and in fewer: where the cue comes from and where it points, as diamonds or millimetres along
-/// the noses of the rails. Both say so, for systems count on the wood behind them.
+/// The line of aim in a long and a short form: the points behind and ahead of the cue ball, as diamonds or millimetres along the noses
+/// of the rails. Both forms say "noses", because diamond systems count on the wood behind them.
 fn aim_words(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [String; 2] {
     let words = &proposal.shot.words;
     let [behind, ahead] =
@@ -93,8 +93,8 @@ fn aim_words(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [String; 2] {
     [format!("aim {line}, at noses"), format!("noses {line}")]
 }
 
-/// The first of the tries that `rows` hold, each part from a new row or else one behind the other; the last, with its end replaced by
-/// `more`, where none has room.
+/// Lays out the first of the `tries` that fits into `rows`, with each part on a new row or else as running text. If none fits, the last
+/// one is cut and ends in `more`.
 fn lay_out(tries: &[Vec<(String, Style)>], width: usize, rows: usize, more: &'static str) -> Vec<Line<'static>> {
     for parts in tries {
         let apart: Vec<Line> = parts
@@ -116,7 +116,7 @@ fn lay_out(tries: &[Vec<(String, Style)>], width: usize, rows: usize, more: &'st
     lines
 }
 
-/// Texts one behind the other, each in its style.
+/// Sets texts one after the other as running text, each in its style.
 fn flow(parts: &[(String, Style)], width: usize) -> Vec<Line<'static>> {
     let mut lines = vec![Line::default()];
     let mut taken = 0;

@@ -1,4 +1,4 @@
-//! What comes in an exam, before it begins.
+//! The screen that describes an exam before it begins.
 
 use ratatui::layout::Rect;
 
@@ -14,7 +14,7 @@ use crate::{
     },
 };
 
-/// Draws the page; gives what the status line says while there is no news.
+/// Draws the screen. Returns the default text of the status line.
 pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut Ui) -> Message {
     draw_header(drills, "exam", "", header, ui);
     let level = drills.exam_level;

@@ -1,4 +1,4 @@
-//! The page of an exercise: the table with the way to the first contact or the shot, the stroke, and what counts.
+//! The screen of an exercise: the table with the aim line or the shot, the stroke, and the score.
 
 use glam::DVec2;
 use ratatui::layout::Rect;
@@ -19,13 +19,13 @@ use crate::{
     },
 };
 
-/// Distance of two dots of the way to the first contact, m: half of that of the dots of a path, since it is to be a line.
+/// Distance between the dots of the aim line, m. It is half that of a path's dots, so that the dots look like a line.
 const DOT: f64 = 0.04;
-/// The cue behind the ball, m: from where to where, and the distance of its dots.
+/// The cue behind the ball, m: distances of its start and end from the ball's centre, and the distance between its dots.
 const CUE: (f64, f64) = (0.09, 0.5);
 const CUE_DOT: f64 = 0.008;
 
-/// Draws the page; gives what the status line says while there is no news.
+/// Draws the screen. Returns the default text of the status line.
 pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut Ui) -> Message {
     draw_header(drills, &turn.exercise.title, &about(turn, ui.caps), header, ui);
     let profile = turn.profile();
@@ -34,7 +34,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     let what_if = turn.what_if();
     let aim_line = turn.aim_line();
     let spots = match (what_if, turn.shown_model(), &aim_line) {
-        // Beside the model shot the whole way is drawn, and while it is shown its own.
+        // A comparison draws the whole path of the stroke, and a displayed model shot its own path.
         (Some(_), ..) | (None, None, None) => Vec::new(),
         (None, Some(model_shot), _) => cue_spots(turn, model_shot.advice.cue.phi, ui.theme, ui.caps),
         (None, None, Some(aim_line)) => {
@@ -59,19 +59,19 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
     if side.intersection(panes.stroke).is_empty() {
         draw_precision(drills, turn, aim_line.as_ref(), &panes, ui);
     }
-    let beside = score::draw(drills, turn, panes.score, ui);
+    let free_row = score::draw(drills, turn, panes.score, ui);
     match what_if.zip(turn.model_shot()) {
         Some((what_if, model_shot)) => {
             let (advisor, made) = (panels::advisor(model_shot), Some(model_shot.advice.chance.rate));
             draw_what_if(what_if, advisor, made, drills.units, panes.aim, ui);
         }
-        None => panels::draw_task(drills, turn, aim_line.as_ref(), panes.aim, (beside, panes.score.right()), ui),
+        None => panels::draw_task(drills, turn, aim_line.as_ref(), panes.aim, (free_row, panes.score.right()), ui),
     }
     status_line(turn, drills.units.length)
 }
 
-/// Draws the stroke's numbers, where the tip meets the ball, and what is seen behind it or how it spins; while the model shot is shown
-/// its own tip and hit.
+/// Draws the stroke's numbers, the tip on the cue ball, and the hit or the spin. While the model shot is shown, tip and hit are those
+/// of the model shot.
 fn draw_precision(drills: &DrillsPage, turn: &Turn, aim_line: Option<&AimLine>, panes: &Panes, ui: &mut Ui) {
     panels::draw_stroke(turn, drills.units, drills.is_in_numbers, panes.stroke, ui);
     if let Some(model_shot) = turn.shown_model() {
@@ -95,7 +95,7 @@ fn draw_precision(drills: &DrillsPage, turn: &Turn, aim_line: Option<&AimLine>, 
     draw_spin_or_hit(spin, meeting, panes.hit, ui);
 }
 
-/// How hard it is, and how it is repeated.
+/// Grade of the exercise, and whether its repetitions are shifted.
 fn about(turn: &Turn, caps: Capabilities) -> String {
     let grade = turn.exercise.grade;
     let mut parts = if grade > 0 { vec![format!("grade {grade}")] } else { Vec::new() };
@@ -105,12 +105,12 @@ fn about(turn: &Turn, caps: Capabilities) -> String {
     parts.join(separator(caps))
 }
 
-/// Whether a spot is on the cloth.
+/// Whether a spot is on the table's bed.
 fn is_on_cloth(turn: &Turn, spot: &Spot) -> bool {
     spot.place.abs().cmple(turn.table.reach() + DVec2::splat(turn.table.radius)).all()
 }
 
-/// The cue behind the ball, as far as it lies over the cloth.
+/// The part of the cue behind the ball that is above the table's bed.
 fn cue_spots(turn: &Turn, phi: f64, theme: &Theme, caps: Capabilities) -> Vec<Spot> {
     let (start, ahead) = (turn.layout.balls[0], DVec2::from_angle(phi));
     let letter = cue_sign(ahead, caps);
@@ -119,13 +119,13 @@ fn cue_spots(turn: &Turn, phi: f64, theme: &Theme, caps: Capabilities) -> Vec<Sp
     back.map(spot).filter(|spot| is_on_cloth(turn, spot)).collect()
 }
 
-/// The cue ball's way to what it meets first, with the ball at its end.
+/// The dots of the aim line, with the ball at its end.
 fn way_spots(turn: &Turn, aim_line: &AimLine, theme: &Theme, caps: Capabilities) -> Vec<Spot> {
     let (color, letter) = (theme.paths[0], caps.pick('·', '.'));
-    // The ball at the end of the line is drawn over it.
+    // The ball at the end would cover the last dots.
     let dots = aim_line.dots(DOT, 1.5 * turn.table.radius).into_iter();
     let ghost = theme.letters()[0].to_ascii_lowercase();
-    let ghost = aim_line.places.last().map(|place| Spot { place: *place, is_ball: true, color, letter: ghost });
+    let ghost = aim_line.points.last().map(|place| Spot { place: *place, is_ball: true, color, letter: ghost });
     let dots = dots.map(|place| Spot { place, is_ball: false, color, letter });
     dots.chain(ghost).filter(|spot| is_on_cloth(turn, spot)).collect()
 }

@@ -1,4 +1,4 @@
-//! A filmed shot that is watched: simulated balls, the film's as outlines, and how far they are apart.
+//! The screen of a filmed shot: the simulated balls, the filmed balls as outlines, and the distances between them.
 
 use ratatui::{layout::Rect, text::Span};
 
@@ -24,7 +24,7 @@ use crate::{
     },
 };
 
-/// Draws the page; gives what the status line says while there is no news.
+/// Draws the screen. Returns the default text of the status line.
 pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
     let (film, unit) = (&drills.film, drills.units.length);
     let Some(listed) = film.marked() else { return Message::plain("the film has no shots") };
@@ -56,20 +56,20 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     }
 }
 
-/// What the film shows of a shot, in a few words.
+/// Result, speed and duration of a filmed shot.
 fn about(listed: &Listed, unit: LengthUnit, dot: &str) -> String {
     let filmed = &listed.filmed;
     let speed = speed_words(filmed.speed(), unit, 1);
     [outcome(listed).to_owned(), speed, format!("{} s", fixed(filmed.lasts(), 1))].join(dot)
 }
 
-/// A distance in the smaller unit.
+/// Formats a distance in the smaller unit.
 fn distance(metres: f64, unit: LengthUnit) -> String {
     let (in_a_metre, symbol) = unit.small();
     format!("{} {symbol}", fixed(in_a_metre * metres, 1))
 }
 
-/// How far the simulated cue ball is from the filmed one, and what that is worth.
+/// The distance between the simulated and the filmed cue ball, and whether the film at this time was used for the fit.
 fn status_line(played: &FilmReplay, listed: &Listed, time: f64, unit: LengthUnit) -> Message {
     let white = distance(played.replay.apart(time)[0], unit);
     if time >= played.replay.duration() {
@@ -81,7 +81,7 @@ fn status_line(played: &FilmReplay, listed: &Listed, time: f64, unit: LengthUnit
     Message::plain(format!("white is {white} from the film at {} s, {basis}", fixed(time, 1)))
 }
 
-/// Draws what the stroke gave the cue ball, by the fit, and how fast it is in the film.
+/// Draws the fitted stroke, and the speeds of the cue ball from the fit and in the film.
 fn draw_stroke(played: Option<&FilmReplay>, listed: &Listed, units: Units, area: Rect, ui: &mut Ui) {
     let inner = draw_title("The fitted stroke", area, ui);
     let Some(played) = played else { return };
@@ -100,7 +100,7 @@ fn draw_stroke(played: Option<&FilmReplay>, listed: &Listed, units: Units, area:
     draw_lines(rows.map(|(name, value)| pair(name, 7, value, ui.theme)), text, ui);
 }
 
-/// Draws how far each simulated ball is from the filmed one, and which is which.
+/// Draws the distance between each simulated ball and the filmed one, and a legend.
 fn draw_distances(played: Option<&FilmReplay>, time: f64, unit: LengthUnit, area: Rect, ui: &mut Ui) {
     let title = played.map_or("Film".to_owned(), |_| format!("From the film at {} s", fixed(time, 2)));
     let inner = draw_title(title, area, ui);

@@ -1,4 +1,4 @@
-//! The list of filmed shots, and the marked one on a small table with what it is.
+//! The screen with the list of filmed shots and a preview of the marked one.
 
 use ratatui::{
     layout::{Position, Rect},
@@ -18,14 +18,14 @@ use crate::terminal::{
     words::fixed,
 };
 
-/// Columns of the list.
+/// Width of the list, columns.
 const LIST: u16 = 36;
-/// Columns at which the numbers end, from the list's left edge: the shot's, its speed, and how long it takes.
+/// Right ends of the shot's number, its speed and its duration, from the list's left edge, columns.
 const NUMBER_END: u16 = 10;
 const SPEED_END: u16 = 24;
 const LENGTH_END: u16 = 32;
 
-/// Draws the page; gives what the status line says while there is no news.
+/// Draws the screen. Returns the default text of the status line.
 pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
     let points = listed().iter().filter(|listed| listed.is_point).count();
     let more = format!("{} shots of a match, {points} points", listed().len());
@@ -38,12 +38,12 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     Message::plain("choose a shot; Enter plays it, filmed balls and simulated ones together")
 }
 
-/// What became of a shot by the film.
+/// The result of a shot in the film.
 pub const fn outcome(listed: &Listed) -> &'static str {
     if listed.is_point { "point" } else { "no point" }
 }
 
-/// What the mouse points at.
+/// The mouse target at `at`.
 pub fn target(drills: &DrillsPage, area: Rect, at: Position) -> Option<Target> {
     let [area, _] = split(LIST, area);
     let mark = drills.film.mark;

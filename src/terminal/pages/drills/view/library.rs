@@ -1,4 +1,4 @@
-//! The list of exercises, and the marked one on a small table with what is to be learnt.
+//! The screen with the list of exercises and a preview of the marked one with its lesson.
 
 use ratatui::{
     layout::{Position, Rect},
@@ -13,7 +13,7 @@ use crate::{
             Target,
             drills::{
                 DrillsPage,
-                view::{READABLE, TABLE_ROWS, best_run, draw_header, draw_preview, percent_words, places_words},
+                view::{READABLE, TABLE_ROWS, best_run, draw_header, draw_preview, percent_words, position_words},
             },
         },
         ui::{
@@ -24,17 +24,17 @@ use crate::{
     },
 };
 
-/// Columns of the list, of a hundred: on narrow screens, and on wide ones, where the titles of the bundled exercises need no
-/// more than so many columns.
+/// Width of the list, percent of the screen: on narrow and on wide screens. The titles of the bundled exercises fit into
+/// [`LIST_ENOUGH`] columns, which the list keeps on screens in between.
 const LIST: (u16, u16) = (58, 33);
 const LIST_ENOUGH: u16 = 58;
-/// Columns at which the grade and the points at a real table and here end, from the list's right edge: three for each number, a sign
-/// between the points, and a blank at either side of them.
+/// Right ends of the grade, of the points at a real table and of those in the program, from the list's right edge, columns. The points
+/// are two numbers of up to three digits with a slash between them and a blank on either side.
 const GRADE_END: u16 = 17;
 const TABLE_END: u16 = 9;
 const HERE_END: u16 = 1;
 
-/// Draws the page; gives what the status line says while there is no news.
+/// Draws the screen. Returns the default text of the status line.
 pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
     let sessions = drills.book.sessions.len();
     let more = match sessions {
@@ -52,13 +52,13 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     status_line(drills)
 }
 
-/// The list's part of the page, and that of the marked exercise.
+/// The areas of the list and of the marked exercise.
 fn halves(area: Rect) -> [Rect; 2] {
     let share = |of| area.width * of / 100;
     split(share(LIST.0).min(LIST_ENOUGH.max(share(LIST.1))), area)
 }
 
-/// What the mouse points at.
+/// The mouse target at `at`.
 pub fn target(drills: &DrillsPage, area: Rect, at: Position) -> Option<Target> {
     let [list, _] = halves(area);
     let line = grouped(drills).entry_at(below_title(list), at.y);
@@ -71,12 +71,12 @@ fn status_line(drills: &DrillsPage) -> Message {
         return Message::plain("reading what was played so far");
     }
     if !book.troubles.is_empty() {
-        return Message::warning("some of what was kept cannot be read: F6 names it, and all else is here");
+        return Message::warning("some saved data cannot be read: F6 lists it; the rest is here");
     }
     Message::plain("choose an exercise; Enter opens it")
 }
 
-/// The list, by categories.
+/// The list, grouped by category.
 fn grouped(drills: &DrillsPage) -> Grouped<&Exercise> {
     Grouped::new(drills.catalogue.found(), drills.catalogue.mark, |exercise| exercise.category.title())
 }
@@ -98,7 +98,7 @@ fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
     grouped(drills).draw(inner, ui, |exercise, is_marked, area, ui| draw_row(drills, exercise, is_marked, area, ui));
 }
 
-/// How many exercises are listed, and which.
+/// The title of the list: number of exercises and active filters.
 fn filter_words(drills: &DrillsPage, found: usize) -> String {
     let catalogue = &drills.catalogue;
     let filter = &catalogue.filter;
@@ -124,7 +124,7 @@ fn draw_row(drills: &DrillsPage, exercise: &Exercise, is_marked: bool, area: Rec
     }
 }
 
-/// A number in at most three columns: thousands from 1000 on. The preview shows it in full.
+/// Formats a number in at most three columns; from 1000 on in thousands. The preview shows the full number.
 fn in_three(number: usize) -> String {
     if number < 1000 { number.to_string() } else { format!("{}k", number / 1000) }
 }
@@ -133,14 +133,14 @@ fn draw_exercise(drills: &DrillsPage, exercise: &Exercise, area: Rect, ui: &mut 
     let room = usize::from(area.width.saturating_sub(4));
     let inner = draw_title(shorten(&exercise.title, room, ui.caps), area, ui);
     let Ok(table) = exercise.table() else { return };
-    // The text has the rows that it needs, and the table the others.
+    // The text gets the rows that it needs, and the table the rest.
     let mut paragraphs = about(drills, exercise, &table, ui.theme);
     let width = inner.width.saturating_sub(2).min(READABLE);
     let rows = |paragraphs: &[Paragraph]| {
         let rows: usize = paragraphs.iter().map(|one| wrap(&one.text, usize::from(width)).len()).sum();
         rows as u16
     };
-    // Where there is little room, what adds least goes.
+    // If room is short, the least important paragraphs are dropped.
     while rows(&paragraphs) + TABLE_ROWS > inner.height
         && let Some(least) = paragraphs.iter().rposition(|one| one.is_extra)
     {
@@ -155,11 +155,11 @@ fn draw_exercise(drills: &DrillsPage, exercise: &Exercise, area: Rect, ui: &mut 
 struct Paragraph {
     text: String,
     style: Style,
-    /// Whether it may be left out.
+    /// Whether the paragraph may be left out.
     is_extra: bool,
 }
 
-/// What is to be learnt from an exercise, and how often it is made.
+/// The lesson of an exercise, and the typical and the player's own success rates.
 fn about(drills: &DrillsPage, exercise: &Exercise, table: &Table, theme: &Theme) -> Vec<Paragraph> {
     let mut all = Vec::new();
     let mut add = |text: String, style, is_extra| all.push(Paragraph { text, style, is_extra });
@@ -183,7 +183,7 @@ fn about(drills: &DrillsPage, exercise: &Exercise, table: &Table, theme: &Theme)
         let words = format!("{place}: {} of {}, {rate}{}", score.made, score.tried, best_run(score));
         add(words, theme.good(), false);
     }
-    add(places_words(table, &exercise.layout, CueBall::White, drills.units.place), theme.faint(), true);
+    add(position_words(table, &exercise.layout, CueBall::White, drills.units.place), theme.faint(), true);
     if !exercise.tags.is_empty() {
         let tags: Vec<String> = exercise.tags.iter().map(|tag| format!("#{}", bare_tag(tag))).collect();
         add(tags.join(" "), theme.faint(), true);

@@ -1,4 +1,4 @@
-//! The drill screens: the library, the exercise that is practised, the result of an exam, and the records.
+//! The view of the drill page: library, exercise, exam, records and filmed shots.
 
 mod exam;
 mod exercise;
@@ -31,9 +31,9 @@ use crate::{
     },
 };
 
-/// Most columns of a line that is good to read.
+/// Maximum length of a readable line, columns.
 const READABLE: u16 = 80;
-/// Rows of the small table beside a list, at least.
+/// Minimum height of the small table next to a list, rows.
 const TABLE_ROWS: u16 = 9;
 
 impl PageView for DrillsPage {
@@ -61,20 +61,21 @@ impl PageView for DrillsPage {
         match self.place() {
             DrillContext::Library | DrillContext::Search => library::target(self, area.body, at),
             DrillContext::Films => films::target(self, area.body, at),
-            // The wheel scrolls it, and there is nothing to be marked.
+            // The mouse wheel scrolls the list, but it has no entries to mark.
             DrillContext::Record => area.body.contains(at).then_some(Target::List(None)),
             _ => None,
         }
     }
 }
 
-/// The header of a page whose strokes have the errors of a player, who is named.
+/// Draws the header of a screen, with the player whose errors are simulated.
 fn draw_header(drills: &DrillsPage, title: &str, more: &str, area: Rect, ui: &mut Ui) {
     let player = Span::styled(format!("player: {} ", skill_word(drills.skill())), ui.theme.text());
     ui::draw_header(title, more, &player, area, ui);
 }
 
-/// Draws the balls on as large a table as `rows` of text below leave room for in `area`, and gives the text's place, of these columns.
+/// Draws the balls on the largest table that leaves room for `rows` of text below it in `area`. Returns the area of the text, which is
+/// `width` columns wide.
 fn draw_preview(table: &Table, layout: &Layout, [width, rows]: [u16; 2], area: Rect, ui: &mut Ui) -> Rect {
     let room = Rect { height: area.height.saturating_sub(rows).max(TABLE_ROWS.min(area.height)), ..area };
     draw_table(&TableView::new(table, layout), room, ui);
@@ -83,18 +84,19 @@ fn draw_preview(table: &Table, layout: &Layout, [width, rows]: [u16; 2], area: R
     Rect { x: left, y: outer.bottom(), width, height: area.bottom().saturating_sub(outer.bottom()) }
 }
 
-/// The highest run of an exercise; none where the order of makes and misses is not known.
+/// The high run; `None` if the order of makes and misses is not known.
 fn high_run(record: &Record) -> Option<u32> {
     (record.innings > 0).then_some(record.high_run)
 }
 
-/// The same behind other words.
+/// The high run as an appendix to other words.
 fn best_run(record: &Record) -> String {
     high_run(record).map_or_else(String::new, |run| format!(", best run {run}"))
 }
 
-/// Where the balls lie, the cue ball first, from the lower left corner of the noses: diamonds as layouts are typed, or millimetres.
-fn places_words(table: &Table, layout: &Layout, cue_ball: CueBall, unit: PlaceUnit) -> String {
+/// The positions of the balls, the cue ball first, measured from the lower left corner of the noses: in diamonds, as users type them,
+/// or in millimetres.
+fn position_words(table: &Table, layout: &Layout, cue_ball: CueBall, unit: PlaceUnit) -> String {
     let place = |ball: usize| {
         let at = in_diamonds(table, layout.balls[ball]);
         let along = |diamonds: f64| match unit {
@@ -108,7 +110,7 @@ fn places_words(table: &Table, layout: &Layout, cue_ball: CueBall, unit: PlaceUn
     format!("{what}: {}", places.join("; "))
 }
 
-/// A share as people say it, like `55 %`.
+/// Formats a fraction as a percentage, like `55 %`.
 fn percent_words(share: f64) -> String {
     format!("{} %", words::percent(share))
 }

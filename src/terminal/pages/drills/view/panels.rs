@@ -1,4 +1,4 @@
-//! The panels of the stroke: how it is set, what it meets first, and how it compares with the model shot.
+//! The panels of the stroke: its inputs, its first contact, and the comparison with the model shot.
 
 use ratatui::{layout::Rect, style::Style};
 
@@ -16,7 +16,7 @@ use crate::{
             AimLine, DrillsPage, ModelShotState, Turn, Watched,
             keys::EXERCISE,
             other_table_words,
-            view::{percent_words, places_words},
+            view::{percent_words, position_words},
         },
         shot::Meeting,
         ui::{Ui, columns, draw_lines, draw_title, pair, separator, spell, stroke_rows, wrap_by},
@@ -24,13 +24,14 @@ use crate::{
     },
 };
 
-/// Rows in which the stroke is told in both ways.
+/// Panel height from which on the stroke is shown both as advice and in numbers, rows.
 const ALL_ROWS: u16 = 7;
 
-/// Draws how the stroke is set, or was meant: as advice is told, or `in_numbers` as the keys change it.
+/// Draws the inputs of the current stroke, or of the watched one as it was meant: in the form of the advice, or `in_numbers`, in the
+/// units that the keys change.
 pub fn draw_stroke(turn: &Turn, units: Units, in_numbers: bool, area: Rect, ui: &mut Ui) {
     let cue = turn.watched().map_or_else(|| turn.raised_stroke(), |watched| watched.meant);
-    // In a match there are two sides.
+    // A match has two sides, so "yours" would be ambiguous.
     let title = if turn.session.is_match() { format!("Stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
     let inner = draw_title(title, area, ui);
     if turn.is_coach_thinking() {
@@ -39,18 +40,24 @@ pub fn draw_stroke(turn: &Turn, units: Units, in_numbers: bool, area: Rect, ui: 
     let rows = if in_numbers {
         stroke_rows(&cue, units, turn.table.radius, ui.caps).to_vec()
     } else {
-        told_rows(turn, &cue, units, inner.height >= ALL_ROWS, ui.caps)
+        advice_rows(turn, &cue, units, inner.height >= ALL_ROWS, ui.caps)
     };
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(1), ..inner };
     draw_lines(rows.into_iter().map(|(name, value)| pair(name, 7, value, ui.theme)), text, ui);
 }
 
-/// The aim as the place of the cushion's nose to which the cue points, and the speed in table lengths, as advice tells both; where
-/// there is room for `all` with the numbers below each.
-fn told_rows(turn: &Turn, cue: &CueInputs, units: Units, all: bool, caps: Capabilities) -> Vec<(&'static str, String)> {
+/// The rows of the stroke in the form of the advice: the aim as a point on the cushion's nose, and the speed in table lengths. If there is
+/// room for `all` rows, the numbers follow below each.
+fn advice_rows(
+    turn: &Turn,
+    cue: &CueInputs,
+    units: Units,
+    all: bool,
+    caps: Capabilities,
+) -> Vec<(&'static str, String)> {
     let [(_, degrees), side, height, (_, speed), elevation] = stroke_rows(cue, units, turn.table.radius, caps);
     let aim = aim_words(turn, cue, units);
-    // The narrowest panel has no column for the blank.
+    // The narrowest panel has no room for the blank.
     let aim = if all { aim } else { aim.replace(" mm", "mm") };
     let lengths = table_lengths(&turn.table, cue.speed).map_or_else(|| speed.clone(), lengths_words);
     let mut rows = vec![("aim", aim), ("", degrees), side, height, ("speed", lengths), ("", speed), elevation];
@@ -58,20 +65,20 @@ fn told_rows(turn: &Turn, cue: &CueInputs, units: Units, all: bool, caps: Capabi
     rows
 }
 
-/// The place of the cushion's nose to which the cue points.
+/// The point on the cushion's nose at which the cue points.
 fn aim_words(turn: &Turn, cue: &CueInputs, units: Units) -> String {
     let [ahead, _] = line_of_aim(&turn.table, &turn.layout, cue.phi);
     format!("{} {}", ahead.rail.name(), units.place.words(ahead.diamond, turn.table.diamond(), 2))
 }
 
-/// Draws what the stroke meets first and what is to be learnt; once it was played, how it compares. Below `beside`, the row from which
-/// on the panel to the right is empty, the words run under it to the column `end`.
+/// Draws the stroke's first contact and the lesson of the exercise; after the stroke, the comparison with the model shot. From row
+/// `free_row` on the panel to the right is empty, so the text extends under it to column `end`.
 pub fn draw_task(
     drills: &DrillsPage,
     turn: &Turn,
     aim_line: Option<&AimLine>,
     area: Rect,
-    (beside, end): (u16, u16),
+    (free_row, end): (u16, u16),
     ui: &mut Ui,
 ) {
     let units = drills.units;
@@ -86,11 +93,11 @@ pub fn draw_task(
         let words = model.into_iter().chain(differences(turn, watched, units, ui.caps));
         paragraphs.extend(words.map(|words| (words, ui.theme.text())));
     } else {
-        // The stroke's numbers tell it too: it comes last.
+        // The minimum elevation comes last, because the stroke's numbers contain the elevation too.
         let mut least = None;
         if let Some(aim_line) = aim_line {
             let met = aim_line_words(aim_line, turn.cue_ball, turn.table.diamond(), units);
-            // What the model shot meets stands beside it.
+            // The first contact of the model shot is in the same text, so this one is called "yours".
             let met = if turn.shown_model().is_some() { format!("yours: {met}") } else { met };
             paragraphs.push((met, ui.theme.accent()));
             match least_elevation(&turn.table, &turn.layout, turn.stroke()) {
@@ -103,7 +110,7 @@ pub fn draw_task(
                 }
             }
         }
-        // In a game the balls have gone elsewhere, and what was to be learnt with them.
+        // In a game the balls have moved, so the lesson of the exercise no longer applies.
         let is_elsewhere = turn.session.is_game() && turn.layout != turn.exercise.layout;
         match turn.hint() {
             Some(model_shot) => {
@@ -115,23 +122,23 @@ pub fn draw_task(
         }
         paragraphs.extend(least);
         paragraphs.extend(
-            other_table_words(&turn.exercise.table, &turn.table.name, &drills.of_settings)
+            other_table_words(&turn.exercise.table, &turn.table.name, &drills.settings_table)
                 .map(|words| (words, ui.theme.faint())),
         );
-        // The room is the hint's while that is shown.
+        // A hint needs the room of the positions.
         if turn.hint().is_none() {
-            let places = places_words(&turn.table, &turn.layout, turn.cue_ball, units.place);
+            let places = position_words(&turn.table, &turn.layout, turn.cue_ball, units.place);
             paragraphs.push((places, ui.theme.faint()));
         }
     }
     let narrow = usize::from(area.width.saturating_sub(2));
     let wide = usize::from(end.saturating_sub(area.x + 2)).max(narrow);
-    let full = usize::from(beside.saturating_sub(area.y + 1));
+    let full = usize::from(free_row.saturating_sub(area.y + 1));
     write_pages(title, &paragraphs, turn.text_page, area, |row| if row < full { narrow } else { wide }, ui);
 }
 
-/// Writes `paragraphs` below a title, each row as wide as `width` says; where they have no room, either one behind the other, one page
-/// of them: the title says which and how to turn it, and the last row that it goes on.
+/// Writes `paragraphs` below a title; `width` returns the width of each row. If they do not fit, even as running text, writes one page
+/// of them: then the title shows the page and the key that turns it, and the last row ends in an ellipsis.
 fn write_pages(
     title: String,
     paragraphs: &[(String, Style)],
@@ -164,7 +171,7 @@ fn write_pages(
     }
 }
 
-/// Paragraphs of one style one behind the other, which takes fewer rows.
+/// Joins successive paragraphs of the same style to running text, which takes fewer rows.
 fn joined(paragraphs: &[(String, Style)]) -> Vec<(String, Style)> {
     let mut joined: Vec<(String, Style)> = Vec::new();
     for (words, style) in paragraphs {
@@ -176,7 +183,7 @@ fn joined(paragraphs: &[(String, Style)]) -> Vec<(String, Style)> {
     joined
 }
 
-/// The words of `paragraphs` in rows as wide as `width` says, each paragraph from a new row.
+/// Wraps `paragraphs` into rows, each paragraph on a new row; `width` returns the width of each row.
 fn lines_of(paragraphs: &[(String, Style)], width: impl Fn(usize) -> usize) -> Vec<(String, Style)> {
     let mut lines: Vec<(String, Style)> = Vec::new();
     for (words, style) in paragraphs {
@@ -186,7 +193,7 @@ fn lines_of(paragraphs: &[(String, Style)], width: impl Fn(usize) -> usize) -> V
     lines
 }
 
-/// What the stroke meets first, and how far away.
+/// The first contact of the stroke and its distance.
 fn aim_line_words(aim_line: &AimLine, cue_ball: CueBall, diamond: f64, units: Units) -> String {
     let (in_a_metre, symbol) = units.length.small();
     let way = format!("{} {symbol}", fixed(in_a_metre * aim_line.length(), 0));
@@ -202,13 +209,13 @@ fn aim_line_words(aim_line: &AimLine, cue_ball: CueBall, diamond: f64, units: Un
     }
 }
 
-/// How low the cue can be held, and what it passes over.
+/// The minimum elevation of the cue, and the obstacle that requires it.
 fn least_words(theta: f64, over: Obstacle, cue_ball: CueBall, caps: Capabilities) -> String {
     let degree = caps.pick("°", " deg");
     format!("cue at least {}{degree} up, over the {}", fixed(theta.to_degrees(), 1), obstacle_word(over, cue_ball))
 }
 
-/// What keeps the cue from being held at all.
+/// The obstacle that leaves no room for the cue at all.
 fn no_room_words(obstacle: Obstacle, cue_ball: CueBall) -> String {
     format!("no room for the cue: the {} is in the way", obstacle_word(obstacle, cue_ball))
 }
@@ -220,22 +227,22 @@ fn obstacle_word(obstacle: Obstacle, cue_ball: CueBall) -> String {
     }
 }
 
-/// Whose shot the advice is.
+/// The name of the model shot's source.
 pub const fn advisor(model_shot: &ModelShot) -> &'static str {
     if model_shot.is_own { "model shot" } else { "coach" }
 }
 
-/// How a stroke differs from another one, as a player would say it; nothing where the difference is too small to see or to play.
-fn told(turn: &Turn, stroke: &CueInputs, other: &CueInputs, units: Units) -> Option<String> {
+/// The difference of a stroke from another one in a player's words; `None` if it is too small to see or to play.
+fn difference_words(turn: &Turn, stroke: &CueInputs, other: &CueInputs, units: Units) -> Option<String> {
     let of = |cue| ShotWords::of(&turn.table, &turn.layout, cue).ok();
     let is_seen = !changes(&turn.table, other, stroke, units).is_empty();
-    // What cannot be played has nothing to be compared; playing it says why.
+    // A stroke that cannot be played cannot be compared. Playing it shows the reason.
     let (words, others) = of(stroke).filter(|_| is_seen).zip(of(other))?;
     let parts = words.differences(&others, false, turn.cue_ball, units);
     (!parts.is_empty()).then(|| parts.join(", "))
 }
 
-/// How often the advised stroke is made, and how to strike it.
+/// The success rate of the model shot, and its description.
 fn model_words(turn: &Turn, model_shot: &ModelShot, units: Units) -> String {
     let advice = &model_shot.advice;
     let sentence = model_shot.shot.words.sentence(turn.cue_ball, units);
@@ -243,10 +250,10 @@ fn model_words(turn: &Turn, model_shot: &ModelShot, units: Units) -> String {
     format!("{} makes {made}: {sentence} Cue to {aim}.", advisor(model_shot))
 }
 
-/// The same, and how the stroke that is set differs.
+/// The description of the model shot, and the difference of the current stroke from it.
 fn hint(turn: &Turn, model_shot: &ModelShot, units: Units, caps: Capabilities) -> Vec<String> {
     let differs = || {
-        let yours = told(turn, &turn.raised_stroke(), &model_shot.advice.cue, units);
+        let yours = difference_words(turn, &turn.raised_stroke(), &model_shot.advice.cue, units);
         format!("Yours: {}", yours.unwrap_or_else(|| "the same".to_owned()))
     };
     let yours = (!turn.is_with_coach()).then(differs);
@@ -254,7 +261,7 @@ fn hint(turn: &Turn, model_shot: &ModelShot, units: Units, caps: Capabilities) -
     std::iter::once(model).chain(yours).map(|words| spell(&words, caps)).collect()
 }
 
-/// How often the stroke is made, and the advised one.
+/// The success rates of the player's stroke and of the model shot.
 fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
     let own = watched.chance.map_or_else(|| caps.pick("…", "...").to_owned(), percent_words);
     match &turn.model_shot {
@@ -266,15 +273,16 @@ fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
     }
 }
 
-/// How the stroke that was meant differs from the advised one, and what the player's errors have added to it.
+/// The difference of the meant stroke from the model shot, and the error that the player's hand has added.
 fn differences(turn: &Turn, watched: &Watched, units: Units, caps: Capabilities) -> Vec<String> {
     let Watched { meant, outcome, .. } = watched;
-    let added = told(turn, &outcome.played.stroke, meant, units).unwrap_or_else(|| "hardly any change".to_owned());
+    let added =
+        difference_words(turn, &outcome.played.stroke, meant, units).unwrap_or_else(|| "hardly any change".to_owned());
     if watched.is_by_coach() {
         return vec![spell(&format!("the coach's hand: {added}"), caps)];
     }
     let compared = match &turn.model_shot {
-        ModelShotState::Known(model_shot) => told(turn, meant, &model_shot.advice.cue, units).map_or_else(
+        ModelShotState::Known(model_shot) => difference_words(turn, meant, &model_shot.advice.cue, units).map_or_else(
             || format!("{}: almost the same", advisor(model_shot)),
             |yours| format!("yours, beside the {}: {yours}", advisor(model_shot)),
         ),
@@ -303,7 +311,7 @@ mod tests {
         let table = Table::default();
         let mark = RailPoint { rail: Rail::Left, diamond: 2.04 };
         let places = vec![DVec2::ZERO, DVec2::new(0.5, 0.0)];
-        let aim_line = AimLine { places, meeting: Meeting::Rail(mark.rail, None), cushion: Some(mark) };
+        let aim_line = AimLine { points: places, meeting: Meeting::Rail(mark.rail, None), cushion: Some(mark) };
         let other = Units { tip: TipUnit::Mm, place: PlaceUnit::Mm, length: LengthUnit::Feet };
         let said = |units| aim_line_words(&aim_line, CueBall::White, table.diamond(), units);
         assert_eq!(said(Units::default()), "left rail at 2.0 diamonds, 50 cm");

@@ -1,4 +1,4 @@
-//! Which part of the page of an exercise is for what: the arrangement that leaves the table the most room wins.
+//! Screen layout of an exercise. Of two arrangements the one with the larger table wins.
 
 use ratatui::layout::Rect;
 
@@ -10,32 +10,32 @@ use crate::{
     },
 };
 
-/// Rows of the panels below the table where all of them stand there: a title and seven lines.
+/// Rows of the panels if all of them are below the table: a title and seven lines.
 const BELOW: u16 = 8;
-/// The same where there is a column beside it: a title and four lines.
+/// Rows of the panels below the table if there is a column next to it: a title and four lines.
 const BELOW_BESIDE: u16 = 5;
-/// Columns beside the table: at least, and at most.
+/// Minimum and maximum width of the column next to the table.
 const BESIDE: (u16, u16) = (22, 36);
-/// Columns of the stroke and the tip where all panels stand side by side.
+/// Widths of the stroke, the tip and the hit if all panels are side by side.
 const STROKE_WIDTH: u16 = 22;
 const TIP_WIDTH: u16 = 14;
 const HIT_WIDTH: u16 = 12;
-/// Columns that the score's title needs.
+/// Width that the score's title needs.
 const SCORE_WIDTH: u16 = 30;
 /// Rows of the stroke's numbers with their title, and of the hit below the tip.
 const STROKE_ROWS: u16 = 6;
 const HIT_ROWS: u16 = 4;
-/// Most rows of tip and hit.
+/// Maximum rows of tip and hit together.
 const PRECISION_ROWS: u16 = 13;
-/// Share of the aim's words in the room that they have beside the score.
+/// Fraction (numerator, denominator) of the width of aim and score that the aim gets.
 const AIM: (u16, u16) = (3, 5);
-/// Columns from which on all panels find room side by side.
+/// Screen width from which on all panels fit side by side.
 const ALL_BELOW_WIDTH: u16 = 112;
 
-/// The areas of the page.
+/// The screen areas of an exercise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Panes {
-    /// Rails and cloth are drawn as large as fits in here.
+    /// The table with its rails, drawn as large as fits.
     pub table: Rect,
     /// The numbers of the stroke.
     pub stroke: Rect,
@@ -43,7 +43,7 @@ pub struct Panes {
     pub tip: Rect,
     /// The shooter's view of the first ball.
     pub hit: Rect,
-    /// Where the aim leads, or what came of the stroke.
+    /// The first contact of the stroke, or its result.
     pub aim: Rect,
     /// The score.
     pub score: Rect,
@@ -57,8 +57,8 @@ impl Panes {
         if area.width >= ALL_BELOW_WIDTH && rows(&below) >= rows(&beside) { below } else { beside }
     }
 
-    /// The same with room for a jump from the side, and that room: below the table where panels stand beside it, which takes
-    /// rows from the table, else in the place of the stroke's numbers, the tip and the hit.
+    /// Returns the areas with room for the side view of a jump, and that room. If there is a column of panels next to the table, the
+    /// view takes rows from the table. Otherwise it replaces the stroke's numbers, the tip and the hit.
     pub fn with_side_view(self) -> (Self, Rect) {
         if self.stroke.y >= self.aim.y {
             return (self, self.stroke.union(self.hit));

@@ -1,5 +1,5 @@
-//! The page of records: the score of an exercise or of all, at a real table and here, over time, by sessions, and the skill that it
-//! shows.
+//! The records screen: the score of one or all exercises, at a real table and in the program, its chart over the sessions, the list of
+//! sessions, and the skill estimate.
 
 use std::time::{Duration, UNIX_EPOCH};
 
@@ -28,12 +28,12 @@ use crate::{
     },
 };
 
-/// Columns of the numbers beside the chart, of a hundred, at least and at most.
+/// Width of the numbers next to the chart: percent of the screen, minimum and maximum columns.
 const NUMBERS: (u16, u16, u16) = (40, 38, 56);
-/// Columns of what they are called.
+/// Width of the numbers' names, columns.
 const NAMES: usize = 10;
 
-/// Draws the page; gives what the status line says while there is no news.
+/// Draws the screen. Returns the default text of the status line.
 pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
     let scope = drills.records.scope();
     let title = scope.map_or("all exercises", |name| {
@@ -46,7 +46,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     let parts = parts(&sessions, scope);
     let rows = number_rows(&parts, ui);
     let skill = skill_words(&drills.records.estimate, ui);
-    // The title, the numbers, a blank row, and what is known of the skill.
+    // The title, the numbers, a blank row, and the skill estimate.
     let needed = skill.as_ref().map_or(0, |(words, _)| 2 + rows.len() + wrap(words, usize::from(width) - 1).len());
     let top = Rect { height: (area.height / 2).max(11).max(needed as u16), ..area };
     let [numbers, chart] = split(width, top);
@@ -81,7 +81,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     })
 }
 
-/// What was done at a real table, or here.
+/// The results at one venue: a real table or the program.
 struct Part {
     venue: Venue,
     record: Record,
@@ -89,7 +89,7 @@ struct Part {
     whose: SeriesId,
 }
 
-/// The parts with attempts; the first has the upper curve.
+/// The results at each venue with attempts. The first one has the upper curve.
 fn parts(sessions: &[&Session], scope: Option<&str>) -> Vec<Part> {
     let part = |venue| {
         let sessions: Vec<&Session> = sessions.iter().copied().filter(|session| session.venue == venue).collect();
@@ -103,7 +103,7 @@ fn parts(sessions: &[&Session], scope: Option<&str>) -> Vec<Part> {
     parts
 }
 
-/// The score in numbers, and what they are called; where there are two curves, which of them it is.
+/// The rows of the score in numbers. If there are two curves, each row has the sign of its curve.
 fn number_rows(parts: &[Part], ui: &Ui) -> Vec<Line<'static>> {
     let row = |name: &str, value: String| pair(name, NAMES, value, ui.theme);
     if parts.is_empty() {
@@ -131,7 +131,7 @@ fn number_rows(parts: &[Part], ui: &Ui) -> Vec<Line<'static>> {
     rows
 }
 
-/// What is known of the skill.
+/// The skill estimate in words.
 fn skill_words(estimate: &Estimate, ui: &Ui) -> Option<(String, Style)> {
     match estimate {
         Estimate::Unknown => None,
@@ -157,7 +157,7 @@ fn draw_numbers(
     write_paragraphs(skill.map_or(&[], std::slice::from_ref), rest, ui);
 }
 
-/// The share of points in each session, over the attempts made.
+/// The percentage of made attempts in each session, over the number of attempts.
 fn points(sessions: &[&Session], scope: Option<&str>) -> Vec<Point> {
     let mut before = 0;
     let shares = sessions.iter().filter_map(|session| {
@@ -175,13 +175,13 @@ fn points(sessions: &[&Session], scope: Option<&str>) -> Vec<Point> {
     shares.collect()
 }
 
-/// What stands in place of the sessions where there are none.
+/// The text in place of an empty list of sessions.
 const EMPTY: &str = "A session begins with the first stroke that you play at an exercise, or with the first point or miss that \
                      you note there from a real table.";
 
-/// Columns at which the numbers of a session end.
+/// Right ends of the numbers of a session, columns.
 const ENDS: [(u16, &str); 4] = [(26, "made"), (33, "rate"), (38, "run"), (46, "average")];
-/// Columns at which begins where it was, and what was practised.
+/// First columns of the venue and of the exercise and goal.
 const WHERE: u16 = 48;
 const WHAT: u16 = 54;
 
@@ -214,13 +214,13 @@ fn draw_sessions(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>
     }
 }
 
-/// When a session began, to the minute, UTC; nothing where its file says what no clock can.
+/// The start time of a session, to the minute, UTC; empty if the time in its file is out of range.
 fn started(session: &Session) -> String {
     let time = UNIX_EPOCH.checked_add(Duration::from_secs(session.started));
     time.map_or(String::new(), |time| moment(time).replace('T', " ").chars().take(16).collect())
 }
 
-/// What was practised.
+/// The exercise and goal of a session.
 fn what(session: &Session, scope: Option<&str>) -> String {
     let title = session.exercises.first().map_or("", |exercise| exercise.title.as_str());
     let goal = session.score_words().unwrap_or_else(|| session.goal.words());

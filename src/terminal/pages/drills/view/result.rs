@@ -1,4 +1,4 @@
-//! The result of an exam: every exercise with what came of it, and what the score is worth.
+//! The screen with the result of an exam: each exercise with its outcome, and the score with its grade.
 
 use ratatui::layout::Rect;
 
@@ -13,10 +13,10 @@ use crate::{
     },
 };
 
-/// Columns of the score beside the list, at least.
+/// Minimum width of the score next to the list, columns.
 const SCORE: u16 = 34;
 
-/// Draws the page; gives what the status line says while there is no news.
+/// Draws the screen. Returns the default text of the status line.
 pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut Ui) -> Message {
     let session = &turn.session;
     draw_header(drills, "exam", "", header, ui);

@@ -1,4 +1,4 @@
-//! The panel of what counts: the goal, the points, the runs.
+//! The score panel: the goal, the points, the runs.
 
 use ratatui::{
     layout::Rect,
@@ -15,12 +15,12 @@ use crate::{
     },
 };
 
-/// Draws the panel; gives the first row that is left.
+/// Draws the panel. Returns the first row that is free below it.
 pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) -> u16 {
     let session = turn.settled_session();
     let place = if session.venue == Venue::Table { "Real table: " } else { "Score: " };
     let title = format!("{place}{}", session.goal.words());
-    // The innings of a match are told below.
+    // The innings of a match are listed below.
     let title = title.split(',').next().filter(|_| session.is_match()).unwrap_or(&title).to_owned();
     let inner = draw_title(title, area, ui);
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
@@ -30,7 +30,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) -> u16 {
         lines(&session, &turn.exercise.name).into_iter().map(|words| (words, ui.theme.text())).collect();
     let ever = drills.book.scores_of(&turn.exercise.name);
     let tried: usize = ever.iter().map(|(_, record)| record.tried).sum();
-    // What is still being watched is not counted here either.
+    // A stroke that is still being watched is not counted here either.
     if tried > session.attempts.len() && session.goal != Goal::Exam && !turn.is_open() {
         let scores = ever.iter().map(|(venue, record)| format!("{} {}/{}", venue.word(), record.made, record.tried));
         let words = format!("in all: {}", scores.collect::<Vec<_>>().join(", "));
@@ -39,7 +39,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) -> u16 {
     write_paragraphs(&paragraphs, text, ui)
 }
 
-/// The attempts of an exam or the points of a run, a sign each; gives the first row that is left.
+/// Draws one sign for each attempt of an exam or each point of a run. Returns the first row that is free below them.
 fn draw_marks(session: &Session, area: Rect, ui: &mut Ui) -> u16 {
     let signs = ui.caps.pick(["●", "○", "·"], ["x", "o", "."]);
     let style = [ui.theme.good(), ui.theme.warning(), ui.theme.faint()];
@@ -61,13 +61,13 @@ fn draw_marks(session: &Session, area: Rect, ui: &mut Ui) -> u16 {
     area.y + 1
 }
 
-/// What counts, while this exercise is on the table.
+/// The lines of the score; `exercise` is the name of the one on the table.
 fn lines(session: &Session, exercise: &str) -> Vec<String> {
     let record = session.record();
     let Record { tried, made, .. } = record;
     let mut lines = Vec::new();
     if session.goal == Goal::Exam {
-        // The result of an exercise is looked at before the next one is on the table.
+        // The result of an exercise is shown while that exercise is still on the table.
         let place = session.exercises.iter().position(|each| each.name == exercise);
         let number = place.map_or(tried, |place| place + 1);
         lines.push(format!("exercise {number} of {}: {made} of {tried} made", session.exercises.len()));

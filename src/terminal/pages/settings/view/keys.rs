@@ -1,4 +1,4 @@
-//! What each page of the program can do with its keys, and the marked one in words.
+//! The view of the key bindings: the list of commands with their keys, and the description of the marked one.
 
 use ratatui::{layout::Rect, text::Span};
 
@@ -9,15 +9,15 @@ use crate::terminal::{
     ui::{Ui, draw_title, list::Grouped, shorten, stepper},
 };
 
-/// Columns of the keys.
+/// Width of the keys, columns.
 const KEYS: u16 = 14;
 
-/// The list, by the headings of the help.
+/// The list, grouped by the headings of the help.
 pub fn list(settings: &SettingsPage) -> Grouped<&KeyEntry> {
     Grouped::new(&settings.keys.page().entries, settings.keys.mark, |entry| entry.section.title())
 }
 
-/// Draws the list and the words; gives what the status line says while there is no news.
+/// Draws the list and the description. Returns the default text of the status line.
 pub fn draw(settings: &SettingsPage, area: Rect, words: Rect, ui: &mut Ui) -> &'static str {
     let mut title = vec![Span::styled("Keys ", ui.theme.text())];
     title.extend(stepper(Span::styled(settings.keys.page().name, ui.theme.accent()), true, ui));
@@ -44,7 +44,7 @@ fn draw_entry(settings: &SettingsPage, entry: &KeyEntry, is_marked: bool, area: 
     ui.buffer.set_string(area.x + KEYS, area.y, shorten(entry.words, room, ui.caps), style);
 }
 
-/// The keys that do it now, the user's own first; `None` where none does.
+/// The current keys of a command, the user's own first; `None` if it has none.
 fn keys_of(settings: &SettingsPage, entry: &KeyEntry, caps: Capabilities) -> Option<String> {
     let keys = &settings.settings.keys;
     let text = keys_text(entry.chords.iter().flat_map(|chord| keys.keys_for(*chord)), caps);
@@ -69,19 +69,19 @@ fn draw_words(settings: &SettingsPage, entry: &KeyEntry, area: Rect, ui: &mut Ui
     write_words(paragraphs, inner, ui);
 }
 
-/// What a key does, page by page.
+/// The commands of a key, each with its page.
 fn tell(commands: &[(&str, &str)]) -> String {
     let commands: Vec<String> = commands.iter().map(|(page, what)| format!("{what} ({page})")).collect();
     commands.join("; ")
 }
 
-/// What is asked while a key is to be pressed.
+/// The question for the new key.
 pub fn press(settings: &SettingsPage) -> String {
     let what = settings.keys.marked().map_or("", |entry| entry.words);
-    format!("press the key that is to do this: {what}")
+    format!("press the key that should do this: {what}")
 }
 
-/// What is asked about a key that does something else.
+/// The question about a key that already has another command.
 pub fn taken(settings: &SettingsPage, chord: Chord, caps: Capabilities) -> String {
     let commands = settings.keys.other_commands(chord, &settings.settings.keys);
     format!("{} already does: {}. Use it for this instead?", keys_text([chord], caps), tell(&commands))

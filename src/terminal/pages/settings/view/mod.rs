@@ -1,4 +1,4 @@
-//! The settings' screen: the settings with their values, or the keys; beside them what is marked in words.
+//! The view of the settings page: the list of settings or keys, and the description of the marked entry.
 
 mod keys;
 mod values;
@@ -14,12 +14,12 @@ use crate::terminal::{
     ui::{Message, Ui, below_title, end_of, split, write_paragraphs},
 };
 
-/// Columns of the list, of a hundred, and at most.
+/// Width of the list: percent of the screen, and maximum columns.
 const LIST: (u16, u16) = (54, 70);
-/// Columns of the screen from which on the words on a key stand beside the list; otherwise they have some rows below it.
+/// Screen width from which on the description of a key is next to the list, columns; otherwise it has [`BELOW`] rows below the list.
 const BESIDE: u16 = 100;
 const BELOW: u16 = 7;
-/// Rows from which on paragraphs stand apart.
+/// Panel height from which on there are blank rows between paragraphs.
 const APART: u16 = 10;
 
 impl PageView for SettingsPage {
@@ -53,7 +53,7 @@ impl PageView for SettingsPage {
     }
 }
 
-/// What is asked, as it stands on the status line, without what is typed.
+/// The open question as shown in the status line, without the typed text.
 fn question(settings: &SettingsPage, caps: Capabilities) -> Option<String> {
     match settings.question.as_ref()? {
         Question::Value(typed) => {
@@ -70,7 +70,7 @@ fn question(settings: &SettingsPage, caps: Capabilities) -> Option<String> {
     }
 }
 
-/// The list's part of the page, and that of the words.
+/// The areas of the list and of the description.
 fn halves(page: SettingsContext, area: Rect) -> [Rect; 2] {
     if page == SettingsContext::Keys && area.width < BESIDE {
         let list = Rect { height: area.height.saturating_sub(BELOW), ..area };
@@ -79,7 +79,7 @@ fn halves(page: SettingsContext, area: Rect) -> [Rect; 2] {
     split((area.width * LIST.0 / 100).min(LIST.1), area)
 }
 
-/// Writes the words on what is marked into a panel, with blank rows between the paragraphs where there is room.
+/// Writes the description of the marked entry into a panel, with blank rows between the paragraphs if there is room.
 fn write_words(paragraphs: Vec<(String, Style)>, area: Rect, ui: &mut Ui) {
     let blank = (area.height >= APART).then(|| (String::new(), ui.theme.text()));
     let all: Vec<_> = paragraphs.into_iter().flat_map(|one| blank.clone().into_iter().chain([one])).collect();

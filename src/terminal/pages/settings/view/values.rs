@@ -1,4 +1,4 @@
-//! The settings with their values, by groups, and the marked one in words.
+//! The view of the settings: the list of settings with their values, and the description of the marked one.
 
 use ratatui::{
     layout::Rect,
@@ -12,15 +12,15 @@ use crate::terminal::{
     ui::{Ui, columns, draw_title, list::Grouped, shorten, stepper},
 };
 
-/// Columns of the names.
+/// Width of the names, columns.
 const NAME: u16 = 13;
 
-/// The list, by groups.
+/// The list, grouped.
 pub fn list(settings: &SettingsPage) -> Grouped<&'static Entry> {
     Grouped::new(ENTRIES, settings.mark, |entry| entry.group)
 }
 
-/// Draws the list and the words; gives what the status line says while there is no news.
+/// Draws the list and the description. Returns the default text of the status line.
 pub fn draw(settings: &SettingsPage, area: Rect, words: Rect, ui: &mut Ui) -> &'static str {
     let changed = ENTRIES.iter().filter(|entry| settings.is_changed(entry)).count();
     let of = if changed == 0 { String::new() } else { format!(" {changed} changed") };
@@ -52,7 +52,7 @@ fn draw_entry(settings: &SettingsPage, entry: &Entry, is_marked: bool, area: Rec
     if let Some(other) = settings.other_in_file(entry) {
         let room = usize::from(area.right().saturating_sub(x)).saturating_sub(Line::from(spans.clone()).width());
         let whole = format!(" now; the file has {}", settings.shown(&other));
-        // Where there is no room, the words on the marked setting say the rest.
+        // If this does not fit, the description of the marked setting contains the rest.
         let note = if columns(&whole) <= room { whole } else { " now".to_owned() };
         spans.push(Span::styled(note, ui.theme.warning()));
     }

@@ -1,4 +1,4 @@
-//! The charts of a run, and of the one that it is compared with.
+//! The charts of a watched run and of the run to compare with.
 
 use std::ops::RangeInclusive;
 
@@ -15,7 +15,7 @@ use crate::{
     },
 };
 
-/// Draws those that are chosen.
+/// Draws the chosen charts.
 pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
     let charts = &watch.charts;
     let shots = charts.range(watch.progress());
@@ -62,7 +62,7 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
     }
 }
 
-/// Why a run that has reported something has nothing to show of a quantity.
+/// The reason why a run that has reported something has no values of a quantity; `None` if there is no such reason.
 fn missing(run: &Followed, quantity: Quantity) -> Option<&'static str> {
     let last = run.history.last()?;
     match quantity {
@@ -79,7 +79,7 @@ fn points(run: &Followed, quantity: Quantity, range: &RangeInclusive<f64>) -> Ve
     run.history.points(quantity, range.clone())
 }
 
-/// The key and the quantity. What is measured is no share of successes where the reward says something else.
+/// The title of chart `n`: its key and quantity. The held-out measurement is called a reward if the run's reward is not success or failure.
 fn title(n: usize, watch: &Watch) -> String {
     let quantity = Quantity::ALL[n];
     let name = if quantity == Quantity::HeldOut && !watch.own.is_share() { "held-out reward" } else { quantity.name() };

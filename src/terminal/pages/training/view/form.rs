@@ -1,4 +1,4 @@
-//! The form for a new run.
+//! The view of the form for a new run.
 
 use ratatui::{
     layout::Rect,
@@ -15,11 +15,11 @@ use crate::{
     },
 };
 
-/// Columns of the fields' names, and of their values.
+/// Widths of the fields' names and of their values, columns.
 const NAME: u16 = 14;
 const VALUE: u16 = 20;
 
-/// Draws the form, and below it what it starts.
+/// Draws the form and, below it, the equivalent command line.
 pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
     let form = &training.form;
     for (field, n) in Field::ALL.into_iter().zip(0..) {
@@ -34,7 +34,7 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
         let end = ui.buffer.set_line(x - 2, y, &value, area.right() - x).0;
         let x = (x + VALUE).max(end + 2);
         let room = usize::from(area.right().saturating_sub(x + 1));
-        // The row below is free.
+        // The note can use two rows, since the row below is free.
         for (line, y) in wrap(&note, room).into_iter().take(2).zip(y..) {
             ui.buffer.set_stringn(x, y, line, room, ui.theme.faint());
         }
@@ -50,7 +50,7 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
     draw_lines(lines, Rect { x: inner.x + 3, width: inner.width.saturating_sub(4), ..inner }, ui);
 }
 
-/// The parts of a command in lines of at most `width` columns.
+/// Joins the parts of a command to lines of at most `width` columns.
 fn command_lines(parts: Vec<String>, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for part in parts {
@@ -66,7 +66,7 @@ fn command_lines(parts: Vec<String>, width: usize) -> Vec<String> {
     lines
 }
 
-/// A field's value, and what it means.
+/// A field's value and an explanation of it.
 fn words(form: &Form, field: Field) -> (String, String) {
     match field {
         Field::Agent => {
@@ -112,7 +112,7 @@ fn reward_words(reward: Reward) -> &'static str {
     }
 }
 
-/// What the status line says while there is no news.
+/// The default text of the status line.
 pub fn status_line(training: &TrainingPage) -> String {
     match training.form.field {
         Field::Shots | Field::Seed => {

@@ -1,4 +1,4 @@
-//! The first row of a run's page behind the tabs: its name, how it is, and how far it has come.
+//! A watched run's part of the first screen row, after the tabs: name, condition and progress.
 
 use ratatui::{
     layout::Rect,
@@ -13,9 +13,9 @@ use crate::{
     },
 };
 
-/// Cells of the bar that shows how far the run has come: at least, and at most.
+/// Minimum and maximum width of the progress bar, columns.
 const BAR: (u16, u16) = (6, 40);
-/// Columns of the longest conditions that come often, so that the bar does not jump with each.
+/// Width of the longest frequent conditions, columns, so that the bar keeps its position.
 const CONDITION: usize = 9;
 
 /// Draws the row.
@@ -31,7 +31,7 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
     let words = format!("{:<CONDITION$}", condition.to_string());
     let share = watch.planned().map(|planned| (watch.own.run.shots() as f64 / planned.max(1) as f64).min(1.0));
     let percent = share.map_or("     -".to_owned(), |share| format!("{:>4.0} %", (100.0 * share).floor()));
-    // The condition and the percentage come first: what they leave is the name's, then of what it is, then the bar's.
+    // Condition and percentage have priority. The rest of the row goes to the name, then to the description, then to the bar.
     let fixed = (columns(&words) + percent.len() + 2) as u16;
     let room = area.width.saturating_sub(fixed + 1);
     let mut left =

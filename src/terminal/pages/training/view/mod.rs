@@ -1,4 +1,4 @@
-//! The training screen: the list of runs, the form for a new one, and a run as it learns.
+//! The view of the training page: the list of runs, the form for a new run, and a watched run.
 
 mod charts;
 mod form;
@@ -28,7 +28,7 @@ impl PageView for TrainingPage {
         let status_line = match (self.page(), &self.watch) {
             (TrainingContext::Watch, Some(watch)) => {
                 header::draw(watch, head, ui);
-                // A table has the same shape everywhere, so that nothing jumps when the run's own is known.
+                // All tables have the same shape, so the layout does not change when the run's own table becomes known.
                 let panes = Panes::new(watch.table().unwrap_or(&Table::default()), body);
                 charts::draw(watch, panes.charts, ui);
                 numbers::draw(self, watch, panes.numbers, ui);

@@ -1,4 +1,4 @@
-//! The panel of a run's numbers.
+//! The panel with the numbers of a watched run.
 
 use std::path::Path;
 
@@ -21,9 +21,9 @@ use crate::{
     },
 };
 
-/// Most columns of a name and its value.
+/// Maximum width of a name with its value, columns.
 const WIDE: u16 = 30;
-/// What stands where nothing is known.
+/// Text for an unknown value.
 const UNKNOWN: &str = "-";
 
 /// Draws the panel.
@@ -40,7 +40,7 @@ pub fn draw(training: &TrainingPage, watch: &Watch, area: Rect, ui: &mut Ui) {
     let inner = draw_legend(watch, inner, ui);
     let mut columns = columns(watch);
     if !watch.is_at_work() {
-        // What is not known now will not be.
+        // The run has ended, so unknown values stay unknown.
         for rows in &mut columns {
             rows.retain(|(_, value)| value != UNKNOWN);
         }
@@ -48,7 +48,7 @@ pub fn draw(training: &TrainingPage, watch: &Watch, area: Rect, ui: &mut Ui) {
     let [left, right] = columns;
     let width = (inner.width.saturating_sub(3) / 2).min(WIDE);
     let lines = left.len().max(right.len());
-    // Air above, where there is some.
+    // A blank row above, if there is room.
     let top = inner.y + u16::from(usize::from(inner.height) > lines + 2);
     for (rows, x) in [(left, inner.x + 1), (right, inner.x + width + 3)] {
         for ((name, value), y) in rows.into_iter().zip(top..inner.bottom()) {
@@ -58,7 +58,7 @@ pub fn draw(training: &TrainingPage, watch: &Watch, area: Rect, ui: &mut Ui) {
     }
 }
 
-/// Whose curve is which, and how far the run is that this one is compared with; gives the rest of the panel.
+/// Draws the legend of a comparison: the sign of each run's curve, and the progress of the other run. Returns the rest of the panel.
 fn draw_legend(watch: &Watch, area: Rect, ui: &mut Ui) -> Rect {
     let Some(other) = &watch.other else { return area };
     let named = |whose, named: &Named| {
@@ -69,7 +69,7 @@ fn draw_legend(watch: &Watch, area: Rect, ui: &mut Ui) -> Rect {
     let far = format!(
         "{} {} after {} shots",
         measured(other),
-        known(other.run.held_out(), |value| format!("{value:.3}")),
+        or_unknown(other.run.held_out(), |value| format!("{value:.3}")),
         count(other.run.shots())
     );
     let far = Line::styled(format!("   {far}"), ui.theme.text());
@@ -79,15 +79,15 @@ fn draw_legend(watch: &Watch, area: Rect, ui: &mut Ui) -> Rect {
     Rect { y: area.y + rows, height: area.height - rows, ..area }
 }
 
-/// What the held-out layouts measure.
+/// Name of the quantity that is measured on the held-out layouts.
 fn measured(run: &Named) -> &'static str {
     if run.is_share() { "success" } else { "reward" }
 }
 
 type Row = (&'static str, String);
 
-/// Names and values: how far the run is and how fast it goes, and what it has learnt with what. In either the most
-/// important come first, for not all find room everywhere.
+/// Two columns of names and values: progress and speed, then results and settings. In both the most important come first, because
+/// small screens have no room for all.
 fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     let run = &watch.own.run;
     let (status, last) = (run.status.as_ref(), run.history.last());
@@ -96,7 +96,7 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     let updates = status.map(|status| status.updates).or(last.map(|record| record.updates));
     // Only a run that is training has a speed.
     let working = status.filter(|_| watch.is_at_work());
-    let speed = |value: Option<f64>| known(value.filter(|value| value.is_finite()), |value| count(value as u64));
+    let speed = |value: Option<f64>| or_unknown(value.filter(|value| value.is_finite()), |value| count(value as u64));
     let is_going_on = matches!(watch.condition(), Condition::Is(Phase::Training | Phase::Measuring));
     let left = run.time_left().filter(|_| is_going_on);
     let exploration = status.map(|status| status.exploration).or(last.and_then(|record| record.exploration));
@@ -104,13 +104,13 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     let three = |value: f64| format!("{value:.3}");
     let config = run.config.as_ref();
     let held_out = run.held_out();
-    let mut learnt = vec![(measured(&watch.own), known(held_out, three)), ("best", known(run.best(), three))];
+    let mut learnt = vec![(measured(&watch.own), or_unknown(held_out, three)), ("best", or_unknown(run.best(), three))];
     if watch.own.is_share() {
         learnt.insert(
             1,
             (
                 "95 % within",
-                known(held_out.zip(config), |(rate, config)| {
+                or_unknown(held_out.zip(config), |(rate, config)| {
                     let layouts = config.schedule.evaluation_layouts;
                     let SuccessRate { low, high, .. } =
                         SuccessRate::new((rate * layouts as f64).round() as usize, layouts);
@@ -120,11 +120,11 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
         );
     }
     learnt.extend([
-        ("exploration", known(exploration, three)),
-        ("replay filled", known(replay_fill, |share| format!("{:.0} %", 100.0 * share))),
-        ("learning rate", known(last, |record| rate(record.learning_rate))),
-        ("updates", known(updates, count)),
-        ("seed", known(config, |config| config.plan.seed.to_string())),
+        ("exploration", or_unknown(exploration, three)),
+        ("replay filled", or_unknown(replay_fill, |share| format!("{:.0} %", 100.0 * share))),
+        ("learning rate", or_unknown(last, |record| rate(record.learning_rate))),
+        ("updates", or_unknown(updates, count)),
+        ("seed", or_unknown(config, |config| config.plan.seed.to_string())),
     ]);
     if let Some(config) = config {
         learnt.extend([
@@ -136,25 +136,25 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     [
         vec![
             ("shots", count(shots)),
-            ("planned", known(watch.planned(), count)),
-            ("trained for", known(seconds, time_words)),
-            ("time left", known(left, |left| time_words(left.as_secs_f64()))),
+            ("planned", or_unknown(watch.planned(), count)),
+            ("trained for", or_unknown(seconds, time_words)),
+            ("time left", or_unknown(left, |left| time_words(left.as_secs_f64()))),
             ("shots/s", speed(working.map(|status| status.shots_per_second))),
             ("updates/s", speed(working.map(|status| status.updates_per_second))),
-            ("measured every", known(config, |config| count(config.schedule.evaluate_every))),
-            ("layouts", known(config, |config| count(config.schedule.evaluation_layouts as u64))),
-            ("started", known(config, |config| config.started.replace('T', " ").replace('Z', ""))),
-            ("carom", known(config, |config| config.version.clone())),
+            ("measured every", or_unknown(config, |config| count(config.schedule.evaluate_every))),
+            ("layouts", or_unknown(config, |config| count(config.schedule.evaluation_layouts as u64))),
+            ("started", or_unknown(config, |config| config.started.replace('T', " ").replace('Z', ""))),
+            ("carom", or_unknown(config, |config| config.version.clone())),
         ],
         learnt,
     ]
 }
 
-/// A learning rate in as few digits as say something.
+/// Formats a learning rate with two significant digits.
 fn rate(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
 }
 
-fn known<T>(value: Option<T>, words: impl FnOnce(T) -> String) -> String {
+fn or_unknown<T>(value: Option<T>, words: impl FnOnce(T) -> String) -> String {
     value.map_or_else(|| UNKNOWN.to_owned(), words)
 }

@@ -1,4 +1,4 @@
-//! Which part of the page of a run is for what: charts above, numbers and the replay below.
+//! Screen layout of a watched run: charts above, numbers and the replay below.
 
 use ratatui::layout::Rect;
 
@@ -9,25 +9,25 @@ use crate::{
 
 /// Rows below the charts on the smallest screen: a title and eight lines.
 const BELOW: u16 = 9;
-/// Rows of the smallest screen for charts and what is below.
+/// Rows of the smallest screen for the charts and the panels below.
 const SMALLEST: u16 = 21;
-/// Columns of the numbers, at least and at most.
+/// Minimum and maximum width of the numbers, columns.
 const NUMBERS: (u16, u16) = (44, 72);
-/// Columns from which on another chart beside finds room.
+/// Minimum width of a chart if several are side by side, columns.
 const LEAST_CHART: u16 = 26;
-/// How many times as many columns as rows a chart has at its best.
+/// Ideal ratio of a chart's columns to its rows.
 const BEST_ASPECT: f64 = 5.0;
-/// What a chart that is missing in the last row counts against that.
+/// Penalty for each chart that is missing in the last row, compared with the logarithm of the deviation from [`BEST_ASPECT`].
 const UNEVEN: f64 = 0.3;
 
-/// The areas of the page.
+/// The screen areas of a watched run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Panes {
     /// The charts.
     pub charts: Rect,
     /// The numbers.
     pub numbers: Rect,
-    /// The small table, with its title.
+    /// The small table with its title.
     pub replay: Rect,
 }
 
@@ -46,8 +46,8 @@ impl Panes {
     }
 }
 
-/// The areas of so many charts in `area`, in rows of equal height, and which of them are in the last row. That has a row
-/// more, for the numbers of shots.
+/// Divides `area` into `count` charts in rows of equal height, and tells for each whether it is in the last row. That row is one line
+/// higher, for the numbers of shots on the axis.
 pub fn grid(count: usize, area: Rect) -> Vec<(Rect, bool)> {
     let count = count.min(usize::from(u16::MAX)) as u16;
     if count == 0 || area.is_empty() {
@@ -55,13 +55,13 @@ pub fn grid(count: usize, area: Rect) -> Vec<(Rect, bool)> {
     }
     let plots = area.height.saturating_sub(1);
     let rows_of = |columns: u16| count.div_ceil(columns);
-    let off = |columns: u16| {
+    let penalty = |columns: u16| {
         let (width, height) = (area.width / columns, (plots / rows_of(columns)).max(1));
         let lone = columns * rows_of(columns) - count;
         (f64::from(width) / f64::from(height) / BEST_ASPECT).ln().abs() + UNEVEN * f64::from(lone)
     };
     let fits = |columns: &u16| *columns == 1 || area.width / columns >= LEAST_CHART;
-    let columns = (1..=count).filter(fits).min_by(|&one, &other| off(one).total_cmp(&off(other))).unwrap_or(1);
+    let columns = (1..=count).filter(fits).min_by(|&one, &other| penalty(one).total_cmp(&penalty(other))).unwrap_or(1);
     let rows = rows_of(columns);
     let mut all = Vec::new();
     for row in 0..rows {
@@ -72,7 +72,7 @@ pub fn grid(count: usize, area: Rect) -> Vec<(Rect, bool)> {
         for column in 0..charts {
             let edge = |n: u16| (u32::from(area.width) * u32::from(n) / u32::from(charts)) as u16;
             let (left, right) = (edge(column), edge(column + 1));
-            // A blank column keeps neighbours apart.
+            // There is a blank column between neighbours.
             let gap = u16::from(column + 1 < charts);
             let width = (right - left).saturating_sub(gap);
             all.push((Rect::new(area.x + left, area.y + top, width, height), is_last));

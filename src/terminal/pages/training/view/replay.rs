@@ -1,4 +1,4 @@
-//! The small table, on which a run's latest shots are replayed.
+//! The small table that replays a run's latest shots.
 
 use ratatui::{
     layout::Rect,

@@ -1,4 +1,4 @@
-//! The list of runs.
+//! The view of the list of runs.
 
 use ratatui::{
     buffer::Buffer,
@@ -17,14 +17,14 @@ use crate::{
     },
 };
 
-/// Blanks between two columns.
+/// Number of blanks between two columns.
 const GAP: usize = 2;
 
 /// A column of the list.
 struct Column {
     heading: &'static str,
     is_number: bool,
-    /// The columns with the largest ones go first where there is no room for all.
+    /// Rank for leaving columns out if there is no room: the largest is dropped first, and 0 is never dropped.
     dispensable: u8,
     text: fn(&Summary) -> String,
 }
@@ -42,7 +42,7 @@ const COLUMNS: [Column; 9] = [
 ];
 
 fn percent(run: &Summary) -> String {
-    // The last turn goes a little beyond the plan.
+    // The last iteration of a run may exceed the plan by a few shots.
     format!("{:.0}", (100.0 * run.shots as f64 / run.planned_shots.max(1) as f64).min(100.0).floor())
 }
 
@@ -50,7 +50,7 @@ fn reward(value: Option<f64>) -> String {
     value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"))
 }
 
-/// Draws the list and, below it, more of the marked run.
+/// Draws the list and, below it, details of the marked run.
 pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
     let (runs, mark) = (training.list.runs(), training.list.mark());
     if runs.is_empty() {
@@ -63,11 +63,11 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
             cells.chain([column.heading.len()]).max().unwrap_or(0)
         })
         .collect();
-    let shown = kept(&widths, usize::from(area.width).saturating_sub(3));
+    let shown = fitting_columns(&widths, usize::from(area.width).saturating_sub(3));
     let mut x = area.x + 3;
     let mut places = Vec::new();
     for column in shown {
-        // A name that is too long for all is cut.
+        // A name that is too long even alone is cut.
         let width = (widths[column] as u16).min(area.right().saturating_sub(x));
         places.push((&COLUMNS[column], x, width));
         x = (x + width + GAP as u16).min(area.right());
@@ -96,20 +96,20 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
     draw_marked(training, &runs[mark], mark, Rect { y: area.bottom() - 3, height: 3, ..area }, ui);
 }
 
-/// The part of the runs: above it are a blank row and the headings, below it the details of the marked run.
+/// The area of the list's rows. Above it are a blank row and the headings, below it the details of the marked run.
 fn rows(area: Rect) -> Rect {
     Rect { y: area.y + 2, height: area.height.saturating_sub(6), ..area }
 }
 
-/// What the mouse points at.
+/// The mouse target at `at`.
 pub fn target(training: &TrainingPage, area: Rect, at: Position) -> Option<Target> {
     let runs = &training.list;
     let line = list::line_at(runs.mark(), runs.runs().len(), rows(area), at.y);
     area.contains(at).then(|| Target::list(line, runs.mark()))
 }
 
-/// The columns that fit into `room`.
-fn kept(widths: &[usize], room: usize) -> Vec<usize> {
+/// The indices of the columns that fit into a width of `room`.
+fn fitting_columns(widths: &[usize], room: usize) -> Vec<usize> {
     let mut kept: Vec<usize> = (0..COLUMNS.len()).collect();
     while kept.iter().map(|&n| widths[n] + GAP).sum::<usize>() > room + GAP {
         match kept.iter().copied().filter(|&n| COLUMNS[n].dispensable > 0).max_by_key(|&n| COLUMNS[n].dispensable) {
@@ -134,15 +134,15 @@ fn draw_marked(training: &TrainingPage, run: &Summary, mark: usize, area: Rect, 
             count(run.shots),
             count(run.planned_shots)
         ),
-        format!("started {}, last written {}", people(&run.started), people(&run.changed)),
+        format!("started {}, last written {}", readable_time(&run.started), readable_time(&run.changed)),
     ];
     for (line, y) in lines.iter().zip(inner.y..inner.bottom()) {
         ui.buffer.set_stringn(inner.x + 2, y, line, usize::from(inner.width.saturating_sub(3)), ui.theme.text());
     }
 }
 
-/// `2026-11-20T14:30:05Z` as people write it.
-fn people(moment: &str) -> String {
+/// Formats a time like `2026-11-20T14:30:05Z` for reading: `2026-11-20 14:30:05 UTC`.
+fn readable_time(moment: &str) -> String {
     moment.replace('T', " ").replace('Z', " UTC")
 }
 
@@ -153,7 +153,7 @@ fn draw_empty(training: &TrainingPage, area: Rect, ui: &mut Ui) {
         Some(_) => &["The runs cannot be listed."],
         None if list.known.is_none() => &["Looking for runs"],
         None if training.page() == TrainingContext::Compare => &["There is no run to compare with."],
-        // A run that was named lies in a folder of its own.
+        // On its own, this page may list another folder than the user's runs.
         None if training.alone => &[&nothing_in],
         None => &[
             "No agent has been trained here yet.",
@@ -167,7 +167,7 @@ fn draw_empty(training: &TrainingPage, area: Rect, ui: &mut Ui) {
     }
 }
 
-/// What the status line says while there is no news.
+/// The default text of the status line.
 pub fn status_line(training: &TrainingPage) -> Message {
     let list = &training.list;
     if let Some(sentence) = &list.trouble {
