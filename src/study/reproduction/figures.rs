@@ -200,12 +200,13 @@ const fn changed(name: &'static str, color: RGBColor, change: Change) -> Reading
 }
 
 /// Noise on DDPG's actions: 0.03, which the thesis' source uses when an episode is one shot, 0.1, and 0.1 decaying; then 0.03
-/// again in relative coordinates.
-const NOISES: [Reading; 4] = [
+/// again in the canonical frame and in relative coordinates.
+const NOISES: [Reading; 5] = [
     changed("0.03", CRIMSON, Change::None),
     changed("0.1", AZURE, Change::StrongNoise),
     changed("0.1 falling to 0.005", FOREST, Change::FallingNoise),
-    changed("0.03 in relative coordinates", VIOLET, Change::Relative),
+    changed("0.03 in the canonical frame", VIOLET, Change::Canonical),
+    changed("0.03 in relative coordinates", INK, Change::Relative),
 ];
 
 /// The thesis' future work: the thesis' agent, without the relative coordinates of the others; neither extension; each alone; both.

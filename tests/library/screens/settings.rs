@@ -30,7 +30,7 @@ fn every_setting_is_listed_with_its_value_and_the_marked_one_in_words() {
     let skill = player.press("Down Down Down Down Down");
     skill.shows(&["2 changed", "Who plays: the errors that the", "standard errors in mm"]);
     let speed = with(NO_COLOUR, "speed = 2.0\n").press("End Up Up Up Up");
-    speed.is_plain().shows(&["1 changed", "How fast shots are played", "Accepted: 0.1, 0.25, 0.5, 1, 2, 4"]);
+    speed.is_plain().shows(&["1 changed", "Playback speed of shots", "Accepted: 0.1, 0.25, 0.5, 1, 2, 4"]);
     with(ASCII, "speed = 2.0\n").is_plain().shows(&["> theme", "Colours of the screen."]);
     let large = new().text(200, 60);
     assert!(
@@ -90,7 +90,7 @@ fn tables_of_ones_own_are_stepped_through_and_typed_by_their_names() {
         fs::write(tables.join(format!("{name}.toml")), text).unwrap();
     }
     let player = Player::in_folder(TRUE_COLOUR, folder).press("F5 Down Down Down Left");
-    player.shows(&["◂ club ▸", "own: cellar, club."]);
+    player.shows(&["◂ club ▸", "cellar, club."]);
     assert_eq!(player.app.coach.table().name, "club");
     let mut player = player.press("Left");
     assert_eq!(player.app.coach.table().name, "cellar");
