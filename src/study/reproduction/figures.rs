@@ -140,6 +140,8 @@ pub enum Change {
     StrongNoise,
     /// The same noise, decaying to a twentieth.
     FallingNoise,
+    /// The agent sees layouts in their canonical frame.
+    Canonical,
     /// The agent sees layouts in relative coordinates.
     Relative,
     /// The same, and learning from shots that score a point in addition to the agent's own shots (thesis 6.1.1 and 6.1.2).
@@ -159,6 +161,7 @@ impl Change {
             Self::None => json!({}),
             Self::StrongNoise => json!({ "noise": noise }),
             Self::FallingNoise => json!({ "noise": noise, "noise_falls_to": 0.05, "falls_over": shots }),
+            Self::Canonical => json!({ "canonical": true }),
             Self::Relative => json!({ "relative": true }),
             Self::Lessons { hindsight, demonstrations } => json!({
                 "hindsight": hindsight,
