@@ -7,8 +7,8 @@ use std::{
 
 use super::{
     Failure,
-    input::{seed, table_named, whole},
-    output::{check_place, plural, print_note},
+    input::{seed, table_by_name, whole_number},
+    output::{check_writable, plural, print_note},
 };
 use crate::{
     printing::{self, ProgressLine},
@@ -29,7 +29,7 @@ pub struct Args {
     #[arg(long)]
     quick: bool,
     /// Number of random shots on each table. Default: 1000, or 96 with --quick; with --stability 100000, or 10000 with --quick
-    #[arg(long, value_parser = whole(1..=1_000_000_000_u32))]
+    #[arg(long, value_parser = whole_number(1..=1_000_000_000_u32))]
     shots: Option<u32>,
     /// Seed of the shots. Default: 2026, or 1 for the stability table
     #[arg(long, value_parser = seed)]
@@ -76,7 +76,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         } else {
             "accuracy.csv"
         };
-        check_place(folder, &folder.join(first))?;
+        check_writable(folder, &folder.join(first))?;
     }
     if args.filmed {
         return if args.fit { fit_film(args) } else { replay_film(args) };
@@ -91,7 +91,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             "--shots {shots} is more than can be studied; accepted are 1 to {MOST_STUDIED}, and more with --stability"
         )));
     }
-    let tables = args.table.as_ref().map_or_else(default_tables, |name| table_named(name).map(with_flights))?;
+    let tables = args.table.as_ref().map_or_else(default_tables, |name| table_by_name(name).map(with_flights))?;
     let references = study::check_references();
     let measured = tables.into_iter().map(|(table, steepest)| measure(args, table, steepest));
     let studies = measured.collect::<Result<Vec<_>, _>>()?;
@@ -125,7 +125,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// Returns the table called `name` if it has the size of the filmed one.
 fn filmed_table(name: &str) -> Result<Table, Failure> {
-    let table = table_named(name)?;
+    let table = table_by_name(name)?;
     filmed::check_size(&table).map_err(Failure::wrong_input)?;
     Ok(table)
 }
@@ -212,7 +212,7 @@ fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
 
 /// Returns the default tables: two with ordinary strokes, and one with steep strokes that make balls fly.
 fn default_tables() -> Result<Vec<(Table, Steepest)>, Failure> {
-    let flat = JUDGED.into_iter().map(|name| Ok((table_named(name)?, Steepest::USUAL)));
+    let flat = JUDGED.into_iter().map(|name| Ok((table_by_name(name)?, Steepest::USUAL)));
     flat.chain([Ok((Table::default(), Steepest::FLIGHTS))]).collect()
 }
 

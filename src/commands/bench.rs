@@ -73,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn thousands_are_set_apart() {
+    fn thousands_are_separated() {
         assert_eq!(
             [grouped(7.2), grouped(812.0), grouped(1234.4), grouped(1_234_567.0)],
             ["7", "812", "1 234", "1 234 567"]

@@ -94,7 +94,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_refusal_names_is_never_less_than_what_is_accepted() {
+    fn the_step_named_in_a_refusal_is_accepted() {
         for (value, said) in
             [(3.04e-5, 3.1e-5), (9.91e-5, 1e-4), (3e-7, 3e-7), (1.0, 1.0), (99.5, 100.0), (0.123, 0.13)]
         {

@@ -110,7 +110,7 @@ impl Cli {
             match said.and_then(|()| printing::stdout().flush()) {
                 Err(error) if code == 0 => error.into(),
                 // The error output may be closed, too; the exit code still reports the error.
-                _ => Failure::said(code),
+                _ => Failure::silent(code),
             }
         })
     }
@@ -147,15 +147,15 @@ impl Cli {
         }
         let seat = self.seat()?;
         // The operator of the machine chose the table on the command line, so it is read before a guest is confined to their folder.
-        let named = self.table.as_deref().map(input::table_named).transpose()?;
+        let named = self.table.as_deref().map(input::table_by_name).transpose()?;
         seat.take(None).map_err(|error| {
-            let folder = seat.places.own.display();
+            let folder = seat.places.root.display();
             Failure::failed(format_args!("the player's folder {folder} cannot be made: {error}"))
         })?;
         let path = &seat.places.settings;
         let (settings, complaints) = Settings::load(path);
         let settings = seat.allowed(settings);
-        let table = named.map_or_else(|| input::table_named(&settings.table), Ok)?;
+        let table = named.map_or_else(|| input::table_by_name(&settings.table), Ok)?;
         if self.plain {
             if let Some(news) = notice(&seat.places) {
                 print_note(format_args!("note: {news}"));

@@ -137,7 +137,7 @@ mod tests {
     };
 
     #[test]
-    fn a_request_that_lacks_something_is_told_what_all_need() {
+    fn incomplete_requests_are_refused_with_the_required_keys() {
         #[derive(Debug, serde::Deserialize)]
         struct Line {
             #[serde(rename = "preset")]

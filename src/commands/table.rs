@@ -6,12 +6,12 @@ use clap::Subcommand;
 
 use super::{
     Failure,
-    input::{table_in, table_named},
+    input::{load_table, table_by_name},
     output::print_note,
 };
 use crate::{
     printing,
-    storage::Places,
+    storage::DataPaths,
     table::{PRESETS, Table},
 };
 
@@ -47,7 +47,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     match args.command.as_ref().unwrap_or(&TableCommand::List) {
         TableCommand::List => {
             let bundled = PRESETS.iter().map(|name| Table::preset(name).map_err(Failure::failed));
-            let own = Places::of_this_user().own_tables();
+            let own = DataPaths::of_this_user().own_tables();
             // Listed by file name, because tables are looked up by that.
             let named = |file: &PathBuf| {
                 let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -57,7 +57,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
                         file.display()
                     )));
                 }
-                table_in(file).map(|table| Table { name, ..table })
+                load_table(file).map(|table| Table { name, ..table })
             };
             for table in bundled.chain(own.iter().map(named)) {
                 let table = match table {
@@ -75,7 +75,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             }
         }
         TableCommand::Show { table } => {
-            let table = table_named(table)?;
+            let table = table_by_name(table)?;
             if args.json {
                 printing::json_line(&mut out, &table)?;
             } else {
@@ -83,7 +83,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             }
         }
         TableCommand::Check { file } => {
-            let table = table_in(file)?;
+            let table = load_table(file)?;
             if args.json {
                 printing::json_line(&mut out, &table)?;
             } else {

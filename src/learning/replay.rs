@@ -69,7 +69,7 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
-    fn the_oldest_shots_make_room_for_the_newest() {
+    fn new_shots_replace_the_oldest() {
         let mut buffer = ReplayBuffer::new(3);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
         assert!(buffer.sample(5, &mut rng).is_empty());

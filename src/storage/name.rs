@@ -22,7 +22,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_rule_in_words_is_the_rule() {
+    fn the_rule_text_matches_the_check() {
         assert!(NAME_RULE.starts_with(&format!("1 to {LONGEST_NAME} letters")));
         let longest = "x".repeat(LONGEST_NAME);
         for name in ["a", "0.-_", "größe", &*longest, &"ö".repeat(LONGEST_NAME / 2)] {

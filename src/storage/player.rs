@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_hostile_name_is_refused_with_what_would_be_accepted() {
+    fn hostile_names_are_refused_with_the_accepted_form() {
         for name in [
             "",
             ".",

@@ -172,7 +172,7 @@ fn updates_a_second<T>(
     time: Duration,
     mut update: impl FnMut() -> candle_core::Result<T> + Send,
 ) -> candle_core::Result<f64> {
-    parallel::alone(|| {
+    parallel::on_one_thread(|| {
         let start = Instant::now();
         let mut done = 0_u64;
         let (worked, seconds) = timed(|| {
@@ -203,7 +203,7 @@ fn thesis_updates(
             action: std::array::from_fn(|_| number()),
             index: 0,
             reward: number(),
-            goes_on,
+            continues: goes_on,
             next: std::array::from_fn(|_| number()),
         })
         .collect();

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     commands::{
         Failure,
-        output::{ask, print_note, refused_lines_result},
+        output::{print_note, prompt_line, refused_lines_result},
     },
     drills::{Session, Store},
 };
@@ -44,7 +44,7 @@ pub fn play(
             Strokes::Same(stroke) => Ok(stroke),
             _ if !is_line => Ok(StrokeInput::Coach),
             _ => {
-                let Some(text) = ask("shot in words, a,b,theta,phi,V, or coach: ")? else { break };
+                let Some(text) = prompt_line("shot in words, a,b,theta,phi,V, or coach: ")? else { break };
                 lines += 1;
                 if text.as_ref().is_ok_and(String::is_empty) {
                     continue;

@@ -5,7 +5,7 @@ use crate::{
     commands::{Failure, lookup::own_skill, output::print_note},
     drills::{Exercise, Library, LibraryError, Session, Store},
     printing::OneLine,
-    storage::{self, Places},
+    storage::{self, DataPaths},
 };
 
 /// The user's store, and the library with the user's own positions.
@@ -17,9 +17,9 @@ pub struct Workspace {
 impl Workspace {
     /// Opens the store and reads the library. Unreadable files are reported on the standard error.
     pub fn open() -> Self {
-        let places = Places::of_this_user();
-        note(storage::notice(&places).map(str::to_owned).as_slice());
-        let store = Store::new(&places);
+        let paths = DataPaths::of_this_user();
+        note(storage::notice(&paths).map(str::to_owned).as_slice());
+        let store = Store::new(&paths);
         let (library, notes) = store.library();
         note(&notes);
         Self { store, library }

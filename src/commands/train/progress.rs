@@ -35,7 +35,7 @@ impl Progress {
     pub fn new(run: &Run, json: bool, seed: Option<u64>) -> Self {
         let learner = run.learner();
         let plan = learner.plan();
-        let bar = if seed.is_none() && printing::is_watched() && !learner.is_finished() {
+        let bar = if seed.is_none() && printing::is_stderr_terminal() && !learner.is_finished() {
             ProgressBar::new(plan.shots)
         } else {
             ProgressBar::hidden()
@@ -83,7 +83,7 @@ fn summary(record: &Record) -> Option<String> {
 }
 
 impl Watcher for Progress {
-    fn line(&mut self, record: &Record) {
+    fn on_record(&mut self, record: &Record) {
         if self.json
             && let Ok(line) = printing::json_text(&Line { seed: self.seed, record })
         {
@@ -99,7 +99,7 @@ impl Watcher for Progress {
         }
     }
 
-    fn warn(&mut self, sentence: &str) {
+    fn on_warning(&mut self, sentence: &str) {
         let whose = self.seed.map(|seed| format!("seed {seed}: ")).unwrap_or_default();
         self.bar.suspend(|| print_note(format_args!("warning: {whose}{sentence}")));
     }

@@ -141,7 +141,7 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
-    fn the_cue_ball_always_lies_on_the_right_and_distances_stay() {
+    fn observations_are_mirrored_and_keep_distances() {
         let table = Table::default();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
         for _ in 0..100 {

@@ -182,7 +182,7 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
-    fn each_observation_is_paired_with_its_own_actions_and_gradients_reach_them() {
+    fn observations_are_joined_with_their_own_actions() {
         let table = Arc::new(Table::default());
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(10);
         let layout = crate::table::Layout::random(&table, &mut rng);

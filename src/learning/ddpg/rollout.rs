@@ -173,7 +173,7 @@ impl Trainer {
         let scenes: Vec<Scene> = (0..calibrated)
             .map(|number| {
                 let conditions = self.tables.draw(perfect, &mut rng);
-                let conditions = if number % 2 == 0 { conditions.at_home() } else { conditions };
+                let conditions = if number % 2 == 0 { conditions.on_own_table() } else { conditions };
                 (Layout::random(self.tables.table(conditions), &mut rng), conditions)
             })
             .collect();

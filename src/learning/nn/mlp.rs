@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn outputs_and_gradients_agree_with_candles_own_operations() {
+    fn outputs_and_gradients_agree_with_candle() {
         let (mlp, inputs) = network_and_inputs();
         let fused = mlp.forward(&inputs).unwrap();
         let plain = mlp.clone().with(Operations::Plain).forward(&inputs).unwrap();
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn more_inputs_change_nothing_until_their_weights_are_learnt() {
+    fn added_inputs_start_without_effect() {
         let (mlp, inputs) = network_and_inputs();
         let wide = mlp.duplicate().unwrap().with_more_inputs(2, 4).unwrap();
         assert_eq!(wide.sizes(), [9, 33, 17, 3]);
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_frozen_network_lets_gradients_through_to_its_inputs_alone() {
+    fn frozen_networks_pass_gradients_only_to_inputs() {
         for operations in [Operations::Fused, Operations::Plain] {
             let (mlp, inputs) = network_and_inputs();
             let mlp = mlp.with(operations);

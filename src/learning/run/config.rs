@@ -112,7 +112,7 @@ impl Config {
     /// # Errors
     /// Fails if the file is missing or is not a configuration.
     pub fn read(folder: &Path) -> std::io::Result<Self> {
-        json::read(&folder.join(FILE), storage::SMALL)
+        json::read(&folder.join(FILE), storage::MAX_SMALL_FILE)
     }
 
     /// Writes the configuration of the run in `folder`.
@@ -154,7 +154,7 @@ pub fn run_name(moment: &str, agent: &str, table: &str, reward: Reward, seed: im
 /// Returns the message about a configuration in `folder` that cannot be read for this reason.
 pub fn unreadable(folder: &Path, reason: &std::io::Error) -> String {
     let version = || {
-        let config: Value = json::read(&folder.join(FILE), storage::SMALL).ok()?;
+        let config: Value = json::read(&folder.join(FILE), storage::MAX_SMALL_FILE).ok()?;
         let version = config.get("version")?.as_str()?.to_owned();
         (version != VERSION).then_some(version)
     };

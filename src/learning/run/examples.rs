@@ -8,7 +8,7 @@ use super::json;
 use crate::{
     learning::learner::Learner,
     physics::CueInputs,
-    storage::{self, replace},
+    storage::{self, write_atomic_unsynced},
     table::Layout,
 };
 
@@ -50,11 +50,11 @@ impl Examples {
 
     /// Writes the examples of the run in `folder`.
     pub(crate) fn write(&self, folder: &Path) -> std::io::Result<()> {
-        replace(&folder.join(FILE), &serde_json::to_vec(self)?)
+        write_atomic_unsynced(&folder.join(FILE), &serde_json::to_vec(self)?)
     }
 
     /// Reads the examples of the run in `folder`.
     pub(crate) fn read(folder: &Path) -> std::io::Result<Self> {
-        json::read(&folder.join(FILE), storage::LARGE)
+        json::read(&folder.join(FILE), storage::MAX_LARGE_FILE)
     }
 }

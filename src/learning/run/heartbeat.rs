@@ -63,7 +63,7 @@ impl Heartbeat {
             return None;
         }
         self.last_poll = Instant::now();
-        Request::take(&self.folder)
+        Request::receive(&self.folder)
     }
 
     fn write_status(&mut self, phase: Phase, learner: &dyn Learner, seconds: f64) {

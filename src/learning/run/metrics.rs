@@ -176,7 +176,7 @@ impl MetricsFile {
 }
 
 fn content(path: &Path) -> io::Result<Vec<u8>> {
-    Ok(storage::read_if_there(path, storage::LARGE)?.unwrap_or_default())
+    Ok(storage::read_if_exists(path, storage::MAX_LARGE_FILE)?.unwrap_or_default())
 }
 
 /// Iterates over the complete lines, each with its newline.
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_resumed_run_drops_later_lines_and_an_incomplete_one() {
+    fn resuming_drops_later_and_incomplete_lines() {
         let (_folder, path, mut file) = opened(5);
         for shots in [1, 2, 3] {
             file.push(&record(shots));
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_are_missing_before_a_checkpoint_are_reported() {
+    fn lines_missing_before_a_checkpoint_are_reported() {
         let (_folder, path, mut file) = opened(0);
         assert!(notices(&path, 99, 100).is_empty(), "no line is due yet");
         assert!(notices(&path, 640, 100)[0].contains("is missing: there is no line of the 640 shots"));
@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_was_cut_off_meanwhile_continues_after_its_last_complete_line() {
+    fn a_truncated_file_continues_after_its_last_line() {
         let (_folder, path, mut file) = opened(0);
         for shots in [1, 2] {
             file.push(&record(shots));
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_cannot_be_written_are_written_later() {
+    fn unwritten_lines_are_written_later() {
         let (_folder, path, mut file) = opened(0);
         fs::create_dir(&path).unwrap();
         for shots in [1, 2] {

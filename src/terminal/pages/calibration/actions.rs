@@ -72,7 +72,7 @@ impl CalibrationPage {
             }
             Action::TakeOut => {
                 let (place, entry) = self.sheet().marked_stroke()?;
-                let edit = Edit::TakeOut(place, entry.clone());
+                let edit = Edit::Remove(place, entry.clone());
                 self.message = Some(Message::plain(format!("a stroke of {} is deleted; u takes it back", entry.test)));
                 return Some(self.edit(edit, false));
             }
@@ -85,10 +85,10 @@ impl CalibrationPage {
                     }
                 };
                 let said = match &edit {
-                    Edit::TakeOut(_, entry) => format!("the stroke of {} is deleted again", entry.test),
+                    Edit::Remove(_, entry) => format!("the stroke of {} is deleted again", entry.test),
                     Edit::Add(entry) | Edit::Insert(_, entry) => format!("the stroke of {} is back", entry.test),
-                    Edit::Amend(.., entry) => format!("the stroke of {} is as it was before", entry.test),
-                    Edit::Anew(_) => "what was entered before is back".to_owned(),
+                    Edit::Replace(.., entry) => format!("the stroke of {} is as it was before", entry.test),
+                    Edit::ReplaceAll(_) => "what was entered before is back".to_owned(),
                 };
                 self.message = Some(Message::plain(said));
                 return Some(self.edit(edit, true));
@@ -166,7 +166,7 @@ impl CalibrationPage {
                 let strokes = if count == 1 { "1 stroke is".to_owned() } else { format!("{count} strokes are") };
                 let said = format!("{strokes} kept as {}; u takes this back", self.beside().display());
                 self.message = Some(Message::plain(said));
-                Some(self.edit(Edit::Anew(Entries::default()), false))
+                Some(self.edit(Edit::ReplaceAll(Entries::default()), false))
             }
         }
     }
@@ -184,7 +184,7 @@ impl CalibrationPage {
                 Ok(entry) => {
                     form.is_sent = true;
                     edit = Some(match &form.amends {
-                        Some((place, before)) => Edit::Amend(*place, before.clone(), entry),
+                        Some((place, before)) => Edit::Replace(*place, before.clone(), entry),
                         None => Edit::Add(entry),
                     });
                 }

@@ -29,7 +29,7 @@ use crate::{
     coach::{Skill, Units},
     drills::{Goal, Library, Session},
     game::Rule,
-    storage::Places,
+    storage::DataPaths,
     table::{CueBall, Layout, PRESETS, Table},
     terminal::{
         DrillContext, DrillTask, Effect, Settings,
@@ -100,7 +100,7 @@ pub struct Balls {
 #[derive(Debug)]
 pub struct DrillsPage {
     /// Where sessions and positions are.
-    pub places: Places,
+    pub places: DataPaths,
     /// The list of exercises.
     pub catalogue: Catalogue,
     /// What has been played.
@@ -145,7 +145,7 @@ pub struct DrillsPage {
 
 impl DrillsPage {
     /// The screens before they are opened; `seed` decides about errors, shifts and exams.
-    pub fn new(places: Places, seed: u64) -> Self {
+    pub fn new(places: DataPaths, seed: u64) -> Self {
         Self {
             places,
             catalogue: Catalogue::new(Library::bundled().clone()),

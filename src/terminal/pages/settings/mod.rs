@@ -11,7 +11,7 @@ mod view;
 use std::path::PathBuf;
 
 use crate::{
-    storage::Places,
+    storage::DataPaths,
     terminal::{
         Change, Effect, Settings, SettingsContext, SettingsReport, SettingsTask,
         config::{ENTRIES, Entry, quoted},
@@ -42,7 +42,7 @@ pub enum Question {
 #[derive(Debug)]
 pub struct SettingsPage {
     /// Where the player's files are, that of the settings among them.
-    pub places: Places,
+    pub places: DataPaths,
     /// The files of the player's own tables, as far as is known.
     pub tables: Vec<PathBuf>,
     /// What is in force.
@@ -70,7 +70,7 @@ pub struct SettingsPage {
 
 impl SettingsPage {
     /// The screen before it is opened.
-    pub fn new(places: Places, pages: Vec<KeyPage>) -> Self {
+    pub fn new(places: DataPaths, pages: Vec<KeyPage>) -> Self {
         Self {
             places,
             tables: Vec::new(),

@@ -29,7 +29,7 @@ use crate::{
         },
     },
     printing::shell_word,
-    storage::Places,
+    storage::DataPaths,
     table::Table,
     terminal::{
         CoachQuery, FollowSlot, Keeping, Subscriptions, TrainerFailure, TrainingContext, TrainingReport,
@@ -51,7 +51,7 @@ const LAUNCHING: Duration = Duration::from_secs(5);
 #[derive(Debug)]
 pub struct TrainingPage {
     /// Where runs and policies are.
-    pub places: Places,
+    pub places: DataPaths,
     /// The folder whose runs are listed, and in which new ones are started.
     pub folder: PathBuf,
     /// The list of runs.
@@ -76,7 +76,7 @@ pub struct TrainingPage {
 
 impl TrainingPage {
     /// The screen before it is opened.
-    pub fn new(places: Places) -> Self {
+    pub fn new(places: DataPaths) -> Self {
         Self {
             folder: places.runs.clone(),
             places,
@@ -176,7 +176,7 @@ impl TrainingPage {
             TrainingReport::Sent(request, Ok(())) => {
                 self.message = Some(Message::plain(match request {
                     Request::Pause => "the run is asked to pause",
-                    Request::GoOn => "the run is asked to go on",
+                    Request::Resume => "the run is asked to go on",
                     Request::Stop => "the run is asked to stop: it measures itself and saves first",
                     Request::Abandon => "the run is asked to end, and its folder goes",
                 }));
@@ -194,7 +194,7 @@ impl TrainingPage {
     fn followed(&mut self, folder: &Path, update: Update) {
         let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) else { return };
         let before = watch.condition();
-        watch.replay.is_outdated |= update.begins;
+        watch.replay.is_outdated |= update.replaces_records;
         watch.own.run.apply(update);
         let has_changed = !watch.condition().is_like(before);
         // Before it is seen for the first time it may have been as it was still.

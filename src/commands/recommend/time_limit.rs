@@ -8,7 +8,7 @@ use crate::commands::{Failure, output::print_note};
 const LONGEST: Duration = Duration::from_secs(3);
 
 /// Returns the result of `find` if it is ready in time; otherwise reports on the standard error that `what` is left out.
-pub fn in_time<T: Send + 'static, E: std::fmt::Display + Send + 'static>(
+pub fn with_time_limit<T: Send + 'static, E: std::fmt::Display + Send + 'static>(
     what: &str,
     find: impl FnOnce() -> Result<T, E> + Send + 'static,
 ) -> Result<Option<T>, Failure> {
