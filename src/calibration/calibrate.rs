@@ -33,7 +33,7 @@ pub struct Calibration {
     pub table: Table,
     /// Name of the prior table.
     #[serde(skip)]
-    pub before: String,
+    pub prior_name: String,
     /// The constants before and after.
     pub constants: Vec<Change>,
     /// The marks, in the order of the trials.
@@ -207,7 +207,7 @@ pub fn calibrate(
     let next = rank_tests(&belief, &found.unknowns, &found.covariance);
     Ok(Calibration {
         table: after,
-        before: table.name.clone(),
+        prior_name: table.name.clone(),
         constants,
         mark_checks,
         left_out,

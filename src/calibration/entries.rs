@@ -15,13 +15,13 @@ use crate::{
 };
 
 /// Standard error of a position measured with a tape, diamonds: 5 mm.
-const TAPE: f64 = 0.015;
+const TAPE_ERROR: f64 = 0.015;
 
 /// Shortest accepted time, s: nobody starts and stops a watch faster.
-const SHORTEST: f64 = 0.2;
+const MIN_TIME: f64 = 0.2;
 
 /// Largest accepted number of short rails that a ball hits in a test: nobody strikes harder.
-pub const MOST_RAILS: usize = 12;
+pub const MAX_RAILS: usize = 12;
 
 /// A file of entries.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -181,7 +181,7 @@ impl Entry {
             format!("{name} = {written} is no {what}; accepted is {accepted}")
         };
         let (value, is_taped) = written.read(unit, table).ok_or_else(|| no_number(written))?;
-        let least = if unit == Unit::Seconds { SHORTEST } else { 0.0 };
+        let least = if unit == Unit::Seconds { MIN_TIME } else { 0.0 };
         let most = mark.max_value();
         if !(least..=most).contains(&value) {
             let reason = match unit {
@@ -195,7 +195,7 @@ impl Entry {
         let radius = table.radius / table.diamond();
         let value = if unit == Unit::Diamonds { value.clamp(radius, most - radius) } else { value };
         let sure = match self.standard_errors.get(*name) {
-            None if is_taped => TAPE,
+            None if is_taped => TAPE_ERROR,
             None => mark.standard_error,
             Some(written) => {
                 let read = written.read(unit, table).map(|(sure, _)| sure).filter(|sure| *sure > 0.0 && *sure <= most);
@@ -216,8 +216,8 @@ impl Entry {
         if rails > 0 && test.balls.len() > 1 {
             return Err(format!("rails = {rails}: no ball may meet a rail in this test; play it again, softer"));
         }
-        if rails > MOST_RAILS {
-            return Err(format!("rails = {rails}: nobody strikes that hard; accepted is 0 to {MOST_RAILS}"));
+        if rails > MAX_RAILS {
+            return Err(format!("rails = {rails}: nobody strikes that hard; accepted is 0 to {MAX_RAILS}"));
         }
         Ok((test.travel(table, rails, value), sure))
     }

@@ -42,5 +42,5 @@ pub use protocol::{Mark, Moment, PROTOCOL, Quantity, Test, Unit};
 pub use simulated::{Coverage, coverage, simulated_calibration};
 pub use sketch::Sketch;
 pub use table_file::{SaveError, may_save_table, save_table};
-pub use typed::{FAR_END, RAILS, TAPED};
+pub use typed::{FAR_END, RAILS, TAPE_ERROR_TEXT};
 pub use words::NO_BETTER;

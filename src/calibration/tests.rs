@@ -65,7 +65,7 @@ fn exact_marks_recover_the_true_table() {
     let (table, doubt) = base();
     let truth = other(&table);
     let found = calibrate("club", &table, &doubt, &exact(&truth)).unwrap();
-    assert!(found.mark_checks.iter().all(|verdict| verdict.off.abs() < 1.0), "{:?}", found.mark_checks);
+    assert!(found.mark_checks.iter().all(|check| check.off.abs() < 1.0), "{:?}", found.mark_checks);
     assert!(found.misread().is_empty() && !found.is_contradictory());
     for change in &found.constants {
         let expected = TableDoubt::value(&truth, &change.name).unwrap();
@@ -121,10 +121,10 @@ fn a_misread_mark_is_reported_and_hardly_counts() {
     trials[1].1.readings[0].value += 3.0;
     let found = calibrate("club", &table, &doubt, &trials).unwrap();
     assert_eq!(found.misread(), [2]);
-    let verdict = found.mark_checks.iter().find(|verdict| verdict.misread).unwrap();
-    let (expected, deviation) = verdict.expected.unwrap();
-    assert_eq!((verdict.test, verdict.mark), ("slow-roll", "time"));
-    assert!((verdict.marked - 3.0 - expected).abs() < 0.3 && deviation < 0.3, "{verdict:?}");
+    let check = found.mark_checks.iter().find(|check| check.misread).unwrap();
+    let (expected, deviation) = check.expected.unwrap();
+    assert_eq!((check.test, check.mark), ("slow-roll", "time"));
+    assert!((check.marked - 3.0 - expected).abs() < 0.3 && deviation < 0.3, "{check:?}");
     for change in &found.constants {
         let expected = TableDoubt::value(&truth, &change.name).unwrap();
         assert!((change.after - expected).abs() < 2.0 * change.after_deviation, "{change:?} for {expected}");
@@ -187,7 +187,7 @@ fn marks_that_need_another_stroke_are_reported() {
     trials[corner].1.readings[1].value -= 1.5;
     let found = calibrate("club", &table, &doubt, &trials).unwrap();
     let is_reported =
-        found.outlier_strokes.iter().any(|strange| strange.trial == corner + 1) || found.misread() == [corner + 1];
+        found.outlier_strokes.iter().any(|stroke| stroke.trial == corner + 1) || found.misread() == [corner + 1];
     assert!(is_reported, "{:?} {:?}", found.outlier_strokes, found.mark_checks);
     assert!(calibrate("club", &table, &doubt, &exact(&table)).unwrap().outlier_strokes.is_empty());
 }

@@ -1,7 +1,7 @@
 //! Parses marks as a player types them: a number, optionally with its unit and its standard error.
 
 use super::{
-    entries::{Entry, MOST_RAILS, MarkValue},
+    entries::{Entry, MAX_RAILS, MarkValue},
     protocol::{Quantity, Test},
 };
 use crate::printing::parse_number;
@@ -13,7 +13,7 @@ pub const RAILS: &str = "rails";
 pub const FAR_END: &str = "far-end";
 
 /// Standard error of a position measured with a tape, as a player writes it.
-pub const TAPED: &str = "5 mm";
+pub const TAPE_ERROR_TEXT: &str = "5 mm";
 
 impl Entry {
     /// Parses and stores the mark `name`, the number of [`RAILS`] or [`FAR_END`], as typed: `5.3`, `725 mm`, `5.3 ~ 0.2`, `yes`. An empty
@@ -27,7 +27,7 @@ impl Entry {
             return Ok(());
         }
         if name == RAILS {
-            let no_number = |_| format!("rails {typed} is no number of rails; accepted is 0 to {MOST_RAILS}");
+            let no_number = |_| format!("rails {typed} is no number of rails; accepted is 0 to {MAX_RAILS}");
             self.rails = Some(typed.parse().map_err(no_number)?);
             return Ok(());
         }
@@ -112,7 +112,7 @@ mod tests {
     fn tape_measurements_have_the_tape_error() {
         let table = Table::default();
         let sure = |typed: &str| entry(&[("stop", typed)]).readings(&table).0[0].standard_error;
-        assert!((sure("725 mm") - sure(&format!("2.04 ± {TAPED}"))).abs() < 1e-3);
+        assert!((sure("725 mm") - sure(&format!("2.04 ± {TAPE_ERROR_TEXT}"))).abs() < 1e-3);
         assert!(sure("2.04") > 5.0 * sure("725 mm"));
     }
 

@@ -186,7 +186,7 @@ impl Calibration {
         if self.is_contradictory() {
             return Vec::new();
         }
-        self.constants.iter().filter_map(|change| change.meaning(&self.before)).collect()
+        self.constants.iter().filter_map(|change| change.meaning(&self.prior_name)).collect()
     }
 
     /// Describes whether the marks agree; `called` names a stroke by its number and test.
@@ -278,7 +278,7 @@ mod tests {
 
     #[test]
     fn one_rail_is_singular() {
-        let verdict = MarkCheck {
+        let check = MarkCheck {
             trial: 1,
             test: "slow-roll",
             mark: "stop",
@@ -288,7 +288,7 @@ mod tests {
             expected: Some((6.0, 0.1)),
             rails: Some((1, 0)),
         };
-        let said = verdict.misread_text("slow-roll");
+        let said = check.misread_text("slow-roll");
         assert!(said.contains("5.0 diamonds after 1 rail, expected 6.0 ± 0.1 after 0 rails"), "{said}");
     }
 

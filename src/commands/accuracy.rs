@@ -7,7 +7,7 @@ use std::{
 
 use super::{
     Failure,
-    input::{seed, table_by_name, whole_number},
+    input::{parse_seed, table_by_name, whole_number},
     output::{check_writable, plural, print_note},
 };
 use crate::{
@@ -32,7 +32,7 @@ pub struct Args {
     #[arg(long, value_parser = whole_number(1..=1_000_000_000_u32))]
     shots: Option<u32>,
     /// Seed of the shots. Default: 2026, or 1 for the stability table
-    #[arg(long, value_parser = seed)]
+    #[arg(long, value_parser = parse_seed)]
     seed: Option<u64>,
     /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file. If its balls can leave the cloth,
     /// strokes of up to 60 degrees are studied, too. Default: textbook and thesis, and such strokes on match
@@ -62,7 +62,7 @@ pub struct Args {
 const SEED: u64 = 2026;
 
 /// Maximum number of shots that are studied with every method: all of them are kept in memory.
-const MOST_STUDIED: u32 = 1_000_000;
+const MAX_STUDIED: u32 = 1_000_000;
 
 /// File name of the stability table.
 const STABILITY: &str = "stability.md";
@@ -86,9 +86,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         let random = args.shots.map_or(plan.random, u64::from);
         return play_stability(args, &stability::Plan { random, ..plan });
     }
-    if let Some(shots) = args.shots.filter(|shots| *shots > MOST_STUDIED) {
+    if let Some(shots) = args.shots.filter(|shots| *shots > MAX_STUDIED) {
         return Err(Failure::wrong_input(format_args!(
-            "--shots {shots} is more than can be studied; accepted are 1 to {MOST_STUDIED}, and more with --stability"
+            "--shots {shots} is more than can be studied; accepted are 1 to {MAX_STUDIED}, and more with --stability"
         )));
     }
     let tables = args.table.as_ref().map_or_else(default_tables, |name| table_by_name(name).map(with_flights))?;

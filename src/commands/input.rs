@@ -22,7 +22,7 @@ use crate::{
     game::{Reward, Rule},
     learning::{Policy, policy::file::Origin},
     printing,
-    storage::{self, DataPaths, LONGEST_LINE, NextLine, next_line},
+    storage::{self, DataPaths, MAX_LINE_BYTES, NextLine, next_line},
     table::{CueBall, Layout, PRESETS, Table, TableError},
 };
 
@@ -125,7 +125,7 @@ pub fn whole_number_from<T: FromStr + PartialOrd + Display + Clone>(
 }
 
 /// Parses a seed.
-pub fn seed(text: &str) -> Result<u64, String> {
+pub fn parse_seed(text: &str) -> Result<u64, String> {
     whole_number(0..=u64::MAX)(text)
 }
 
@@ -133,17 +133,17 @@ pub fn seed(text: &str) -> Result<u64, String> {
 ///
 /// # Errors
 /// Fails for a number that is not above 0, and for more than a thousand years.
-pub fn minutes(value: f64) -> Result<Duration, Failure> {
-    if value > 0.0 && value <= MOST_MINUTES {
+pub fn parse_minutes(value: f64) -> Result<Duration, Failure> {
+    if value > 0.0 && value <= MAX_MINUTES {
         return Ok(Duration::from_secs_f64(60.0 * value));
     }
     Err(Failure::wrong_input(format_args!(
-        "--minutes {value:?} is not a valid time; accepted is a number above 0 and at most {MOST_MINUTES:e}"
+        "--minutes {value:?} is not a valid time; accepted is a number above 0 and at most {MAX_MINUTES:e}"
     )))
 }
 
 /// Longest accepted time, minutes: a thousand years.
-const MOST_MINUTES: f64 = 5e8;
+const MAX_MINUTES: f64 = 5e8;
 
 /// Answers every line of the JSON Lines in `file` (`-` is the standard input) on the standard output, in the same order. A refused line is
 /// answered with `error`, and the following lines are still processed; the command then ends with exit code 2.
@@ -169,7 +169,7 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
             NextLine::Line => {
                 parse_request(&line).map_err(|reason| format!("line {index} is not a valid JSON request: {reason}"))
             }
-            NextLine::TooLong => Err(format!("line {index} is too long; accepted are up to {LONGEST_LINE} bytes")),
+            NextLine::TooLong => Err(format!("line {index} is too long; accepted are up to {MAX_LINE_BYTES} bytes")),
         };
         lines += 1;
         let answered =
@@ -236,8 +236,8 @@ mod tests {
     #[test]
     fn invalid_times_are_refused_and_quoted() {
         for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(minutes(wrong).unwrap_err().to_string().contains(&wrong.to_string()));
+            assert!(parse_minutes(wrong).unwrap_err().to_string().contains(&wrong.to_string()));
         }
-        assert_eq!(minutes(0.5).unwrap(), Duration::from_secs(30));
+        assert_eq!(parse_minutes(0.5).unwrap(), Duration::from_secs(30));
     }
 }

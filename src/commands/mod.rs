@@ -90,7 +90,7 @@ impl Cli {
     /// Fails if it is wrong or asks for help; the message is already printed then.
     pub fn read() -> Result<Self, Failure> {
         let request = std::env::var(SSH_REQUEST).unwrap_or_default();
-        Self::parsed(std::env::args_os()).and_then(|cli| cli.with_ssh_request(&request)).map_err(|answer| {
+        Self::parse_words(std::env::args_os()).and_then(|cli| cli.with_ssh_request(&request)).map_err(|answer| {
             // A value that is well-formed but whose file cannot be read is not wrong input.
             if let Some(failure) = answer.source().and_then(|source| source.downcast_ref::<Failure>())
                 && failure.code() != 2
@@ -116,7 +116,7 @@ impl Cli {
     }
 
     /// Parses the words of a command line, starting with the program's name.
-    fn parsed(words: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Result<Self, clap::Error> {
+    fn parse_words(words: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Result<Self, clap::Error> {
         let mut command = with_negative_numbers(Self::command());
         let mut matches = command.try_get_matches_from_mut(words)?;
         Self::from_arg_matches_mut(&mut matches).map_err(|error| error.format(&mut command))
@@ -128,7 +128,7 @@ impl Cli {
         if !self.guest || words.first() != Some(&"follow") {
             return Ok(self);
         }
-        let request = Self::parsed(["carom"].iter().chain(&words))?;
+        let request = Self::parse_words(["carom"].iter().chain(&words))?;
         Ok(Self { command: request.command, ..self })
     }
 

@@ -16,7 +16,7 @@ use crate::{
     game::Rule,
     physics::{CueInputs, Impulse},
     printing::{self, OneLine},
-    storage::{LONGEST_LINE, NextLine, folder_state, next_line},
+    storage::{MAX_LINE_BYTES, NextLine, folder_state, next_line},
     terminal::Settings,
 };
 
@@ -46,7 +46,7 @@ pub fn prompt_line(words: &str) -> Result<Option<Result<String, Failure>>, Failu
         Ok(NextLine::Line) => Ok(Some(Ok(String::from_utf8_lossy(line.trim_ascii()).into_owned()))),
         Ok(NextLine::End) => Ok(None),
         Ok(NextLine::TooLong) => Ok(Some(Err(Failure::wrong_input(format_args!(
-            "a line is too long; accepted are up to {LONGEST_LINE} bytes"
+            "a line is too long; accepted are up to {MAX_LINE_BYTES} bytes"
         ))))),
         Err(error) => Err(Failure::failed(format_args!("the input cannot be read: {error}"))),
     }

@@ -2,7 +2,7 @@
 
 use super::{
     Failure,
-    drill::{MOST_STROKES, PlayOptions, Workspace, play, size_words, strokes},
+    drill::{MAX_STROKES, PlayOptions, Workspace, play, size_words, strokes},
     input::{table_by_name, whole_number},
 };
 use crate::{
@@ -28,7 +28,7 @@ pub struct Args {
     #[arg(long, default_value_t = 10, value_parser = whole_number(1..=10_000_u32))]
     innings: u32,
     /// Maximum number of strokes; if innings are left then, a note says so.
-    #[arg(long, default_value_t = 1000, value_parser = whole_number(1..=MOST_STROKES))]
+    #[arg(long, default_value_t = 1000, value_parser = whole_number(1..=MAX_STROKES))]
     strokes: u32,
     /// Initial positions of the balls, cue ball first: "x,y x,y x,y" in metres from the centre, or in diamonds from the lower left corner
     /// ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position.

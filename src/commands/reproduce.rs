@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{
     Failure,
-    input::{seed, table_by_name, whole_number, whole_number_from},
+    input::{parse_seed, table_by_name, whole_number, whole_number_from},
     output::{check_writable, print_note},
 };
 use crate::{
@@ -32,7 +32,7 @@ pub struct Args {
     #[arg(long, value_name = "SHOTS", value_parser = whole_number_from(1_u64))]
     episodes: Option<u64>,
     /// Seed of all random numbers: the same seed gives the same curves.
-    #[arg(long, default_value_t = 1, value_parser = seed)]
+    #[arg(long, default_value_t = 1, value_parser = parse_seed)]
     seed: u64,
     /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
     #[arg(long, default_value = "thesis")]

@@ -229,7 +229,7 @@ impl Moment {
 
 /// A ball that left the table.
 #[derive(Serialize)]
-struct BallOff {
+struct OffTableBall {
     ball: &'static str,
     rail: Rail,
 }
@@ -264,7 +264,7 @@ struct SimulateAnswer {
     end: Layout,
     /// Balls that left the table; in `final` they are on their spots.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    off_table: Vec<BallOff>,
+    off_table: Vec<OffTableBall>,
     duration: f64,
     /// Whether a real tip would slip off; the stroke is simulated nevertheless.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
@@ -335,7 +335,7 @@ impl SimulateAnswer {
             end: recording.final_layout(),
             off_table: verdict
                 .off_table()
-                .map(|(ball, off)| BallOff { ball: BALL_NAMES[ball], rail: off.over })
+                .map(|(ball, off)| OffTableBall { ball: BALL_NAMES[ball], rail: off.over })
                 .collect(),
             duration: recording.duration(),
             steps: *stepped,

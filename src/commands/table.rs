@@ -70,7 +70,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
                 if args.json {
                     printing::json_line(&mut out, &table)?;
                 } else {
-                    writeln!(out, "{}", line(&table))?;
+                    writeln!(out, "{}", summary_line(&table))?;
                 }
             }
         }
@@ -87,7 +87,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             if args.json {
                 printing::json_line(&mut out, &table)?;
             } else {
-                writeln!(out, "{} is a valid table: {}", file.display(), line(&table))?;
+                writeln!(out, "{} is a valid table: {}", file.display(), summary_line(&table))?;
             }
         }
     }
@@ -95,7 +95,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// Describes the table in one line.
-fn line(table: &Table) -> String {
+fn summary_line(table: &Table) -> String {
     let Table { name, length, width, radius, .. } = table;
     // A calibration has more digits than its accuracy.
     let [rolling, rails] = [table.rolling_friction, table.rail_restitution].map(|value| (1e4 * value).round() / 1e4);

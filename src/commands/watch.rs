@@ -12,7 +12,7 @@ use super::{
     Failure,
     lookup::{LATEST, existing_run},
     output::{json_line, print_note},
-    train::{line, print_runs},
+    train::{format_record, print_runs},
 };
 use crate::{
     learning::run::{
@@ -126,7 +126,7 @@ fn print(record: &Record, json: bool) -> io::Result<()> {
     if json {
         return json_line(record);
     }
-    match line(record) {
+    match format_record(record) {
         Some(line) => writeln!(printing::stdout(), "{line}"),
         None => Ok(()),
     }

@@ -227,7 +227,7 @@ pub trait Learner: Debug + Send {
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score>;
 
     /// Returns the shots that [`Learner::score`] plays on the layouts.
-    fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>>;
+    fn choose_shots(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>>;
 
     /// Returns the bytes of a policy file; `None` for agents whose policy the coach cannot use. `held_out_reward` is the measured mean
     /// reward on held-out layouts, `date` the day on which the run started. For a finished run the calibration may take minutes:

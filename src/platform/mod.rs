@@ -19,7 +19,7 @@ pub use self::{
         handle_signals, in_own_process_group, refuse_large_files, suspend, sync_folder, terminal_output, thread_time,
         use_umask_permissions,
     },
-    threads::{limit_threads, threads},
+    threads::{limit_threads, thread_count},
 };
 
 /// A signal, classified by how the screen reacts to it.

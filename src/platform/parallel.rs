@@ -10,7 +10,7 @@ use std::{
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::threads;
+use super::thread_count;
 
 /// Worker threads in addition to the calling thread, shared by all calls that may use every thread of this process. They sleep when idle.
 static SHARED_WORKERS: OnceLock<Option<ThreadPool>> = OnceLock::new();
@@ -88,7 +88,7 @@ pub fn try_map<T: Sync, R: Send, E: Send>(
     };
     match count.min(items.len()) {
         0 | 1 => take_over(),
-        count if count == threads() => match SHARED_WORKERS.get_or_init(|| start(count - 1)) {
+        count if count == thread_count() => match SHARED_WORKERS.get_or_init(|| start(count - 1)) {
             Some(others) => share_out(others, ReservedWorker::reserve_free(count - 1).into_iter().map(Some).collect()),
             None => take_over(),
         },
@@ -129,7 +129,7 @@ mod tests {
         let items: Vec<u64> = (0..1000).collect();
         // The first items are the slowest.
         let slow = |item: &u64| (0..(1000 - item) * 50).fold(*item, |sum, n| sum ^ n ^ (n + 1) ^ (n + 1) ^ n);
-        for count in [0, 1, threads(), 4] {
+        for count in [0, 1, thread_count(), 4] {
             assert_eq!(map(count, &items, slow), items, "on {count} threads");
         }
     }
@@ -137,7 +137,7 @@ mod tests {
     #[test]
     fn all_threads_including_the_calling_one_work_at_once() {
         // More than the shared workers, which other tests may occupy.
-        let count = threads() + 1;
+        let count = thread_count() + 1;
         let together = Barrier::new(count);
         let who = map(count, &vec![(); count], |()| {
             together.wait();
@@ -149,13 +149,13 @@ mod tests {
 
     #[test]
     fn busy_workers_are_not_waited_for() {
-        let count = threads().max(2);
+        let count = thread_count().max(2);
         let Some(others) = SHARED_WORKERS.get_or_init(|| start(count - 1)) else { return };
         let helpers = ReservedWorker::reserve_free(count - 1);
         let (done, ends) = mpsc::channel();
         let (told, outcome) = mpsc::channel();
         others.spawn(move || told.send(ends.recv_timeout(Duration::from_secs(20)).is_ok()).unwrap());
-        assert_eq!(map(threads(), &[1, 2, 3], |n| n * n), [1, 4, 9]);
+        assert_eq!(map(thread_count(), &[1, 2, 3], |n| n * n), [1, 4, 9]);
         done.send(()).unwrap();
         assert!(outcome.recv().unwrap(), "the other work was over before");
         drop(helpers);

@@ -24,6 +24,6 @@ pub use self::{
     number::{fixed, number, parse_number},
     progress::ProgressLine,
     shell::shell_word,
-    version::{FULL_VERSION, SOURCE, TARGET, VERSION},
+    version::{COMMIT, FULL_VERSION, TARGET, VERSION},
     visible::{OneLine, is_hidden},
 };

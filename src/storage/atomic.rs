@@ -21,18 +21,18 @@ const ABANDONED: Duration = Duration::from_secs(3600);
 ///
 /// # Errors
 /// Fails if `path` exists and is not a regular file, or with any error of the file system. The old file is then untouched, as for
-/// [`Staged::publish`].
+/// [`StagedFile::publish`].
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    Staged::new(path, bytes)?.publish()
+    StagedFile::new(path, bytes)?.publish()
 }
 
 /// Like [`write_atomic`], but for a new file: of several programs that create the same file at once, exactly one succeeds.
 ///
 /// # Errors
-/// [`io::ErrorKind::AlreadyExists`] if the file exists, otherwise any error of the file system, as for [`Staged::publish`]. The existing
-/// file is untouched.
+/// [`io::ErrorKind::AlreadyExists`] if the file exists, otherwise any error of the file system, as for [`StagedFile::publish`]. The
+/// existing file is untouched.
 pub fn create_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    Staged::new(path, bytes)?.publish_new()
+    StagedFile::new(path, bytes)?.publish_new()
 }
 
 /// Like [`write_atomic`] for data that need not survive a power cut: a reader sees the old or the new content, and nothing waits for the
@@ -51,12 +51,12 @@ pub fn write_atomic_unsynced(path: &Path, bytes: &[u8]) -> io::Result<()> {
 
 /// A file that is safely on the disk under a temporary name. It is removed if it is dropped without being published.
 #[derive(Debug)]
-pub struct Staged {
+pub struct StagedFile {
     file: NamedTempFile,
     path: PathBuf,
 }
 
-impl Staged {
+impl StagedFile {
     /// Writes the future content of `path` to a temporary file. Creates missing folders.
     ///
     /// # Errors
@@ -86,7 +86,7 @@ impl Staged {
     /// Renames the file to its final path if no file exists there.
     ///
     /// # Errors
-    /// [`io::ErrorKind::AlreadyExists`], or any error of [`Staged::publish`].
+    /// [`io::ErrorKind::AlreadyExists`], or any error of [`StagedFile::publish`].
     pub fn publish_new(self) -> io::Result<()> {
         self.file.persist_noclobber(&self.path)?;
         platform::sync_folder(folder_of(&self.path))
@@ -214,7 +214,7 @@ mod tests {
     #[test]
     fn leftover_temporary_files_are_removed_and_others_kept() {
         let folder = tempfile::tempdir().unwrap();
-        let staged = Staged::new(&folder.path().join("file"), b"half").unwrap();
+        let staged = StagedFile::new(&folder.path().join("file"), b"half").unwrap();
         let (_, left) = staged.file.keep().unwrap();
         std::fs::write(folder.path().join(".carom-notes"), b"kept").unwrap();
         remove_abandoned_files(folder.path()).unwrap();

@@ -13,15 +13,15 @@ mod player;
 mod reading;
 
 pub use atomic::{
-    Staged, create_atomic, remove_abandoned_files, remove_partial_files, resolve_symlinks, write_atomic,
+    StagedFile, create_atomic, remove_abandoned_files, remove_partial_files, resolve_symlinks, write_atomic,
     write_atomic_unsynced,
 };
 pub use confinement::{check_read_allowed, confine};
 pub use data_paths::{DataPaths, has_name};
 pub use folder_state::{FolderState, folder_state};
-pub use lines::{LONGEST_LINE, NextLine, next_line};
+pub use lines::{MAX_LINE_BYTES, NextLine, next_line};
 pub use lock::Lock;
-pub use name::{LONGEST_NAME, NAME_RULE, is_letter, is_name};
+pub use name::{MAX_NAME_BYTES, NAME_RULE, is_letter, is_name};
 pub use notices::notice;
 pub use plain_words::{describe_json_error, describe_toml_error, in_plain_words, without_error_numbers};
 pub use player::{Player, PlayerNameError};

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use super::{
     Failure,
-    input::{seed, table_by_name, whole_number},
+    input::{parse_seed, table_by_name, whole_number},
     output::{check_folder_exists, check_writable, print_line, print_note},
 };
 use crate::{
@@ -62,7 +62,7 @@ pub struct Args {
     simulate: Option<u32>,
     /// With --simulate: the seed of the tables and the player.
     #[arg(long, requires = "simulate", conflicts_with_all = ["file", "out", "daily", "tests", "template"], default_value_t = 1,
-        value_parser = seed)]
+        value_parser = parse_seed)]
     seed: u64,
     /// Print one JSON object.
     #[arg(long)]

@@ -70,11 +70,11 @@ impl<'a> Report<'a> {
         };
         print_table(["constant", "before", "after", "known"], found.constants.iter().map(row), &[1, 2])?;
         print_line("")?;
-        for verdict in found.mark_checks.iter().filter(|verdict| verdict.misread) {
-            print_line(verdict.misread_text(&in_file(verdict.trial, verdict.test)))?;
+        for check in found.mark_checks.iter().filter(|check| check.misread) {
+            print_line(check.misread_text(&in_file(check.trial, check.test)))?;
         }
-        for strange in &found.outlier_strokes {
-            print_line(strange.words(&in_file(strange.trial, strange.test)))?;
+        for stroke in &found.outlier_strokes {
+            print_line(stroke.words(&in_file(stroke.trial, stroke.test)))?;
         }
         found.differing_rails().iter().try_for_each(print_line)?;
         print_line(found.agreement(in_file))?;

@@ -12,7 +12,7 @@ use self::{
 };
 use super::{Failure, output::json_line};
 use crate::{
-    printing::{self, SOURCE, TARGET, VERSION},
+    printing::{self, COMMIT, TARGET, VERSION},
     storage::DataPaths,
     study::{self_test::SelfTest, throughput::Machine},
     terminal::Settings,
@@ -56,7 +56,7 @@ impl Report {
         let paths = DataPaths::of_this_user();
         let (settings, complaints) = Settings::load(&paths.settings);
         let mut report = Self {
-            program: Program { version: VERSION, source: SOURCE, target: TARGET, machine: Machine::this() },
+            program: Program { version: VERSION, source: COMMIT, target: TARGET, machine: Machine::this() },
             places: stored_data::folders(&paths),
             screen: Screen::detect(&settings),
             kept: StoredData::inspect(&paths, &complaints),

@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// Free disk space below which the disk counts as full, bytes: enough for the last checkpoints of a run and a few sessions.
-const LEAST_FREE: u64 = 50 << 20;
+const MIN_FREE: u64 = 50 << 20;
 
 /// A folder that the program writes into.
 #[derive(Serialize)]
@@ -48,7 +48,7 @@ impl FolderReport {
         if let Some(refusal) = &self.refusal {
             return Some(format!("nothing can be written to the folder of {what}, {path}: {refusal}"));
         }
-        let free = self.free_bytes.filter(|free| *free < LEAST_FREE)?;
+        let free = self.free_bytes.filter(|free| *free < MIN_FREE)?;
         Some(format!("the disk of the folder of {what}, {path}, is nearly full: {} MB are free", free / 1_000_000))
     }
 }

@@ -3,7 +3,7 @@
 use super::{
     PlayOptions, Workspace,
     options::StrokeInput,
-    strokes::{MOST_STROKES, Strokes, play},
+    strokes::{MAX_STROKES, Strokes, play},
 };
 use crate::{
     commands::{Failure, input::whole_number},
@@ -51,7 +51,7 @@ pub struct RunArgs {
     #[arg(long)]
     coach: bool,
     /// Maximum number of attempts.
-    #[arg(long, default_value_t = 1000, value_parser = whole_number(1..=MOST_STROKES))]
+    #[arg(long, default_value_t = 1000, value_parser = whole_number(1..=MAX_STROKES))]
     strokes: u32,
     #[command(flatten)]
     options: PlayOptions,

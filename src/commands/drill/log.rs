@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::{
     Workspace,
     score::{Score, words},
-    workspace::player,
+    workspace::skill_or_default,
 };
 use crate::{
     commands::{
@@ -69,7 +69,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let workspace = Workspace::open();
     let exercise = workspace.exercise(&args.name)?.clone();
     let name = exercise.name.clone();
-    let session = Session::new(Goal::Free, Venue::Table, vec![exercise], player(None), 0);
+    let session = Session::new(Goal::Free, Venue::Table, vec![exercise], skill_or_default(None), 0);
     let mut log = Log { workspace, session, name, json: args.json, known: None, lock: None };
     if let (Some(made), Some(of)) = (args.made, args.of) {
         if made > of {

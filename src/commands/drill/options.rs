@@ -2,12 +2,12 @@
 
 use std::io::{self, IsTerminal};
 
-use super::workspace::player;
+use super::workspace::skill_or_default;
 use crate::{
     coach::Skill,
     commands::{
         Failure,
-        input::{seed, table_by_name, whole_number},
+        input::{parse_seed, table_by_name, whole_number},
         lookup::skill_by_name,
         output::{player_and_rule_words, print_note},
         typed_stroke::TypedStroke,
@@ -30,7 +30,7 @@ pub struct PlayOptions {
     #[arg(long, value_parser = skill_by_name)]
     skill: Option<Skill>,
     /// Seed of the errors; without it they differ every time.
-    #[arg(long, value_parser = seed)]
+    #[arg(long, value_parser = parse_seed)]
     seed: Option<u64>,
     /// Time that the coach has for a shot, ms.
     #[arg(long, default_value_t = 300, value_parser = whole_number(0..=3_600_000_u64))]
@@ -58,7 +58,7 @@ impl PlayOptions {
             exercises.iter().try_for_each(|exercise| check_size(exercise, own))?;
         }
         let seed = self.seed.unwrap_or_else(rand::random);
-        let mut session = Session::new(goal, Venue::Program, exercises, player(self.skill), seed);
+        let mut session = Session::new(goal, Venue::Program, exercises, skill_or_default(self.skill), seed);
         let is_another = |own: &Table| session.exercises.iter().any(|exercise| exercise.table != own.name);
         session.table = own.filter(is_another).map(Box::new);
         Ok(session)

@@ -13,7 +13,7 @@ use crate::{
 };
 
 /// Largest accepted value of `--strokes`.
-pub const MOST_STROKES: u32 = 10_000;
+pub const MAX_STROKES: u32 = 10_000;
 
 /// The source of the strokes.
 #[derive(Clone, Copy, Debug)]
@@ -74,7 +74,7 @@ pub fn play(
     let is_cut = game.session().attempts.len() >= most && !game.session().is_over();
     if is_cut && !matches!(strokes, Strokes::Same(_)) {
         print_note(format_args!(
-            "note: the limit of {most} strokes ended it; --strokes sets another, up to {MOST_STROKES}"
+            "note: the limit of {most} strokes ended it; --strokes sets another, up to {MAX_STROKES}"
         ));
     }
     refused_lines_result(refused)

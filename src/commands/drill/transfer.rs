@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::{Workspace, workspace::note};
+use super::{Workspace, workspace::print_notes};
 use crate::{
     commands::{
         Failure,
@@ -41,7 +41,7 @@ pub struct ImportArgs {
 
 pub fn export(args: &ExportArgs) -> Result<(), Failure> {
     let (practice, notes) = Store::new(&DataPaths::of_this_user()).export();
-    note(&notes);
+    print_notes(&notes);
     match args.file.as_deref().filter(|file| *file != Path::new("-")) {
         None => json_line(&practice)?,
         Some(file) => {

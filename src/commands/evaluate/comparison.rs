@@ -5,7 +5,7 @@ use std::{fmt, path::PathBuf};
 use serde::Serialize;
 
 use super::{
-    robustness::{LEAST_LAYOUTS, Z},
+    robustness::{MIN_LAYOUTS, Z},
     shots::ShotRecord,
     spec::{Records, Spec, merge},
 };
@@ -58,7 +58,7 @@ impl Comparison {
         };
         let (mean, deviation) = mean_and_deviation(&differences);
         let spread = Z * deviation.unwrap_or(0.0) / (differences.len() as f64).sqrt();
-        let is_meaningful = differences.len() >= LEAST_LAYOUTS && spread > 0.0;
+        let is_meaningful = differences.len() >= MIN_LAYOUTS && spread > 0.0;
         Self {
             compared,
             layouts: differences.len(),

@@ -19,7 +19,7 @@ use self::{
 };
 use super::{
     Failure,
-    input::{minutes, note_training_mismatch, seed, table_by_name, whole_number, whole_number_from},
+    input::{note_training_mismatch, parse_minutes, parse_seed, table_by_name, whole_number, whole_number_from},
     lookup::{bundled_policy, policy_by_name, skill_by_name},
     output::{json_line, print_line},
     recommend::coach_for,
@@ -29,7 +29,7 @@ use crate::{
     game::{Reward, Rule},
     learning::{Policy, evaluation::EVALUATION_SEED, policy::library::BUNDLED},
     platform::limit_threads,
-    printing::{SOURCE, VERSION},
+    printing::{COMMIT, VERSION},
 };
 
 /// Options that need a search of shots, so that they conflict with the networks alone. clap does not require `--policy-only` if one of
@@ -47,7 +47,7 @@ pub struct Args {
     #[arg(long, default_value_t = 2_000, value_parser = whole_number(1..=10_000_000_u32))]
     layouts: u32,
     /// Seed of the layouts.
-    #[arg(long, default_value_t = EVALUATION_SEED, value_parser = seed)]
+    #[arg(long, default_value_t = EVALUATION_SEED, value_parser = parse_seed)]
     seed: u64,
     /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
     #[arg(long, default_value = "match")]
@@ -186,7 +186,7 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
         player: player.name().to_owned(),
         policy: args.random_search.is_none().then(|| args.policy.clone()),
         checksum: player.checksum().map_err(Failure::failed)?,
-        version: Some(SOURCE.map_or_else(|| VERSION.to_owned(), |source| format!("{VERSION} ({source})"))),
+        version: Some(COMMIT.map_or_else(|| VERSION.to_owned(), |source| format!("{VERSION} ({source})"))),
         networks: player.networks().map(str::to_owned),
         table,
         measure: args.reward.map_or(args.rule.name(), Reward::name).to_owned(),
@@ -207,7 +207,7 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
     };
     let records = match &player {
         Player::Recommender(coach, request) if args.self_play => {
-            let limit = args.minutes.map(minutes).transpose()?;
+            let limit = args.minutes.map(parse_minutes).transpose()?;
             Records::Innings(self_play::play(&spec, shard, coach, request, limit)?)
         }
         player => Records::Shots(shots::measure(&spec, shard, player, args.rule, reward)),

@@ -21,7 +21,7 @@ const ATTEMPTS: usize = 1000;
 pub const Z: f64 = 1.96;
 
 /// Minimum number of layouts for a statement about other layouts.
-pub const LEAST_LAYOUTS: usize = 10;
+pub const MIN_LAYOUTS: usize = 10;
 
 /// The make probability over all layouts.
 #[derive(Debug, Serialize)]
@@ -30,9 +30,9 @@ pub struct Robustness {
     doubt: Doubt,
     /// Mean make probability.
     make_probability: f64,
-    /// Its 95 % interval, from the spread between layouts; `None` for fewer than [`LEAST_LAYOUTS`].
+    /// Its 95 % interval, from the spread between layouts; `None` for fewer than [`MIN_LAYOUTS`].
     make_interval: Option<[f64; 2]>,
-    /// The first decile of the make probability over the layouts; `None` for fewer than [`LEAST_LAYOUTS`].
+    /// The first decile of the make probability over the layouts; `None` for fewer than [`MIN_LAYOUTS`].
     worst_tenth: Option<f64>,
     /// The predictions, if there were any.
     #[serde(flatten)]
@@ -130,7 +130,7 @@ impl Robustness {
             let alike = SuccessRate::new((mean * count).round() as usize, chances.len());
             [alike.low, alike.high]
         };
-        let is_enough = chances.len() >= LEAST_LAYOUTS;
+        let is_enough = chances.len() >= MIN_LAYOUTS;
         Self {
             skill,
             doubt,
@@ -164,7 +164,7 @@ impl fmt::Display for Robustness {
                 100.0 * high,
                 100.0 * worst
             )?,
-            _ => write!(formatter, "; fewer than {LEAST_LAYOUTS} layouts say nothing about others")?,
+            _ => write!(formatter, "; fewer than {MIN_LAYOUTS} layouts say nothing about others")?,
         }
         self.reliability.as_ref().map_or(Ok(()), |reliability| write!(formatter, "\n{reliability}"))
     }

@@ -20,7 +20,9 @@ use self::{
 };
 use super::{
     Failure,
-    input::{PositionArgs, TableCache, answer_lines, note_training_mismatch, seed, whole_number, whole_number_from},
+    input::{
+        PositionArgs, TableCache, answer_lines, note_training_mismatch, parse_seed, whole_number, whole_number_from,
+    },
     lookup::{policy_by_name, skill_by_name},
     output::{chance_words, impulse_words, player_and_rule_words, units},
     request::{Key, Keys, RuleName},
@@ -95,7 +97,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE", default_value = "bundled", value_parser = NonEmptyStringValueParser::new())]
     policy: String,
     /// Seed of the search: if time does not run out, the same seed finds the same shot.
-    #[arg(long, default_value_t = 0, value_parser = seed)]
+    #[arg(long, default_value_t = 0, value_parser = parse_seed)]
     seed: u64,
     /// Print one JSON object.
     #[arg(long)]

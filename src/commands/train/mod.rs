@@ -15,10 +15,10 @@ use std::{
 use serde_json::Value;
 
 use self::progress::Progress;
-pub(super) use self::{listing::print as print_runs, progress::line};
+pub(super) use self::{listing::print as print_runs, progress::format_record};
 use super::{
     Failure,
-    input::{minutes, seed, whole_number, whole_number_from},
+    input::{parse_minutes, parse_seed, whole_number, whole_number_from},
     lookup::{LATEST, existing_run},
     output::print_note,
 };
@@ -53,7 +53,7 @@ pub struct Args {
     #[arg(long)]
     table: Option<String>,
     /// Seed of all random numbers: the same seed gives the same weights.
-    #[arg(long, default_value_t = 1, value_parser = seed)]
+    #[arg(long, default_value_t = 1, value_parser = parse_seed)]
     seed: u64,
     /// Number of shots to play. The learning rates decay to zero over them. The agent ddpg plays rollouts, of 192 shots by default: its run
     /// ends with the first rollout that reaches this number.
@@ -144,7 +144,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(folder) = &args.list {
         return listing::print(folder.as_deref(), args.json).map(drop);
     }
-    let limit = args.minutes.map(minutes).transpose()?;
+    let limit = args.minutes.map(parse_minutes).transpose()?;
     if let Some(threads) = args.threads {
         limit_threads(threads.into());
     }

@@ -71,7 +71,7 @@ impl Progress {
 }
 
 /// Formats a measurement as a line; `None` if the record has none.
-pub fn line(record: &Record) -> Option<String> {
+pub fn format_record(record: &Record) -> Option<String> {
     let Record { seconds, shots, .. } = record;
     let speed = *shots as f64 / seconds.max(1e-9);
     summary(record).map(|summary| format!("{seconds:.0} s, {shots} shots, {speed:.0} shots/s, {summary}"))
@@ -93,7 +93,7 @@ impl Watcher for Progress {
         self.bar.set_position(record.shots);
         let Some(summary) = summary(record) else { return };
         self.bar.set_message(summary);
-        if let Some(line) = line(record).filter(|_| self.bar.is_hidden()) {
+        if let Some(line) = format_record(record).filter(|_| self.bar.is_hidden()) {
             let whose = self.seed.map(|seed| format!(", seed {seed}")).unwrap_or_default();
             print_note(format_args!("{line}{whose}"));
         }

@@ -272,7 +272,7 @@ mod tests {
     #[test]
     fn strokes_of_several_observations_stay_among_the_candidates() {
         let (table, mut rng) = (Arc::new(Table::default()), Xoshiro256PlusPlus::seed_from_u64(41));
-        let observations = Observation::every(&table, &Layout::random(&table, &mut rng), true);
+        let observations = Observation::all(&table, &Layout::random(&table, &mut rng), true);
         let halved = |numbers: &[usize], left| {
             let mut candidates: Vec<Candidate> =
                 numbers.iter().map(|&number| Candidate::new(observations[number], [0.0; ACTIONS])).collect();

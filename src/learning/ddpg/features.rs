@@ -233,7 +233,7 @@ mod tests {
         let table = Table::default();
         let diameter = 2.0 * table.radius;
         let layout = Layout::new([DVec2::ZERO, DVec2::new(diameter, 0.0), DVec2::new(0.0, -diameter)]);
-        for observation in Observation::all(&layout) {
+        for observation in Observation::all_straight(&layout) {
             for action in [[-1.0, 0.0, 1.0, 1.0, 1.0], [1.0; ACTIONS], [0.0, 1.0, -1.0, 0.0, -1.0]] {
                 let features = features(&table, &observation, action);
                 assert!(features.iter().all(|f| f.value.is_finite() && f.slope.iter().all(|s| s.is_finite())));

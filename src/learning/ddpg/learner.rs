@@ -89,7 +89,7 @@ impl Learner for Trainer {
             updates: self.updates,
             learning_rate: self.lr_factor() * self.task.hyperparameters.critic_learning_rate,
             exploration: self.task.hyperparameters.exploration.uniform,
-            replay_fill: Some(self.replay.fill()),
+            replay_fill: Some(self.replay.fill_fraction()),
         }
     }
 
@@ -113,7 +113,7 @@ impl Learner for Trainer {
         Ok(self.policy(0.0, "")?.score(&self.table, self.task.plan.reward, layouts))
     }
 
-    fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>> {
+    fn choose_shots(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>> {
         let policy = self.policy(0.0, "")?;
         Ok(layouts.iter().map(|layout| policy.propose(&self.table, layout, &Skill::PERFECT)).collect())
     }

@@ -82,8 +82,8 @@ impl Networks {
     }
 
     #[must_use]
-    pub fn with(self, operations: Operations) -> Self {
-        Self { actor: self.actor.with(operations), critic: self.critic.with(operations), ..self }
+    pub fn with_operations(self, operations: Operations) -> Self {
+        Self { actor: self.actor.with_operations(operations), critic: self.critic.with_operations(operations), ..self }
     }
 
     /// Returns the heads' actions, observation by observation.
@@ -110,7 +110,7 @@ impl Networks {
             return Ok(Vec::new());
         }
         let situations = scenes.flat_map(|(table, layout, errors)| {
-            let all = Observation::every(table, layout, inputs.rails_first).into_iter();
+            let all = Observation::all(table, layout, inputs.rails_first).into_iter();
             all.map(move |observation| Situation { observation, table: Arc::clone(table), errors })
         });
         let observed = ObservationBatch::new(inputs, situations.collect())?;

@@ -99,7 +99,7 @@ mod tests {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
         for _ in 0..100 {
             let layout = Layout::random(&table, &mut rng);
-            for (index, observation) in Observation::all(&layout).iter().enumerate() {
+            for (index, observation) in Observation::all_straight(&layout).iter().enumerate() {
                 let action = [rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0), 0.0, 0.0, 0.0];
                 let cue = cue_inputs(&table, observation, action);
                 cue.validate().unwrap();

@@ -72,13 +72,16 @@ impl Trainer {
         let tasks: Vec<_> = scenes.into_iter().zip(proposals).map(|task| (task, self.rng.random())).collect();
         let (reward, inputs) = (self.task.plan.reward, self.task.hyperparameters.inputs());
         let (tables, networks) = (&self.tables, &self.agent.target);
-        let found =
-            platform::parallel::try_map(platform::threads(), &tasks, |(((layout, conditions), proposals), seed)| {
+        let found = platform::parallel::try_map(
+            platform::thread_count(),
+            &tasks,
+            |(((layout, conditions), proposals), seed)| {
                 let proposals: Vec<_> =
                     proposals.iter().map(|&(observation, action, _)| (observation, action)).collect();
                 let expert = Expert { tables, reward, inputs, networks, layout, conditions: *conditions };
                 expert.search(&proposals, &mut Xoshiro256PlusPlus::seed_from_u64(*seed))
-            })?;
+            },
+        )?;
         for SearchResult { best, others } in found {
             for stroke in &best {
                 self.searched.push(*stroke);

@@ -19,7 +19,7 @@ use crate::{
         learner::{AgentKind, Iteration, Learner},
         nn::weights::{Reader, WeightsError, Writer},
     },
-    storage::{self, Staged},
+    storage::{self, StagedFile},
 };
 
 /// File name of the current checkpoint.
@@ -116,7 +116,7 @@ impl Checkpoints {
     /// The errors of the file system. Existing intact checkpoints are kept.
     pub fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         let current = self.folder.join(CURRENT);
-        let staged = Staged::new(&current, bytes)?;
+        let staged = StagedFile::new(&current, bytes)?;
         // If the process is killed between the two renames, the run resumes from the previous one.
         if std::mem::take(&mut self.current_is_intact) {
             std::fs::rename(&current, self.folder.join(PREVIOUS))?;

@@ -43,7 +43,7 @@ impl Examples {
     pub(crate) fn of(learner: &dyn Learner, layouts: &[Layout]) -> candle_core::Result<Self> {
         let layouts = &layouts[..layouts.len().min(COUNT)];
         let (reward, table) = (learner.plan().reward, learner.table());
-        let shots = learner.shots_on(layouts)?.into_iter().zip(layouts);
+        let shots = learner.choose_shots(layouts)?.into_iter().zip(layouts);
         let shots = shots.map(|(cue, &layout)| Example { layout, cue, reward: reward.of(table, &layout, &cue) });
         Ok(Self { after: learner.shots(), shots: shots.collect() })
     }

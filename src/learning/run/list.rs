@@ -89,7 +89,9 @@ impl RunsFolder {
         for (name, folder) in folders {
             match Config::read(&folder) {
                 Ok(config) => listing.runs.push(self.summary(&folder, name, config)),
-                Err(error) => listing.unreadable.push(format!("{name}: {}", config::unreadable(&folder, &error))),
+                Err(error) => {
+                    listing.unreadable.push(format!("{name}: {}", config::unreadable_message(&folder, &error)));
+                }
             }
         }
         Ok(listing)

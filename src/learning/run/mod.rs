@@ -141,7 +141,7 @@ impl Run {
                 config.write(folder)?;
             } else {
                 // The file is kept, because a user may still find in it when and by which version the run was started.
-                let unreadable = config::unreadable(folder, &error);
+                let unreadable = config::unreadable_message(folder, &error);
                 notices
                     .push(format!("{unreadable} and stays as it is; the run goes on without it, from its checkpoint"));
             }

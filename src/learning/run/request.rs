@@ -14,7 +14,7 @@ pub const FILE: &str = "request";
 const RECEIVED_FILE: &str = ".carom-request.partial";
 
 /// Largest number of characters of an unknown request in the error message.
-const LONGEST_SHOWN: usize = 30;
+const MAX_SHOWN: usize = 30;
 
 /// A request to a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,7 +65,7 @@ impl Request {
         let _ = fs::remove_file(taken);
         let word = word.trim();
         Some(Self::ALL.into_iter().find(|request| request.word() == word).ok_or_else(|| {
-            let begin: String = word.chars().take(LONGEST_SHOWN).collect();
+            let begin: String = word.chars().take(MAX_SHOWN).collect();
             let dots = if begin.len() < word.len() { "..." } else { "" };
             let accepted = Self::ALL.map(|request| format!("\"{}\"", request.word())).join(", ");
             format!("the request \"{}{dots}\" is not understood; accepted are {accepted}", OneLine(begin))

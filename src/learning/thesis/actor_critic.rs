@@ -28,7 +28,7 @@ pub fn sizes(actor: &[usize], critic: &[usize]) -> [Vec<usize>; 2] {
 pub struct Rates {
     pub adam: AdamConfig,
     /// The part k of the target networks that a soft update keeps (equation 59).
-    pub keep: f64,
+    pub target_retention: f64,
 }
 
 /// Terms of the actor's loss in addition to the deterministic policy gradient.
@@ -115,8 +115,9 @@ impl ActorCritic {
     }
 
     #[must_use]
-    pub fn with(self, operations: Operations) -> Self {
-        let [online, target] = [self.online, self.target].map(|pair| pair.map(|network| network.with(operations)));
+    pub fn with_operations(self, operations: Operations) -> Self {
+        let [online, target] =
+            [self.online, self.target].map(|pair| pair.map(|network| network.with_operations(operations)));
         Self { online, target, ..self }
     }
 
@@ -140,7 +141,7 @@ impl ActorCritic {
     }
 
     /// Sets the learning rate of both optimisers to `share` of the configured one.
-    pub fn set_rate_share(&mut self, share: f64) {
+    pub fn scale_learning_rates(&mut self, share: f64) {
         for optimiser in &mut self.optimisers {
             optimiser.set_learning_rate(share * self.rates.adam.learning_rate);
         }
@@ -168,7 +169,7 @@ impl ActorCritic {
         actor_optimiser.backward_step(&guidance.loss(&values, &actions, batch)?)?;
 
         for (target, online) in self.target.iter().zip(&self.online) {
-            soft_update(target.parameters(), online.parameters(), 1.0 - self.rates.keep)?;
+            soft_update(target.parameters(), online.parameters(), 1.0 - self.rates.target_retention)?;
         }
         Ok(UpdateStats { loss: number(&loss)?, value: number(&values)? / actions.dim(0)? as f64 })
     }
@@ -199,7 +200,8 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 
-    const RATES: Rates = Rates { adam: AdamConfig { learning_rate: 1e-3, gradient_clip: 1.0 }, keep: 0.999 };
+    const RATES: Rates =
+        Rates { adam: AdamConfig { learning_rate: 1e-3, gradient_clip: 1.0 }, target_retention: 0.999 };
 
     fn random_batch(rows: usize, continues: impl Fn(usize) -> bool, seed: u64) -> Batch {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);

@@ -272,7 +272,7 @@ impl<A: Agent> Learner for TrainingLoop<A> {
         Ok(Score::of(&layouts.iter().map(play).collect::<Result<Vec<_>, Error>>()?))
     }
 
-    fn shots_on(&self, layouts: &[Layout]) -> Result<Vec<CueInputs>, Error> {
+    fn choose_shots(&self, layouts: &[Layout]) -> Result<Vec<CueInputs>, Error> {
         let shot =
             |layout| self.agent.best(&self.state.game.observation(layout)).map(|choice| cue_inputs(choice.action));
         layouts.iter().map(shot).collect()

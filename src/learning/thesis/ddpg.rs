@@ -174,7 +174,7 @@ impl PlainDdpgSettings {
 
     const fn rates(&self) -> Rates {
         let Self { learning_rate, keep, gradient_clip, .. } = *self;
-        Rates { adam: AdamConfig { learning_rate, gradient_clip }, keep }
+        Rates { adam: AdamConfig { learning_rate, gradient_clip }, target_retention: keep }
     }
 
     /// Reads the networks of an agent with these settings after `updates` updates.
@@ -241,7 +241,7 @@ struct PlainDdpgState {
 impl PlainDdpg {
     fn update(&mut self, rng: &mut Xoshiro256PlusPlus) -> Result<UpdateStats, Error> {
         let settings = &self.settings;
-        self.networks.set_rate_share(settings.decayed(settings.learning_rate_falls_to, self.shots));
+        self.networks.scale_learning_rates(settings.decayed(settings.learning_rate_falls_to, self.shots));
         let mut drawn = self.lessons.sample(settings.lesson_rows(), rng);
         let lessons = drawn.len();
         drawn.extend(self.replay.sample(settings.batch.saturating_sub(lessons), rng));
@@ -281,7 +281,7 @@ impl Agent for PlainDdpg {
             updates: u64::from(self.networks.updates()),
             learning_rate: rate * settings.learning_rate,
             exploration: noise * settings.noise.deviation(settings.noise_restarts),
-            replay_fill: Some(self.replay.fill()),
+            replay_fill: Some(self.replay.fill_fraction()),
         }
     }
 

@@ -108,7 +108,7 @@ impl Follower {
                 // A missing file is no problem.
                 Err(_) if stamp.is_none() => self.problems[0] = None,
                 Err(error) => {
-                    let reason = config::unreadable(&self.folder, &error);
+                    let reason = config::unreadable_message(&self.folder, &error);
                     self.problems[0] = Some(format!("{reason}; the charts are shown without it"));
                 }
             }
@@ -180,7 +180,7 @@ impl Follower {
                 0 if self.condition.is_over() && self.tail.ends_mid_line() => {
                     Some(format!("the last line of {METRICS} is cut off and is left out"))
                 }
-                0 if is_behind => Some(metrics::cut_off(read, self.played)),
+                0 if is_behind => Some(metrics::cut_off_notice(read, self.played)),
                 0 => None,
                 1 => Some(format!("1 line of {METRICS} cannot be read and is left out")),
                 lines => Some(format!("{lines} lines of {METRICS} cannot be read and are left out")),

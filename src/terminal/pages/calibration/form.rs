@@ -1,7 +1,7 @@
 //! The form of a stroke: a field for each mark, and what is understood of it.
 
 use crate::{
-    calibration::{Entry, MarkValue, RAILS, TAPED, Test, Unit},
+    calibration::{Entry, MarkValue, RAILS, TAPE_ERROR_TEXT, Test, Unit},
     table::Table,
     terminal::{StrokeDraft, pages::around, ui::TextField},
 };
@@ -134,8 +134,8 @@ impl Form {
         if value.is_empty() {
             return Err(format!("type the place first: nothing is typed of {name} yet"));
         }
-        let was_taped = field.text().ends_with(TAPED);
-        let text = if was_taped { value } else { format!("{value} ~ {TAPED}") };
+        let was_taped = field.text().ends_with(TAPE_ERROR_TEXT);
+        let text = if was_taped { value } else { format!("{value} ~ {TAPE_ERROR_TEXT}") };
         *field = TextField::new(LONGEST).with(&text);
         Ok(())
     }
@@ -163,7 +163,8 @@ impl Form {
         entry.set_field(name, field.text()).ok()?;
         let (readings, _) = entry.readings(table);
         let reading = readings.first()?;
-        let is_own = entry.standard_errors.get(*name).is_some_and(|sure| *sure != MarkValue::Text(TAPED.to_owned()));
+        let is_own =
+            entry.standard_errors.get(*name).is_some_and(|sure| *sure != MarkValue::Text(TAPE_ERROR_TEXT.to_owned()));
         Some(match self.test.marks[reading.mark].unit() {
             Unit::Seconds => format!("right to {} s", rounded(reading.standard_error)),
             Unit::Diamonds if is_own => format!("right to {} diamonds", rounded(reading.standard_error)),
