@@ -8,7 +8,7 @@
 use std::{env, error::Error, time::Duration};
 
 use carom::{
-    calibration::calibrated,
+    calibration::simulated_calibration,
     coach::{Coach, Doubt, Request, Shooter, Skill, make_probability},
     game::Rule,
     learning::evaluation::held_out_layouts,
@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let certain = Doubt { table: 0.0, ..Doubt::FULL };
     let (mut made, mut predicted) = ([0.0; 3], [0.0; 3]);
     for (count, seed) in (1..=tables).zip(first..) {
-        let [truth, own] = calibrated(&base, &TableDoubt::of(&base), seed)?;
+        let [truth, own] = simulated_calibration(&base, &TableDoubt::of(&base), seed)?;
         let coaches = [(&truth, certain), (&own, Doubt::FULL), (&base, Doubt::FULL)]
             .map(|(table, doubt)| (Coach::without_policy(table.clone()), doubt));
         for layout in held_out_layouts(&truth, layouts, seed) {

@@ -12,7 +12,7 @@ use carom::{
         learner::TrainingPlan,
         run::{Limits, Run, Schedule, Watcher, follow::Follower, list::runs_in, metrics::Record},
     },
-    storage::Places,
+    storage::DataPaths,
     table::{Layout, Table},
     terminal::{App, Capabilities, FollowSlot, Reel, TrainingReport},
 };
@@ -51,7 +51,7 @@ struct Camera {
 impl Camera {
     fn take(&self) -> Result<App, Box<dyn Error>> {
         let table = Table::default();
-        let places = Places { runs: self.runs.clone(), policies: self.runs.clone(), ..Places::of_this_user() };
+        let places = DataPaths { runs: self.runs.clone(), policies: self.runs.clone(), ..DataPaths::of_this_user() };
         let mut app = App::new(table.clone(), Layout::opening(&table), self.caps, 1)?.with_places(places);
         app.handle(&Char('t').into());
         app.receive_training(TrainingReport::Runs(runs_in(&self.runs).map_err(|error| error.to_string())));
@@ -64,7 +64,7 @@ impl Camera {
 
 /// Shows what a follower of the run sees.
 fn show(app: &mut App, place: &Path, table: &Table) -> Result<(), Box<dyn Error>> {
-    let mut update = Follower::new(place).look().ok_or("nothing is to be seen of the run")?;
+    let mut update = Follower::new(place).poll().ok_or("nothing is to be seen of the run")?;
     let reel = update.examples.take().map(|examples| Reel::record(&examples, table));
     app.receive_training(TrainingReport::HasPolicy(place.to_owned(), true));
     app.receive_training(TrainingReport::Followed(FollowSlot::Main, place.to_owned(), Box::new(update)));
@@ -78,7 +78,7 @@ struct Watching<'a> {
 }
 
 impl Watcher for Watching<'_> {
-    fn line(&mut self, record: &Record) {
+    fn on_record(&mut self, record: &Record) {
         if record.held_out_reward.is_some() {
             eprintln!("trained {} of {TAKEN} shots for the picture", record.shots);
         }
@@ -89,7 +89,7 @@ impl Watcher for Watching<'_> {
         }
     }
 
-    fn warn(&mut self, sentence: &str) {
+    fn on_warning(&mut self, sentence: &str) {
         eprintln!("{sentence}");
     }
 }

@@ -5,11 +5,11 @@ use serde::Serialize;
 use super::{
     belief::Belief,
     estimate::{Estimate, Trial, estimate, standardized_residuals},
-    forward::STROKE,
+    forward::STROKE_PARAMETERS,
     information::information,
     protocol::{PROTOCOL, Quantity, Test},
     rails::distinct_rails,
-    robust::misread,
+    robust::misread_probability,
 };
 use crate::{
     statistics::identity,
@@ -20,10 +20,10 @@ use crate::{
 const MAX_TRIALS: usize = 60;
 
 /// Standard deviations from the requested stroke above which a stroke counts as strange.
-const STRANGE_FROM: f64 = 2.5;
+const OUTLIER_THRESHOLD: f64 = 2.5;
 
 /// Names of the numbers of a stroke, in their order.
-const STROKES: [&str; STROKE] =
+const STROKE_PARAMETER_NAMES: [&str; STROKE_PARAMETERS] =
     ["speed", "direction", "tip to the side", "height of the tip", "elevation", "line of the balls"];
 
 /// A calibrated table.
@@ -33,18 +33,19 @@ pub struct Calibration {
     pub table: Table,
     /// Name of the prior table.
     #[serde(skip)]
-    pub before: String,
+    pub prior_name: String,
     /// The constants before and after.
     pub constants: Vec<Change>,
     /// The marks, in the order of the trials.
     #[serde(rename = "marks")]
-    pub verdicts: Vec<Verdict>,
+    pub mark_checks: Vec<MarkCheck>,
     /// Numbers, from 1 on, of trials with mostly misread marks: none of their marks counts.
     pub left_out: Vec<usize>,
     /// Strokes that must have been far from the requested ones, if the marks are right.
-    pub strange: Vec<Strange>,
+    #[serde(rename = "strange")]
+    pub outlier_strokes: Vec<OutlierStroke>,
     /// All tests, the most informative first.
-    pub next: Vec<Next>,
+    pub next: Vec<NextTest>,
 }
 
 /// A constant before and after.
@@ -64,7 +65,7 @@ pub struct Change {
 
 /// Agreement of a mark with the other marks.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Verdict {
+pub struct MarkCheck {
     /// Number of the trial, from 1 on.
     pub trial: usize,
     /// Name of its test.
@@ -87,7 +88,7 @@ pub struct Verdict {
 
 /// A stroke that fits its marks only if it was far from the requested one.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Strange {
+pub struct OutlierStroke {
     /// Number of the trial, from 1 on.
     pub trial: usize,
     /// Name of its test.
@@ -100,7 +101,7 @@ pub struct Strange {
 
 /// A test that may be played next.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Next {
+pub struct NextTest {
     /// Name of the test.
     pub test: &'static str,
     /// Expected information of one more stroke about the table, bits.
@@ -151,24 +152,24 @@ pub fn calibrate(
     }
     let (numbers, trials): (Vec<usize>, Vec<Trial>) = trials.iter().cloned().unzip();
     let (belief, found) = fit(table, doubt, &trials)?;
-    let fitted = belief.table(&found.likely);
-    let (mut verdicts, mut kept, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
+    let fitted = belief.table(&found.most_probable);
+    let (mut mark_checks, mut kept, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
     for (index, trial) in trials.iter().enumerate() {
         let all = standardized_residuals(&fitted, trial, &found.strokes[index]);
         // If most marks of a stroke are wrong, it was another stroke, and its other marks contain no information.
-        if 2 * all.iter().filter(|off| misread(**off) > 0.5).count() > all.len() {
+        if 2 * all.iter().filter(|off| misread_probability(**off) > 0.5).count() > all.len() {
             left_out.push(numbers[index] + 1);
         } else {
             kept.push(trial.clone());
         }
         for (reading, off) in trial.readings.iter().zip(all) {
             let mark = &trial.test.marks[reading.mark];
-            let is_misread = misread(off) > 0.5;
+            let is_misread = misread_probability(off) > 0.5;
             let expected = is_misread.then(|| found.expected(&belief, &trials, index, reading.mark)).flatten();
             let is_stop = matches!(mark.quantity, Quantity::StopAlong(_));
             let position = |value: f64| if is_stop { trial.test.position(table, value) } else { (0, value) };
             let (rails, marked) = position(reading.value);
-            verdicts.push(Verdict {
+            mark_checks.push(MarkCheck {
                 trial: numbers[index] + 1,
                 test: trial.test.name,
                 mark: mark.name,
@@ -180,10 +181,15 @@ pub fn calibrate(
             });
         }
     }
-    let mut strange = Vec::new();
+    let mut outlier_strokes = Vec::new();
     for ((number, trial), stroke) in numbers.iter().zip(&trials).zip(&found.strokes) {
-        let far = stroke.iter().zip(STROKES).filter(|(off, _)| off.abs() > STRANGE_FROM);
-        strange.extend(far.map(|(off, what)| Strange { trial: number + 1, test: trial.test.name, what, off: *off }));
+        let far = stroke.iter().zip(STROKE_PARAMETER_NAMES).filter(|(off, _)| off.abs() > OUTLIER_THRESHOLD);
+        outlier_strokes.extend(far.map(|(off, what)| OutlierStroke {
+            trial: number + 1,
+            test: trial.test.name,
+            what,
+            off: *off,
+        }));
     }
     let (belief, found) = if left_out.is_empty() { (belief, found) } else { fit(table, doubt, &kept)? };
     let covariance = belief.covariance(&found.covariance);
@@ -198,8 +204,16 @@ pub fn calibrate(
         after_deviation: covariance[index][index].max(0.0).sqrt(),
     };
     let constants = belief.constants().enumerate().map(change).collect();
-    let next = next(&belief, &found.unknowns, &found.covariance);
-    Ok(Calibration { table: after, before: table.name.clone(), constants, verdicts, left_out, strange, next })
+    let next = rank_tests(&belief, &found.unknowns, &found.covariance);
+    Ok(Calibration {
+        table: after,
+        prior_name: table.name.clone(),
+        constants,
+        mark_checks,
+        left_out,
+        outlier_strokes,
+        next,
+    })
 }
 
 /// Estimates the table from the trials and returns its belief, too; a rail that differs from the others gets its own constants.
@@ -222,18 +236,19 @@ pub fn prior(table: &Table) -> TableDoubt {
 ///
 /// # Errors
 /// Fails if the doubt is not valid, or if the table has no uncertain constant.
-pub fn prospects(table: &Table, doubt: &TableDoubt) -> Result<Vec<Next>, CalibrationError> {
+pub fn rank_tests_before_trials(table: &Table, doubt: &TableDoubt) -> Result<Vec<NextTest>, CalibrationError> {
     let belief = Belief::new(table, doubt)?;
     let count = belief.count();
     if count == 0 {
         return Err(CalibrationError::Certain(table.name.clone()));
     }
-    Ok(next(&belief, &vec![0.0; count], &identity(count)))
+    Ok(rank_tests(&belief, &vec![0.0; count], &identity(count)))
 }
 
-fn next(belief: &Belief, unknowns: &[f64], covariance: &[Vec<f64>]) -> Vec<Next> {
-    let bits = |test: &'static Test| Next { test: test.name, bits: information(belief, unknowns, covariance, test) };
-    let mut next: Vec<Next> = PROTOCOL.iter().map(bits).collect();
+fn rank_tests(belief: &Belief, unknowns: &[f64], covariance: &[Vec<f64>]) -> Vec<NextTest> {
+    let bits =
+        |test: &'static Test| NextTest { test: test.name, bits: information(belief, unknowns, covariance, test) };
+    let mut next: Vec<NextTest> = PROTOCOL.iter().map(bits).collect();
     next.sort_by(|one, other| other.bits.total_cmp(&one.bits));
     next
 }
@@ -241,14 +256,14 @@ fn next(belief: &Belief, unknowns: &[f64], covariance: &[Vec<f64>]) -> Vec<Next>
 impl Calibration {
     /// Returns the numbers of the trials with a mark that looks misread, in order.
     pub fn misread(&self) -> Vec<usize> {
-        let mut trials: Vec<usize> = self.verdicts.iter().filter(|one| one.misread).map(|one| one.trial).collect();
+        let mut trials: Vec<usize> = self.mark_checks.iter().filter(|one| one.misread).map(|one| one.trial).collect();
         trials.dedup();
         trials
     }
 
     /// Whether so many trials look misread that they contradict each other, or all trials are left out.
     pub fn is_contradictory(&self) -> bool {
-        let mut trials: Vec<usize> = self.verdicts.iter().map(|one| one.trial).collect();
+        let mut trials: Vec<usize> = self.mark_checks.iter().map(|one| one.trial).collect();
         trials.dedup();
         let misread = self.misread().len();
         self.left_out.len() == trials.len() || misread > 1 && 3 * misread >= trials.len()

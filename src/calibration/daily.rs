@@ -2,29 +2,29 @@
 
 use super::{
     entries::Entries,
-    forward::{Hand, STROKE},
+    forward::{STROKE_PARAMETERS, StrokeSpread},
     protocol::Test,
 };
 use crate::table::{Rail, Table, TableDoubt};
 
 /// Standard deviations of the constants' changes from one day to the next, due to the humidity of cloth and rails. They are
 /// assumptions. A rail's own values change by the same amount as, and together with, those of all rails.
-const DAY: [(&str, f64); 5] =
+const DAILY_CHANGES: [(&str, f64); 5] =
     [("mu_r", 0.0005), ("mu_s", 0.01), ("e_rail", 0.01), ("mu_rail", 0.03), ("rail.kappa", 0.05)];
 
 /// The tests of a daily check.
-pub const DAILY: [&str; 2] = ["lag", "corner-five"];
+pub const DAILY_TESTS: [&str; 2] = ["lag", "corner-five"];
 
 /// Returns the tests of a daily check that are not played yet, with one stroke each.
-pub fn missing_today(entries: &Entries) -> Vec<(&'static Test, usize)> {
+pub fn missing_daily_tests(entries: &Entries) -> Vec<(&'static Test, usize)> {
     let is_open = |name: &&str| entries.trials.iter().all(|entry| entry.test != **name);
-    DAILY.iter().filter(|name| is_open(name)).filter_map(|name| Some((Test::named(name)?, 1))).collect()
+    DAILY_TESTS.iter().filter(|name| is_open(name)).filter_map(|name| Some((Test::named(name)?, 1))).collect()
 }
 
-/// Returns the groups of constants that change together, with the deviation of the change: each constant of [`DAY`] that the table has,
-/// with those of its single rails.
-fn changing(table: &Table) -> [(f64, Vec<String>); DAY.len()] {
-    DAY.map(|(name, change)| {
+/// Returns the groups of constants that change together, with the deviation of the change: each constant of [`DAILY_CHANGES`] that the
+/// table has, with those of its single rails.
+fn daily_change_groups(table: &Table) -> [(f64, Vec<String>); DAILY_CHANGES.len()] {
+    DAILY_CHANGES.map(|(name, change)| {
         let own: &[&str] = match name {
             "e_rail" => &["e"],
             "mu_rail" => &["mu"],
@@ -37,8 +37,8 @@ fn changing(table: &Table) -> [(f64, Vec<String>); DAY.len()] {
 }
 
 /// Returns the doubt about a table on the next day: the known doubt plus the possible changes since.
-pub fn overnight(table: &Table, doubt: &TableDoubt) -> TableDoubt {
-    let (mut after, groups) = (doubt.clone(), changing(table));
+pub fn next_day_doubt(table: &Table, doubt: &TableDoubt) -> TableDoubt {
+    let (mut after, groups) = (doubt.clone(), daily_change_groups(table));
     for (change, names) in &groups {
         for name in names {
             let deviation = after.deviations.entry(name.clone()).or_default();
@@ -66,29 +66,29 @@ pub fn overnight(table: &Table, doubt: &TableDoubt) -> TableDoubt {
 
 /// How a table plays: the results of the two daily tests with exactly the requested strokes.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
-pub struct Play {
+pub struct TablePlay {
     /// Distance of a lag along the table, diamonds.
     pub lag: f64,
     /// Arrival of Corner-5 from 50 to 20 on the third rail, diamonds from the player's end.
     pub third_rail: f64,
 }
 
-impl Play {
+impl TablePlay {
     /// Simulates the tests on `table`.
     pub fn of(table: &Table) -> Self {
         let mark = |test: &str, mark: &str| {
             let test = Test::named(test)?;
             let index = test.marks.iter().position(|one| one.name == mark)?;
-            Hand::ASSUMED.seen(table, test, false, &[0.0; STROKE])[index]
+            StrokeSpread::ASSUMED.simulate_marks(table, test, false, &[0.0; STROKE_PARAMETERS])[index]
         };
-        let [lag, corner] = DAILY;
+        let [lag, corner] = DAILY_TESTS;
         // 0 on a table on which the ball never gets there.
         let or_none = |mark: Option<f64>| mark.unwrap_or_default();
         Self { lag: or_none(mark(lag, "stop")), third_rail: or_none(mark(corner, "third")) }
     }
 
     /// Describes the difference from an earlier day in words.
-    pub fn against(&self, before: &Self) -> String {
+    pub fn describe_change_from(&self, before: &Self) -> String {
         // Adding zero removes the sign of a negative zero.
         let further = (100.0 * (self.lag / before.lag - 1.0)).round() + 0.0;
         let longer = before.third_rail - self.third_rail;

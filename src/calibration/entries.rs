@@ -9,19 +9,19 @@ use super::{
     protocol::{Mark, PROTOCOL, Quantity, Test, Unit},
 };
 use crate::{
-    printing::typed_number,
-    storage::{json_flaw, toml_flaw},
+    printing::parse_number,
+    storage::{describe_json_error, describe_toml_error},
     table::Table,
 };
 
 /// Standard error of a position measured with a tape, diamonds: 5 mm.
-const TAPE: f64 = 0.015;
+const TAPE_ERROR: f64 = 0.015;
 
 /// Shortest accepted time, s: nobody starts and stops a watch faster.
-const SHORTEST: f64 = 0.2;
+const MIN_TIME: f64 = 0.2;
 
 /// Largest accepted number of short rails that a ball hits in a test: nobody strikes harder.
-pub const MOST_RAILS: usize = 12;
+pub const MAX_RAILS: usize = 12;
 
 /// A file of entries.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -48,24 +48,24 @@ pub struct Entry {
     #[serde(default, rename = "far-end", skip_serializing_if = "std::ops::Not::not")]
     pub far_end: bool,
     /// Standard errors of marks, if they are not the usual ones.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub sure: BTreeMap<String, Written>,
+    #[serde(default, rename = "sure", skip_serializing_if = "BTreeMap::is_empty")]
+    pub standard_errors: BTreeMap<String, MarkValue>,
     /// The marks by their names.
     #[serde(flatten)]
-    pub marks: BTreeMap<String, Written>,
+    pub marks: BTreeMap<String, MarkValue>,
 }
 
 /// A number as written: in the mark's unit, or with its own unit, like `"412 mm"`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged, expecting = "expected a number, or a text like \"412 mm\"")]
-pub enum Written {
+pub enum MarkValue {
     /// A number in the mark's unit.
     Number(f64),
     /// A text with a unit.
     Text(String),
 }
 
-impl fmt::Display for Written {
+impl fmt::Display for MarkValue {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Number(number) => write!(formatter, "{number}"),
@@ -74,7 +74,7 @@ impl fmt::Display for Written {
     }
 }
 
-impl Written {
+impl MarkValue {
     /// Returns the number in the mark's unit, and whether it was measured with a tape.
     fn read(&self, unit: Unit, table: &Table) -> Option<(f64, bool)> {
         let text = match self {
@@ -82,7 +82,7 @@ impl Written {
             Self::Text(text) => text.trim(),
         };
         let digits = text.trim_end_matches(|letter: char| letter.is_alphabetic());
-        let number = typed_number(digits)?;
+        let number = parse_number(digits)?;
         match (unit, &text[digits.len()..]) {
             (_, "") | (Unit::Diamonds, "d" | "diamonds") | (Unit::Seconds, "s") => Some((number, false)),
             (Unit::Diamonds, "mm") => Some((1e-3 * number / table.diamond(), true)),
@@ -95,7 +95,7 @@ impl Written {
 /// A problem of an entry; the part with the problem is left out.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("trial {number} ({test}): {what}")]
-pub struct Oddity {
+pub struct EntryProblem {
     /// Number of the trial, from 1 on.
     pub number: usize,
     /// Name of its test.
@@ -111,17 +111,17 @@ impl Entries {
     /// A message if the text is neither.
     pub fn parse(text: &str) -> Result<Self, String> {
         if text.trim_start().starts_with('{') {
-            return serde_json::from_str(text).map_err(|error| json_flaw(&error));
+            return serde_json::from_str(text).map_err(|error| describe_json_error(&error));
         }
-        toml::from_str(text).map_err(|error| toml_flaw(text, &error))
+        toml::from_str(text).map_err(|error| describe_toml_error(text, &error))
     }
 
     /// Returns the usable trials, each with its number in the file from 0 on, and the problems of all entries.
-    pub fn trials(&self, table: &Table) -> (Vec<(usize, Trial)>, Vec<Oddity>) {
+    pub fn trials(&self, table: &Table) -> (Vec<(usize, Trial)>, Vec<EntryProblem>) {
         let (mut trials, mut odd) = (Vec::new(), Vec::new());
         for (index, entry) in self.trials.iter().enumerate() {
             let (readings, what) = entry.readings(table);
-            odd.extend(what.into_iter().map(|what| Oddity { number: index + 1, test: entry.test.clone(), what }));
+            odd.extend(what.into_iter().map(|what| EntryProblem { number: index + 1, test: entry.test.clone(), what }));
             if let Some(test) = Test::named(&entry.test)
                 && !readings.is_empty()
             {
@@ -136,7 +136,7 @@ impl Entries {
         let played = |test: &Test| self.trials.iter().filter(|entry| entry.test == test.name).count();
         PROTOCOL
             .iter()
-            .map(|test| (test, test.times.saturating_sub(played(test))))
+            .map(|test| (test, test.repetitions.saturating_sub(played(test))))
             .filter(|(_, missing)| *missing > 0)
             .collect()
     }
@@ -151,14 +151,15 @@ impl Entry {
         };
         let (mut readings, mut odd) = (Vec::new(), Vec::new());
         let names: Vec<&str> = test.marks.iter().map(|mark| mark.name).collect();
-        for name in self.marks.keys().chain(self.sure.keys()).filter(|name| !names.contains(&name.as_str())) {
-            let asked: Vec<&str> = test.asked().collect();
+        for name in self.marks.keys().chain(self.standard_errors.keys()).filter(|name| !names.contains(&name.as_str()))
+        {
+            let asked: Vec<&str> = test.field_names().collect();
             odd.push(format!("it has no mark \"{name}\"; its marks are {}", asked.join(", ")));
         }
         for (index, mark) in test.marks.iter().enumerate() {
             let Some(written) = self.marks.get(mark.name) else { continue };
             match self.reading(table, test, mark, written) {
-                Ok((value, sure)) => readings.push(Reading { mark: index, value, sure }),
+                Ok((value, sure)) => readings.push(Reading { mark: index, value, standard_error: sure }),
                 Err(what) => odd.push(what),
             }
         }
@@ -169,10 +170,10 @@ impl Entry {
     }
 
     /// Converts a mark to its value and standard error. The value of a ball that stops along the table is its travel ([`Test::travel`]).
-    fn reading(&self, table: &Table, test: &Test, mark: &Mark, written: &Written) -> Result<(f64, f64), String> {
+    fn reading(&self, table: &Table, test: &Test, mark: &Mark, written: &MarkValue) -> Result<(f64, f64), String> {
         let Mark { name, .. } = mark;
         let unit = mark.unit();
-        let no_number = |written: &Written| {
+        let no_number = |written: &MarkValue| {
             let (what, accepted) = match unit {
                 Unit::Diamonds => ("length", "a number of diamonds, or a text like \"412 mm\""),
                 Unit::Seconds => ("time", "a number of seconds"),
@@ -180,8 +181,8 @@ impl Entry {
             format!("{name} = {written} is no {what}; accepted is {accepted}")
         };
         let (value, is_taped) = written.read(unit, table).ok_or_else(|| no_number(written))?;
-        let least = if unit == Unit::Seconds { SHORTEST } else { 0.0 };
-        let most = mark.most();
+        let least = if unit == Unit::Seconds { MIN_TIME } else { 0.0 };
+        let most = mark.max_value();
         if !(least..=most).contains(&value) {
             let reason = match unit {
                 Unit::Diamonds => "no ball can be there",
@@ -193,9 +194,9 @@ impl Entry {
         // The centre of a ball that touches a rail is a radius from it, but the player may have marked the rail itself.
         let radius = table.radius / table.diamond();
         let value = if unit == Unit::Diamonds { value.clamp(radius, most - radius) } else { value };
-        let sure = match self.sure.get(*name) {
-            None if is_taped => TAPE,
-            None => mark.sure,
+        let sure = match self.standard_errors.get(*name) {
+            None if is_taped => TAPE_ERROR,
+            None => mark.standard_error,
             Some(written) => {
                 let read = written.read(unit, table).map(|(sure, _)| sure).filter(|sure| *sure > 0.0 && *sure <= most);
                 read.ok_or_else(|| {
@@ -215,8 +216,8 @@ impl Entry {
         if rails > 0 && test.balls.len() > 1 {
             return Err(format!("rails = {rails}: no ball may meet a rail in this test; play it again, softer"));
         }
-        if rails > MOST_RAILS {
-            return Err(format!("rails = {rails}: nobody strikes that hard; accepted is 0 to {MOST_RAILS}"));
+        if rails > MAX_RAILS {
+            return Err(format!("rails = {rails}: nobody strikes that hard; accepted is 0 to {MAX_RAILS}"));
         }
         Ok((test.travel(table, rails, value), sure))
     }

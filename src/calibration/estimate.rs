@@ -3,13 +3,13 @@
 
 use super::{
     belief::Belief,
-    forward::{Hand, STROKE},
+    forward::{STROKE_PARAMETERS, StrokeSpread},
     posterior::Posterior,
     protocol::Test,
-    robust::{NEVER, soften},
+    robust::{UNREACHED_RESIDUAL, robust_residual},
 };
 use crate::{
-    statistics::{Minimum, Problem, half_log_determinant, identity, minimize, normal_matrix, solve},
+    statistics::{LeastSquaresProblem, Minimum, half_log_determinant, identity, minimize, normal_matrix, solve},
     table::Table,
 };
 
@@ -21,7 +21,7 @@ pub struct Reading {
     /// Its value, in its unit.
     pub value: f64,
     /// Its standard error.
-    pub sure: f64,
+    pub standard_error: f64,
 }
 
 /// A stroke of a test and its marks.
@@ -66,9 +66,9 @@ pub struct Estimate {
     /// Their covariance.
     pub covariance: Vec<Vec<f64>>,
     /// The most probable unknowns. Unlike the means, they and the most probable strokes fit the marks best.
-    pub likely: Vec<f64>,
+    pub most_probable: Vec<f64>,
     /// The most probable strokes of the trials.
-    pub strokes: Vec<[f64; STROKE]>,
+    pub strokes: Vec<[f64; STROKE_PARAMETERS]>,
     /// The normal matrix of unknowns and strokes at the most probable point.
     normal: Vec<Vec<f64>>,
 }
@@ -95,27 +95,27 @@ impl Estimate {
             let weight = (evidence(valley) - highest).exp();
             if let Some((_, normal)) = valley.as_ref().filter(|_| weight >= MIN_WEIGHT) {
                 let first = Posterior { mean: found.parameters.clone(), normal: normal.clone() };
-                mixture.push((weight, first.refined(belief, trials).of_the_first(count)));
+                mixture.push((weight, first.refined(belief, trials).marginal(count)));
             }
         }
         let (unknowns, covariance) = moments(count, &mixture);
         let (likely, strokes) = minima[best].parameters.split_at(count);
-        let strokes = strokes.as_chunks::<STROKE>().0.to_vec();
+        let strokes = strokes.as_chunks::<STROKE_PARAMETERS>().0.to_vec();
         let normal = valleys[best].clone()?.1;
-        Some(Self { unknowns, covariance, likely: likely.to_vec(), strokes, normal })
+        Some(Self { unknowns, covariance, most_probable: likely.to_vec(), strokes, normal })
     }
 
     /// Returns the expected value of a mark and its standard deviation. The mark itself contributes only as far as it looks correct.
     pub fn expected(&self, belief: &Belief, trials: &[Trial], trial: usize, mark: usize) -> Option<(f64, f64)> {
         let Trial { test, is_turned, .. } = trials[trial];
-        let seen = |unknowns: &[f64], stroke: &[f64; STROKE]| {
-            Hand::ASSUMED.seen(&belief.table(unknowns), test, is_turned, stroke)[mark]
+        let seen = |unknowns: &[f64], stroke: &[f64; STROKE_PARAMETERS]| {
+            StrokeSpread::ASSUMED.simulate_marks(&belief.table(unknowns), test, is_turned, stroke)[mark]
         };
         let stroke = self.strokes[trial];
-        let at = seen(&self.likely, &stroke)?;
+        let at = seen(&self.most_probable, &stroke)?;
         let mut slope = vec![0.0; self.normal.len()];
-        let (count, own) = (belief.count(), belief.count() + trial * STROKE);
-        for (index, seen) in (0..count).chain(own..).zip(moved(&self.likely, &stroke, seen)) {
+        let (count, own) = (belief.count(), belief.count() + trial * STROKE_PARAMETERS);
+        for (index, seen) in (0..count).chain(own..).zip(perturbed(&self.most_probable, &stroke, seen)) {
             slope[index] = (seen? - at) / STEP;
         }
         let spread = solve(&self.normal, &slope)?;
@@ -142,12 +142,12 @@ fn moments(count: usize, mixture: &[(f64, Moments)]) -> Moments {
 }
 
 /// Evaluates `seen` with each of the unknowns, then each of the stroke's numbers, increased by one [`STEP`].
-pub fn moved<T>(
+pub fn perturbed<T>(
     unknowns: &[f64],
-    stroke: &[f64; STROKE],
-    seen: impl Fn(&[f64], &[f64; STROKE]) -> T,
+    stroke: &[f64; STROKE_PARAMETERS],
+    seen: impl Fn(&[f64], &[f64; STROKE_PARAMETERS]) -> T,
 ) -> impl Iterator<Item = T> {
-    (0..unknowns.len() + STROKE).map(move |index| {
+    (0..unknowns.len() + STROKE_PARAMETERS).map(move |index| {
         let (mut unknowns, mut stroke) = (unknowns.to_vec(), *stroke);
         if let Some(number) = unknowns.iter_mut().chain(&mut stroke).nth(index) {
             *number += STEP;
@@ -161,13 +161,13 @@ pub fn estimate(belief: &Belief, trials: &[Trial]) -> Estimate {
     let minima = descend(belief, trials);
     Estimate::of(belief, trials, &minima).unwrap_or_else(|| {
         // Without a regular minimum the marks contain no information: the estimate is the prior.
-        let (count, all) = (belief.count(), belief.count() + STROKE * trials.len());
+        let (count, all) = (belief.count(), belief.count() + STROKE_PARAMETERS * trials.len());
         let zeros = vec![0.0; count];
         Estimate {
             unknowns: zeros.clone(),
             covariance: identity(count),
-            likely: zeros,
-            strokes: vec![[0.0; STROKE]; trials.len()],
+            most_probable: zeros,
+            strokes: vec![[0.0; STROKE_PARAMETERS]; trials.len()],
             normal: identity(all),
         }
     })
@@ -227,18 +227,23 @@ struct Joint<'a> {
 
 impl Joint<'_> {
     /// Returns the softened residuals of a trial's marks for this stroke.
-    fn mark_residuals(&self, table: &Table, trial: &Trial, stroke: &[f64; STROKE]) -> impl Iterator<Item = f64> {
-        standardized_residuals(table, trial, stroke).into_iter().map(|off| soften(off / self.widening))
+    fn mark_residuals(
+        &self,
+        table: &Table,
+        trial: &Trial,
+        stroke: &[f64; STROKE_PARAMETERS],
+    ) -> impl Iterator<Item = f64> {
+        standardized_residuals(table, trial, stroke).into_iter().map(|off| robust_residual(off / self.widening))
     }
 
-    fn stroke(&self, parameters: &[f64], trial: usize) -> [f64; STROKE] {
-        let first = self.belief.count() + trial * STROKE;
+    fn stroke(&self, parameters: &[f64], trial: usize) -> [f64; STROKE_PARAMETERS] {
+        let first = self.belief.count() + trial * STROKE_PARAMETERS;
         std::array::from_fn(|index| parameters[first + index])
     }
 
     /// Returns the offset of each trial's residuals, and the end of the last.
     fn offsets(&self) -> Vec<usize> {
-        let mut offset = self.belief.count() + self.trials.len() * STROKE;
+        let mut offset = self.belief.count() + self.trials.len() * STROKE_PARAMETERS;
         let mut offsets = vec![offset];
         for trial in self.trials {
             offset += trial.readings.len();
@@ -248,7 +253,7 @@ impl Joint<'_> {
     }
 }
 
-impl Problem for Joint<'_> {
+impl LeastSquaresProblem for Joint<'_> {
     /// The residuals of the prior on each parameter, then those of the marks.
     fn residuals(&mut self, parameters: &[f64], out: &mut Vec<f64>) {
         out.clear();
@@ -270,7 +275,7 @@ impl Problem for Joint<'_> {
             moved[index] += STEP;
             let changed = (index < count).then(|| self.belief.table(&moved[..count]));
             for (number, trial) in self.trials.iter().enumerate() {
-                let is_of_this_trial = index >= count && (index - count) / STROKE == number;
+                let is_of_this_trial = index >= count && (index - count) / STROKE_PARAMETERS == number;
                 if changed.is_none() && !is_of_this_trial {
                     continue;
                 }
@@ -287,16 +292,17 @@ impl Problem for Joint<'_> {
 }
 
 /// Returns the residuals of a trial's marks for this stroke, expected minus marked, in standard errors.
-pub fn standardized_residuals(table: &Table, trial: &Trial, stroke: &[f64; STROKE]) -> Vec<f64> {
+pub fn standardized_residuals(table: &Table, trial: &Trial, stroke: &[f64; STROKE_PARAMETERS]) -> Vec<f64> {
     let expected = expected(table, trial, stroke);
-    let off =
-        |(reading, mark): (&Reading, Option<f64>)| mark.map_or(NEVER, |mark| (mark - reading.value) / reading.sure);
+    let off = |(reading, mark): (&Reading, Option<f64>)| {
+        mark.map_or(UNREACHED_RESIDUAL, |mark| (mark - reading.value) / reading.standard_error)
+    };
     trial.readings.iter().zip(expected).map(off).collect()
 }
 
 /// Returns the expected values of a trial's readings for this stroke; `None` for a mark to which the ball never gets.
-pub fn expected(table: &Table, trial: &Trial, stroke: &[f64; STROKE]) -> Vec<Option<f64>> {
-    let seen = Hand::ASSUMED.seen(table, trial.test, trial.is_turned, stroke);
+pub fn expected(table: &Table, trial: &Trial, stroke: &[f64; STROKE_PARAMETERS]) -> Vec<Option<f64>> {
+    let seen = StrokeSpread::ASSUMED.simulate_marks(table, trial.test, trial.is_turned, stroke);
     trial.readings.iter().map(|reading| seen[reading.mark]).collect()
 }
 

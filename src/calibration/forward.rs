@@ -12,12 +12,12 @@ use crate::{
 };
 
 /// Number of values that describe the difference of a stroke from the requested one.
-pub const STROKE: usize = 6;
+pub const STROKE_PARAMETERS: usize = 6;
 
 /// Standard deviations of a player's strokes from the requested ones, and of the ball placement, for a player who has never seen the
 /// table. They are wide assumptions: the fit infers the actual strokes from the marks, as far as these determine them.
 #[derive(Clone, Copy, Debug)]
-pub struct Hand {
+pub struct StrokeSpread {
     /// Deviation of the speed, as a share.
     pub speed: f64,
     /// Deviation of the direction, rad.
@@ -30,7 +30,7 @@ pub struct Hand {
     pub line: f64,
 }
 
-impl Hand {
+impl StrokeSpread {
     /// The deviations assumed for every player.
     pub const ASSUMED: Self = Self {
         speed: 0.2,
@@ -41,7 +41,7 @@ impl Hand {
     };
 
     /// Returns the stroke and the layout that differ from those of the test by `off`, in these deviations.
-    pub fn stroke(&self, table: &Table, test: &Test, off: &[f64; STROKE]) -> (CueInputs, Layout) {
+    pub fn stroke(&self, table: &Table, test: &Test, off: &[f64; STROKE_PARAMETERS]) -> (CueInputs, Layout) {
         let [a, b, theta, phi, speed] = test.cue;
         let cue = CueInputs {
             a: a + self.tip * off[2],
@@ -55,7 +55,13 @@ impl Hand {
 
     /// Returns the marks of `test` after such a stroke, played from the far end if `is_turned`; `None` for a mark to which the ball never
     /// gets.
-    pub fn seen(&self, table: &Table, test: &Test, is_turned: bool, off: &[f64; STROKE]) -> Vec<Option<f64>> {
+    pub fn simulate_marks(
+        &self,
+        table: &Table,
+        test: &Test,
+        is_turned: bool,
+        off: &[f64; STROKE_PARAMETERS],
+    ) -> Vec<Option<f64>> {
         let table = if is_turned { Cow::Owned(table.turned()) } else { Cow::Borrowed(table) };
         let (cue, layout) = self.stroke(&table, test, off);
         marks(&table, test, &cue, &layout)

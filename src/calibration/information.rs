@@ -4,8 +4,8 @@ use std::f64::consts::LN_2;
 
 use super::{
     belief::Belief,
-    estimate::{STEP, moved},
-    forward::{Hand, STROKE},
+    estimate::{STEP, perturbed},
+    forward::{STROKE_PARAMETERS, StrokeSpread},
     protocol::Test,
 };
 use crate::statistics::half_log_determinant;
@@ -13,20 +13,21 @@ use crate::statistics::half_log_determinant;
 /// Returns the expected information, bits, of a stroke of `test` about constants whose unknowns have the means `unknowns` and this
 /// covariance.
 pub fn information(belief: &Belief, unknowns: &[f64], covariance: &[Vec<f64>], test: &Test) -> f64 {
-    let seen =
-        |unknowns: &[f64], stroke: &[f64; STROKE]| Hand::ASSUMED.seen(&belief.table(unknowns), test, false, stroke);
-    let exact = [0.0; STROKE];
+    let seen = |unknowns: &[f64], stroke: &[f64; STROKE_PARAMETERS]| {
+        StrokeSpread::ASSUMED.simulate_marks(&belief.table(unknowns), test, false, stroke)
+    };
+    let exact = [0.0; STROKE_PARAMETERS];
     let at = seen(unknowns, &exact);
     let marks: Vec<usize> = (0..at.len()).filter(|mark| at[*mark].is_some()).collect();
     // Derivatives of the marks in standard errors; 0 for a mark to which the ball does not get after the step.
     let column = |moved: Vec<Option<f64>>| -> Vec<f64> {
         let slope = |mark: &usize| {
             let change = moved[*mark].zip(at[*mark]).map_or(0.0, |(moved, at)| moved - at);
-            change / (STEP * test.marks[*mark].sure)
+            change / (STEP * test.marks[*mark].standard_error)
         };
         marks.iter().map(slope).collect()
     };
-    let slopes: Vec<Vec<f64>> = moved(unknowns, &exact, seen).map(column).collect();
+    let slopes: Vec<Vec<f64>> = perturbed(unknowns, &exact, seen).map(column).collect();
     let (by_constant, by_stroke) = slopes.split_at(belief.count());
     let mut noise: Vec<Vec<f64>> = vec![vec![0.0; marks.len()]; marks.len()];
     let mut all = noise.clone();

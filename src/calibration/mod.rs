@@ -4,37 +4,43 @@
 //! `estimate` fits the constants to the marks, starting from the prior in `belief`, and `posterior` computes their uncertainty.
 //! `rails` detects rails that differ from the others, `robust` handles misread marks, `information` finds the most informative test,
 //! and `daily` models the weather. `calibrate` combines all of these, `words` describes the result, and `simulated` measures the
-//! coverage of the intervals. `typed` parses input, `kept` stores the entries, `saved` the table; `sketch` contains a drawing of a test.
+//! coverage of the intervals. `typed` parses input, `entries_file` stores the entries, `table_file` the table; `sketch` contains a drawing
+//! of a test.
 
 mod belief;
 mod calibrate;
 mod daily;
 mod entries;
+mod entries_file;
 mod estimate;
 mod forward;
 mod information;
-mod kept;
 mod posterior;
 mod protocol;
 mod rails;
 mod robust;
-mod saved;
 mod simulated;
 mod sketch;
+mod table_file;
 mod typed;
 mod words;
 
 #[cfg(test)]
 mod tests;
 
-pub use calibrate::{Calibration, CalibrationError, Change, Next, Strange, Verdict, calibrate, prior, prospects};
-pub use daily::{DAILY, Play, missing_today, overnight};
-pub use entries::{Entries, Entry, Oddity, Written};
+pub use calibrate::{
+    Calibration, CalibrationError, Change, MarkCheck, NextTest, OutlierStroke, calibrate, prior,
+    rank_tests_before_trials,
+};
+pub use daily::{DAILY_TESTS, TablePlay, missing_daily_tests, next_day_doubt};
+pub use entries::{Entries, Entry, EntryProblem, MarkValue};
+pub use entries_file::{
+    Edit, EntriesFileError, back_up_unreadable, edit_entries, latest_backup_path, load_entries, load_entries_or_empty,
+};
 pub use estimate::{Reading, Trial};
-pub use kept::{Edit, KeptError, beside, edit_entries, entries_of, kept_entries, put_aside_unread};
 pub use protocol::{Mark, Moment, PROTOCOL, Quantity, Test, Unit};
-pub use saved::{SaveError, may_save_table, save_table};
-pub use simulated::{Coverage, calibrated, coverage};
+pub use simulated::{Coverage, coverage, simulated_calibration};
 pub use sketch::Sketch;
-pub use typed::{FAR_END, RAILS, TAPED};
+pub use table_file::{SaveError, may_save_table, save_table};
+pub use typed::{FAR_END, RAILS, TAPE_ERROR_TEXT};
 pub use words::NO_BETTER;

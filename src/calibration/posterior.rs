@@ -10,10 +10,10 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     belief::Belief,
     estimate::{Trial, expected},
-    forward::STROKE,
+    forward::STROKE_PARAMETERS,
     robust::weight,
 };
-use crate::statistics::{cholesky, dot, identity, inverse, normal_pair, solve, undo};
+use crate::statistics::{back_substitute, cholesky, dot, identity, inverse, normal_pair, solve};
 
 /// Width of the differences, in standard deviations: that of a quadrature that is exact for polynomials of the fifth degree.
 const WIDTH: f64 = 1.732_050_807_568_877_2;
@@ -40,7 +40,7 @@ pub struct Posterior {
 
 impl Posterior {
     /// Returns the means and the covariance of the first `count` numbers.
-    pub fn of_the_first(mut self, count: usize) -> (Vec<f64>, Vec<Vec<f64>>) {
+    pub fn marginal(mut self, count: usize) -> (Vec<f64>, Vec<Vec<f64>>) {
         let mut covariance = inverse(&self.normal).unwrap_or_else(|| vec![vec![f64::NAN; count]; count]);
         covariance.truncate(count);
         for line in &mut covariance {
@@ -73,8 +73,8 @@ impl Posterior {
         let mut normal = identity(size);
         let mut right = vec![0.0; size];
         for (number, trial) in trials.iter().enumerate() {
-            let first = constants + number * STROKE;
-            let own: Vec<usize> = (0..constants).chain(first..first + STROKE).collect();
+            let first = constants + number * STROKE_PARAMETERS;
+            let own: Vec<usize> = (0..constants).chain(first..first + STROKE_PARAMETERS).collect();
             let mean: Vec<f64> = own.iter().map(|index| self.mean[*index]).collect();
             let part = |row: &usize| own.iter().map(|column| covariance[*row][*column]).collect();
             let factor = cholesky(&own.iter().map(part).collect::<Vec<_>>(), 0.0).ok()?;
@@ -83,7 +83,8 @@ impl Posterior {
             let noise: Vec<Vec<f64>> = (0..count)
                 .map(|row| {
                     let reading = trial.readings[line.readings[row]];
-                    let own = reading.sure * reading.sure / weight((line.at[row] - reading.value) / reading.sure);
+                    let own = reading.standard_error * reading.standard_error
+                        / weight((line.at[row] - reading.value) / reading.standard_error);
                     (0..count)
                         .map(|column| line.nonlinearity[row][column] + if row == column { own } else { 0.0 })
                         .collect()
@@ -129,7 +130,7 @@ impl Linearization {
         let size = mean.len();
         let seen = |point: &[f64]| {
             let (unknowns, stroke) = point.split_at(belief.count());
-            let stroke: [f64; STROKE] = std::array::from_fn(|index| stroke[index]);
+            let stroke: [f64; STROKE_PARAMETERS] = std::array::from_fn(|index| stroke[index]);
             expected(&belief.table(unknowns), trial, &stroke)
         };
         let point = |numbers: &[f64]| -> Vec<f64> {
@@ -170,7 +171,7 @@ impl Linearization {
         let entry = |row: usize, column: usize| mean_of(&|off| (off[row] - bias[row]) * (off[column] - bias[column]));
         let nonlinearity = (0..at.len()).map(|row| (0..at.len()).map(|column| entry(row, column)).collect()).collect();
         let middle = at.iter().zip(&bias).map(|(at, bias)| at + bias).collect();
-        let slope = rise.iter().map(|rise| undo(factor, rise)).collect();
+        let slope = rise.iter().map(|rise| back_substitute(factor, rise)).collect();
         Self { readings, at, middle, slope, nonlinearity }
     }
 }

@@ -67,7 +67,7 @@ pub struct Mark {
     /// The measured quantity, for the simulation.
     pub quantity: Quantity,
     /// Usual standard error of the mark, in its unit.
-    pub sure: f64,
+    pub standard_error: f64,
 }
 
 impl Mark {
@@ -80,7 +80,7 @@ impl Mark {
     }
 
     /// The largest accepted value, in its unit: the table's sides, and one minute.
-    pub const fn most(&self) -> f64 {
+    pub const fn max_value(&self) -> f64 {
         match self.quantity {
             Quantity::StopAlong(_) | Quantity::RailAlong(..) => 8.0,
             Quantity::StopAcross(_) | Quantity::RailAcross(..) => 4.0,
@@ -97,7 +97,7 @@ pub struct Test {
     /// What the test measures, for the player.
     pub title: &'static str,
     /// Positions of the balls, for the player.
-    pub place: &'static str,
+    pub placement: &'static str,
     /// Description of the stroke, for the player.
     pub strike: &'static str,
     /// Positions of the balls in use, the cue ball first, in diamonds from the right-hand corner at the player's end.
@@ -111,7 +111,7 @@ pub struct Test {
     /// Usual number of short rails hit by a ball whose final position along the table is marked; `None` if the player must enter it.
     pub rails: Option<usize>,
     /// Requested number of strokes.
-    pub times: usize,
+    pub repetitions: usize,
 }
 
 impl Test {
@@ -159,12 +159,12 @@ impl Test {
 
 /// Creates a mark with the usual standard error: a tenth of a diamond, or of a second.
 const fn mark(name: &'static str, words: &'static str, quantity: Quantity) -> Mark {
-    Mark { name, words, quantity, sure: 0.1 }
+    Mark { name, words, quantity, standard_error: 0.1 }
 }
 
 /// Marks of several tests.
 const TIME: Mark =
-    Mark { sure: 0.2, ..mark("time", "seconds from the stroke until the ball stops", Time(Stroke, Stop(0))) };
+    Mark { standard_error: 0.2, ..mark("time", "seconds from the stroke until the ball stops", Time(Stroke, Stop(0))) };
 const STOP: Mark = mark("stop", "where it stops along the table", StopAlong(0));
 const ACROSS: Mark = mark("across", "where it stops across the table", StopAcross(0));
 const DRIFT: Mark = mark("drift", "where it stops across the table (2 is the middle)", StopAcross(0));
@@ -176,25 +176,25 @@ const FOURTH: Mark = mark("fourth", "where it meets your own short rail after th
 const FROM_CORNER: Test = Test {
     name: "",
     title: "",
-    place: "the cue ball near the right-hand corner of your end: 0.6 along, 0.4 across",
+    placement: "the cue ball near the right-hand corner of your end: 0.6 along, 0.4 across",
     strike: "",
     balls: &[[0.6, 0.4]],
     frozen: None,
     cue: [0.0, 0.2, 3.0, 35.3, 2.5],
     marks: &[FIRST, THIRD, FOURTH, STOP, ACROSS],
     rails: None,
-    times: 4,
+    repetitions: 4,
 };
 
 /// The protocol, in the order in which it is played. The tests were chosen from candidates by their value for a club player's
 /// three-cushion shots. The most informative are the rebound of a ball without side or with reverse side, which slips and sticks at the
 /// rails, and the final position of a ball after several rails. A frozen pair measures the throw between balls, which hardly matters for
-/// these shots, so it is not requested (`times` is 0).
+/// these shots, so it is not requested (`repetitions` is 0).
 pub const PROTOCOL: &[Test] = &[
     Test {
         name: "slow-roll",
         title: "slow roll: the cloth's speed, sideways lean",
-        place: "any ball in the middle of your end: diamond 1 along, 2 across",
+        placement: "any ball in the middle of your end: diamond 1 along, 2 across",
         strike: "straight along the middle, four tips (12 mm) above centre, so softly that it stops past the \
                  middle of the table",
         balls: &[[1.0, 2.0]],
@@ -202,40 +202,43 @@ pub const PROTOCOL: &[Test] = &[
         cue: [0.0, 0.4, 2.0, 0.0, 0.30],
         marks: &[TIME, STOP, DRIFT],
         rails: Some(0),
-        times: 2,
+        repetitions: 2,
     },
     Test {
         name: "slow-back",
         title: "slow roll back: lean along the table",
-        place: "any ball in the middle of the far end: diamond 7 along, 2 across",
+        placement: "any ball in the middle of the far end: diamond 7 along, 2 across",
         strike: "from the far end, straight back along the middle, four tips above centre, as softly as before",
         balls: &[[7.0, 2.0]],
         frozen: None,
         cue: [0.0, 0.4, 2.0, 180.0, 0.30],
         marks: &[TIME, mark("stop", "where it stops along the table, counted from your own end", StopAlong(0)), DRIFT],
         rails: Some(0),
-        times: 1,
+        repetitions: 1,
     },
     Test {
         name: "lag",
         title: "the lag: how alive the short rails are",
-        place: "the cue ball in the middle of your end: diamond 1 along, 2 across",
+        placement: "the cue ball in the middle of your end: diamond 1 along, 2 across",
         strike: "centre ball, straight along the middle: to the far rail, back to your own and off it",
         balls: &[[1.0, 2.0]],
         frozen: None,
         cue: [0.0, 0.0, 2.0, 0.0, 1.3],
         marks: &[
             mark("lap", "seconds from the far rail to your own", Time(Rail(0, 1), Rail(0, 2))),
-            Mark { sure: 0.2, ..mark("rest", "seconds from your own rail until it stops", Time(Rail(0, 2), Stop(0))) },
+            Mark {
+                standard_error: 0.2,
+                ..mark("rest", "seconds from your own rail until it stops", Time(Rail(0, 2), Stop(0)))
+            },
             STOP,
         ],
         rails: Some(2),
-        times: 1,
+        repetitions: 1,
     },
     Test {
         name: "hard-lag",
         title: "a hard lag: what fast balls lose at a rail",
-        place: "the cue ball in the middle of your end: diamond 1 along, 2 across",
+        placement: "the cue ball in the middle of your end: diamond 1 along, 2 across",
         strike: "centre ball, straight along the middle, hard: five lengths or so",
         balls: &[[1.0, 2.0]],
         frozen: None,
@@ -245,7 +248,7 @@ pub const PROTOCOL: &[Test] = &[
             STOP,
         ],
         rails: None,
-        times: 1,
+        repetitions: 1,
     },
     Test {
         name: "corner-five",
@@ -273,7 +276,7 @@ pub const PROTOCOL: &[Test] = &[
     Test {
         name: "side-along",
         title: "maximum side: squirt, how long side lasts",
-        place: "the cue ball in the middle of your end: diamond 1 along, 2 across",
+        placement: "the cue ball in the middle of your end: diamond 1 along, 2 across",
         strike: "maximum side on the left, straight along the middle, at medium speed: it must reach a long rail",
         balls: &[[1.0, 2.0]],
         frozen: None,
@@ -285,12 +288,12 @@ pub const PROTOCOL: &[Test] = &[
             ACROSS,
         ],
         rails: None,
-        times: 2,
+        repetitions: 2,
     },
     Test {
         name: "full-hit",
         title: "a full hit: what is lost between the balls",
-        place: "the cue ball at diamond 1 along, another ball at 2 along, both in the middle (2 across)",
+        placement: "the cue ball at diamond 1 along, another ball at 2 along, both in the middle (2 across)",
         strike: "centre ball, full, soft: the other ball must stop before the far rail",
         balls: &[[1.0, 2.0], [2.0, 2.0]],
         frozen: None,
@@ -300,12 +303,12 @@ pub const PROTOCOL: &[Test] = &[
             mark("cue", "where the cue ball stops along the table", StopAlong(0)),
         ],
         rails: Some(0),
-        times: 1,
+        repetitions: 1,
     },
     Test {
         name: "frozen-pair",
         title: "a frozen pair: how balls throw each other",
-        place: "a ball at 1.8 along, 2 across; another one behind it that touches it, both in line with the middle of the \
+        placement: "a ball at 1.8 along, 2 across; another one behind it that touches it, both in line with the middle of the \
                 far rail; the cue ball at 1 along, 1.2 across",
         strike: "centre ball, full on the nearer ball, medium speed",
         balls: &[[1.0, 1.2], [1.8, 2.0]],
@@ -313,6 +316,6 @@ pub const PROTOCOL: &[Test] = &[
         cue: [0.0, 0.0, 2.0, 45.0, 1.0],
         marks: &[mark("object", "where the farther ball meets the far short rail", RailAcross(2, 1))],
         rails: Some(0),
-        times: 0,
+        repetitions: 0,
     },
 ];

@@ -8,7 +8,7 @@ use crate::table::{DoubtError, OneRail, Rail, Table, TableDoubt};
 
 /// Constants that a rail can have individually: name of the common constant, name of the rail's own, and the standard deviation between
 /// the rails of one table, which is an assumption.
-const OWN: [(&str, &str, f64); 2] = [("e_rail", "e", 0.02), ("mu_rail", "mu", 0.03)];
+const RAIL_CONSTANTS: [(&str, &str, f64); 2] = [("e_rail", "e", 0.02), ("mu_rail", "mu", 0.03)];
 
 /// Factor on the deviation of a detected rail: it is not one of the many similar ones.
 const WIDE: f64 = 3.0;
@@ -22,13 +22,13 @@ const MAX_REMAINING: f64 = 0.95;
 
 /// Returns the belief in which these rails have their own values, with those of the others as prior means, and with the deviations
 /// between rails multiplied by `wide`.
-fn with_own(table: &Table, doubt: &TableDoubt, rails: &[Rail], wide: f64) -> Result<Belief, DoubtError> {
+fn with_rail_constants(table: &Table, doubt: &TableDoubt, rails: &[Rail], wide: f64) -> Result<Belief, DoubtError> {
     let (mut table, mut doubt) = (table.clone(), doubt.clone());
     for rail in rails {
         let OneRail { height, .. } = table.rail.own(*rail);
         let (e, mu) = (Some(table.rail_restitution), Some(table.rail_friction));
         *table.rail.own_mut(*rail) = Some(OneRail { e, mu, height });
-        for (common, own, differ) in OWN {
+        for (common, own, differ) in RAIL_CONSTANTS {
             let Some(deviation) = doubt.deviations.get(common).copied() else { continue };
             let name = name(*rail, own);
             let whole = deviation.hypot(wide * differ);
@@ -75,12 +75,12 @@ pub fn distinct_rails(
     if !is_both || has_own {
         return Ok(None);
     }
-    let belief = with_own(table, doubt, &Rail::ALL, 1.0)?;
+    let belief = with_rail_constants(table, doubt, &Rail::ALL, 1.0)?;
     let found = estimate(&belief, trials);
     let (values, covariance) = (belief.values(&found.unknowns), belief.covariance(&found.covariance));
     let index_of = |name: &str| belief.constants().position(|(constant, ..)| constant == name);
     let differs = |rail: &Rail| {
-        OWN.iter().any(|(common, own, differ)| {
+        RAIL_CONSTANTS.iter().any(|(common, own, differ)| {
             let Some((all, one)) = index_of(common).zip(index_of(&name(*rail, own))) else { return false };
             let variance = covariance[one][one] + covariance[all][all] - 2.0 * covariance[one][all];
             deviations(values[one] - values[all], variance, *differ) > THRESHOLD
@@ -90,7 +90,7 @@ pub fn distinct_rails(
     if rails.is_empty() {
         return Ok(None);
     }
-    let belief = with_own(table, doubt, &rails, WIDE)?;
+    let belief = with_rail_constants(table, doubt, &rails, WIDE)?;
     let found = estimate(&belief, trials);
     Ok(Some((belief, found)))
 }

@@ -7,7 +7,7 @@ const SHARE: f64 = 0.02;
 const WIDTH: f64 = 10.0;
 
 /// Residual, in standard errors, of a mark to which the ball never gets; larger residuals are clamped to it.
-pub const NEVER: f64 = 30.0;
+pub const UNREACHED_RESIDUAL: f64 = 30.0;
 
 /// Returns the densities of good and of misread marks at a residual `off`, in standard errors, up to a common factor.
 fn densities(off: f64) -> [f64; 2] {
@@ -16,29 +16,29 @@ fn densities(off: f64) -> [f64; 2] {
 
 /// Returns the number whose square is minus twice the log density of the mixture. For a small residual this is `off` itself; for a large
 /// one it grows much more slowly.
-pub fn soften(off: f64) -> f64 {
-    let off = off.clamp(-NEVER, NEVER);
+pub fn robust_residual(off: f64) -> f64 {
+    let off = off.clamp(-UNREACHED_RESIDUAL, UNREACHED_RESIDUAL);
     let [good, bad] = densities(off);
     let [best, worst] = densities(0.0);
     (-2.0 * ((good + bad) / (best + worst)).ln()).max(0.0).sqrt().copysign(off)
 }
 
 /// Returns the probability that a mark with the residual `off`, in standard errors, is misread.
-pub fn misread(off: f64) -> f64 {
-    let [good, bad] = densities(off.clamp(-NEVER, NEVER));
+pub fn misread_probability(off: f64) -> f64 {
+    let [good, bad] = densities(off.clamp(-UNREACHED_RESIDUAL, UNREACHED_RESIDUAL));
     bad / (good + bad)
 }
 
 /// Weight of a mark to which no stroke gets: zero, except for what keeps matrices regular.
-const NOTHING: f64 = 1e-9;
+const MIN_WEIGHT: f64 = 1e-9;
 
-/// Returns the weight of a mark with the residual `off`, relative to a certainly good one. From [`NEVER`] on it is practically zero,
-/// because [`soften`] is flat there: a larger residual does not pull the constants further.
+/// Returns the weight of a mark with the residual `off`, relative to a certainly good one. From [`UNREACHED_RESIDUAL`] on it is practically
+/// zero, because [`robust_residual`] is flat there: a larger residual does not pull the constants further.
 pub fn weight(off: f64) -> f64 {
-    if off.abs() >= NEVER {
-        return NOTHING;
+    if off.abs() >= UNREACHED_RESIDUAL {
+        return MIN_WEIGHT;
     }
-    let misread = misread(off);
+    let misread = misread_probability(off);
     1.0 - misread + misread / (WIDTH * WIDTH)
 }
 
@@ -48,9 +48,13 @@ mod tests {
 
     #[test]
     fn good_marks_count_fully_and_far_ones_little() {
-        assert!((soften(1.0) - 1.0).abs() < 5e-3 && (soften(-2.0) + 2.0).abs() < 3e-2);
-        assert!(soften(10.0) < 4.0 && soften(30.0) > soften(10.0) && soften(1e9) == soften(NEVER));
-        assert!(misread(2.0) < 0.05 && misread(4.5) > 0.9);
+        assert!((robust_residual(1.0) - 1.0).abs() < 5e-3 && (robust_residual(-2.0) + 2.0).abs() < 3e-2);
+        assert!(
+            robust_residual(10.0) < 4.0
+                && robust_residual(30.0) > robust_residual(10.0)
+                && robust_residual(1e9) == robust_residual(UNREACHED_RESIDUAL)
+        );
+        assert!(misread_probability(2.0) < 0.05 && misread_probability(4.5) > 0.9);
         assert!(weight(1.0) > 0.99 && weight(8.0) < 0.02 && weight(-1e3) < 1e-6);
     }
 }

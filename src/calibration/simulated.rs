@@ -8,7 +8,7 @@ use super::{
     belief::Belief,
     calibrate::{CalibrationError, calibrate},
     estimate::{Estimate, Reading, Trial, estimate},
-    forward::{Hand, STROKE},
+    forward::{STROKE_PARAMETERS, StrokeSpread},
     protocol::{PROTOCOL, Quantity, Test},
 };
 use crate::{
@@ -17,7 +17,7 @@ use crate::{
 };
 
 /// Standard deviations of a club player's strokes from the requested ones.
-const CLUB: Hand = Hand {
+const CLUB: StrokeSpread = StrokeSpread {
     speed: 0.1,
     direction: 0.25_f64.to_radians(),
     tip: 0.0325,
@@ -56,8 +56,8 @@ pub fn coverage(table: &Table, doubt: &TableDoubt, count: usize, seed: u64) -> R
         .map(|(name, _, before)| Coverage { name: name.to_owned(), held: 0, before, after: 0.0, error: 0.0 })
         .collect();
     for _ in 0..count {
-        let truth = sampler.as_ref().map_or_else(|| table.clone(), |sampler| drawn(sampler, &mut rng));
-        let trials = played(&truth, &mut rng);
+        let truth = sampler.as_ref().map_or_else(|| table.clone(), |sampler| draw_valid_table(sampler, &mut rng));
+        let trials = simulate_protocol(&truth, &mut rng);
         let Estimate { unknowns, covariance, .. } = estimate(&belief, &trials);
         let (values, covariance) = (belief.values(&unknowns), belief.covariance(&covariance));
         for (index, coverage) in found.iter_mut().enumerate() {
@@ -78,15 +78,16 @@ pub fn coverage(table: &Table, doubt: &TableDoubt, count: usize, seed: u64) -> R
 ///
 /// # Errors
 /// Fails if the doubt is not valid or contains no uncertain constant.
-pub fn calibrated(table: &Table, doubt: &TableDoubt, seed: u64) -> Result<[Table; 2], CalibrationError> {
+pub fn simulated_calibration(table: &Table, doubt: &TableDoubt, seed: u64) -> Result<[Table; 2], CalibrationError> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-    let truth = TableSampler::new(table, doubt, 1.0).map_or_else(|| table.clone(), |sampler| drawn(&sampler, &mut rng));
-    let trials: Vec<_> = played(&truth, &mut rng).into_iter().enumerate().collect();
+    let truth = TableSampler::new(table, doubt, 1.0)
+        .map_or_else(|| table.clone(), |sampler| draw_valid_table(&sampler, &mut rng));
+    let trials: Vec<_> = simulate_protocol(&truth, &mut rng).into_iter().enumerate().collect();
     Ok([truth, calibrate("calibrated", table, doubt, &trials)?.table])
 }
 
 /// Draws a table until it is a valid one.
-fn drawn(sampler: &TableSampler, rng: &mut Xoshiro256PlusPlus) -> Table {
+fn draw_valid_table(sampler: &TableSampler, rng: &mut Xoshiro256PlusPlus) -> Table {
     loop {
         let table = sampler.draw(|| normal_pair(rng)[0]);
         if toml::to_string(&table).is_ok_and(|text| Table::from_toml(&text).is_ok()) {
@@ -96,17 +97,17 @@ fn drawn(sampler: &TableSampler, rng: &mut Xoshiro256PlusPlus) -> Table {
 }
 
 /// Simulates the whole protocol as a club player plays and marks it.
-pub fn played(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Vec<Trial> {
-    let tests = PROTOCOL.iter().flat_map(|test| std::iter::repeat_n(test, test.times));
+pub fn simulate_protocol(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Vec<Trial> {
+    let tests = PROTOCOL.iter().flat_map(|test| std::iter::repeat_n(test, test.repetitions));
     tests.map(|test| trial(table, test, rng)).collect()
 }
 
 /// Simulates one stroke. A mark that is not possible, because the ball has stopped before, is left out.
 fn trial(table: &Table, test: &'static Test, rng: &mut Xoshiro256PlusPlus) -> Trial {
-    let stroke: [f64; STROKE] = std::array::from_fn(|_| normal_pair(rng)[0]);
-    let seen = CLUB.seen(table, test, false, &stroke);
+    let stroke: [f64; STROKE_PARAMETERS] = std::array::from_fn(|_| normal_pair(rng)[0]);
+    let seen = CLUB.simulate_marks(table, test, false, &stroke);
     let readings = seen.into_iter().zip(test.marks).enumerate().filter_map(|(index, (seen, mark))| {
-        let off = mark.sure * normal_pair(rng)[0];
+        let off = mark.standard_error * normal_pair(rng)[0];
         // Rounded to a tenth of a diamond, as a player writes it down.
         let written = |position: f64| (10.0 * (position + off)).round() / 10.0;
         let value = match mark.quantity {
@@ -121,7 +122,7 @@ fn trial(table: &Table, test: &'static Test, rng: &mut Xoshiro256PlusPlus) -> Tr
             }
             _ => written(seen?),
         };
-        Some(Reading { mark: index, value, sure: mark.sure })
+        Some(Reading { mark: index, value, standard_error: mark.standard_error })
     });
     Trial { test, is_turned: false, readings: readings.collect() }
 }

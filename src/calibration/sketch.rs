@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use glam::DVec2;
 
 use super::{
-    forward::{Hand, STROKE},
+    forward::{STROKE_PARAMETERS, StrokeSpread},
     protocol::{Quantity, Test},
 };
 use crate::{
@@ -25,9 +25,9 @@ pub struct Sketch {
     /// The requested stroke.
     pub cue: CueInputs,
     /// Points along the paths of the balls, m.
-    pub ways: [Vec<DVec2>; BALLS],
+    pub paths: [Vec<DVec2>; BALLS],
     /// Position of the marked ball's centre for each mark, m; `None` for times, and for marks to which no ball gets.
-    pub places: Vec<Option<DVec2>>,
+    pub mark_positions: Vec<Option<DVec2>>,
 }
 
 impl Sketch {
@@ -36,7 +36,7 @@ impl Sketch {
 
     /// Simulates `test` on `table`.
     pub fn of(table: &Table, test: &Test) -> Self {
-        let (cue, layout) = Hand::ASSUMED.stroke(table, test, &[0.0; STROKE]);
+        let (cue, layout) = StrokeSpread::ASSUMED.stroke(table, test, &[0.0; STROKE_PARAMETERS]);
         let paths = layout.balls.map(|ball| vec![ball]);
         let mut observed = Observed { paths, positions: layout.balls, rails: Default::default() };
         watch(table, &layout, &strike(table, &cue), &mut observed);
@@ -47,8 +47,8 @@ impl Sketch {
             }
             Quantity::Time(..) => None,
         };
-        let places = test.marks.iter().map(|mark| position(mark.quantity)).collect();
-        Self { layout, cue, ways: observed.paths, places }
+        let mark_positions = test.marks.iter().map(|mark| position(mark.quantity)).collect();
+        Self { layout, cue, paths: observed.paths, mark_positions }
     }
 }
 
@@ -88,17 +88,17 @@ mod tests {
     use crate::calibration::PROTOCOL;
 
     #[test]
-    fn every_test_shows_where_its_places_are_marked() {
+    fn every_test_has_positions_for_its_marks() {
         let table = Table::default();
         for test in PROTOCOL {
             let sketch = Sketch::of(&table, test);
-            for (mark, place) in test.marks.iter().zip(&sketch.places) {
+            for (mark, place) in test.marks.iter().zip(&sketch.mark_positions) {
                 let is_time = matches!(mark.quantity, Quantity::Time(..));
                 assert_eq!(place.is_none(), is_time, "{} {}", test.name, mark.name);
                 assert!(place.is_none_or(|place| place.abs().cmple(table.reach() + 1e-6).all()), "{}", test.name);
             }
-            assert!(sketch.ways[0].len() > 10, "{}", test.name);
-            let gaps = sketch.ways[0].windows(2).map(|pair| pair[0].distance(pair[1]));
+            assert!(sketch.paths[0].len() > 10, "{}", test.name);
+            let gaps = sketch.paths[0].windows(2).map(|pair| pair[0].distance(pair[1]));
             assert!(gaps.fold(0.0, f64::max) < 0.05, "{}", test.name);
         }
     }

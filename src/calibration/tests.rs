@@ -6,9 +6,9 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     belief::Belief,
-    forward::{Hand, STROKE},
+    forward::{STROKE_PARAMETERS, StrokeSpread},
     protocol::Quantity,
-    simulated::played,
+    simulated::simulate_protocol,
     *,
 };
 use crate::table::{OneRail, Rail, Table, TableDoubt};
@@ -33,13 +33,13 @@ fn exact(table: &Table) -> Vec<(usize, Trial)> {
 
 /// The same from one end of the table or the other.
 fn exact_from(table: &Table, is_turned: bool) -> Vec<(usize, Trial)> {
-    let tests = PROTOCOL.iter().flat_map(|test| std::iter::repeat_n(test, test.times));
+    let tests = PROTOCOL.iter().flat_map(|test| std::iter::repeat_n(test, test.repetitions));
     let trial = |test: &'static Test| {
-        let seen = Hand::ASSUMED.seen(table, test, is_turned, &[0.0; STROKE]);
+        let seen = StrokeSpread::ASSUMED.simulate_marks(table, test, is_turned, &[0.0; STROKE_PARAMETERS]);
         let readings = seen.iter().zip(test.marks).enumerate().map(|(mark, (seen, kind))| Reading {
             mark,
             value: seen.unwrap_or_else(|| panic!("{} {} is never reached", test.name, kind.name)),
-            sure: kind.sure,
+            standard_error: kind.standard_error,
         });
         Trial { test, is_turned, readings: readings.collect() }
     };
@@ -47,7 +47,7 @@ fn exact_from(table: &Table, is_turned: bool) -> Vec<(usize, Trial)> {
 }
 
 #[test]
-fn a_level_table_stays_level_if_its_tilt_is_certain() {
+fn a_certain_zero_tilt_stays_zero() {
     let (mut table, mut doubt) = base();
     table.tilt = DVec2::ZERO;
     let tilt = |doubt: &TableDoubt| {
@@ -61,11 +61,11 @@ fn a_level_table_stays_level_if_its_tilt_is_certain() {
 }
 
 #[test]
-fn a_known_table_is_found_again_from_exact_marks() {
+fn exact_marks_recover_the_true_table() {
     let (table, doubt) = base();
     let truth = other(&table);
     let found = calibrate("club", &table, &doubt, &exact(&truth)).unwrap();
-    assert!(found.verdicts.iter().all(|verdict| verdict.off.abs() < 1.0), "{:?}", found.verdicts);
+    assert!(found.mark_checks.iter().all(|check| check.off.abs() < 1.0), "{:?}", found.mark_checks);
     assert!(found.misread().is_empty() && !found.is_contradictory());
     for change in &found.constants {
         let expected = TableDoubt::value(&truth, &change.name).unwrap();
@@ -86,7 +86,7 @@ fn a_known_table_is_found_again_from_exact_marks() {
 }
 
 #[test]
-fn a_start_at_another_value_of_a_constant_moves_the_correlated_constants_with_it() {
+fn a_shifted_start_moves_correlated_constants() {
     let (table, mut doubt) = base();
     doubt.correlations = vec![("mu_rail".to_owned(), "rail.kappa".to_owned(), -0.6)];
     let belief = Belief::new(&table, &doubt).unwrap();
@@ -103,7 +103,7 @@ fn a_start_at_another_value_of_a_constant_moves_the_correlated_constants_with_it
 }
 
 #[test]
-fn the_intervals_hold_the_truth_of_tables_that_a_club_player_marks() {
+fn intervals_cover_the_truth_for_a_club_player() {
     let (table, doubt) = base();
     let coverage = coverage(&table, &doubt, 6, 8).unwrap();
     let held: usize = coverage.iter().map(|one| one.held).sum();
@@ -113,7 +113,7 @@ fn the_intervals_hold_the_truth_of_tables_that_a_club_player_marks() {
 }
 
 #[test]
-fn a_misread_mark_is_named_with_what_was_expected_and_hardly_counts() {
+fn a_misread_mark_is_reported_and_hardly_counts() {
     let (table, doubt) = base();
     let truth = other(&table);
     let mut trials = exact(&truth);
@@ -121,10 +121,10 @@ fn a_misread_mark_is_named_with_what_was_expected_and_hardly_counts() {
     trials[1].1.readings[0].value += 3.0;
     let found = calibrate("club", &table, &doubt, &trials).unwrap();
     assert_eq!(found.misread(), [2]);
-    let verdict = found.verdicts.iter().find(|verdict| verdict.misread).unwrap();
-    let (expected, deviation) = verdict.expected.unwrap();
-    assert_eq!((verdict.test, verdict.mark), ("slow-roll", "time"));
-    assert!((verdict.marked - 3.0 - expected).abs() < 0.3 && deviation < 0.3, "{verdict:?}");
+    let check = found.mark_checks.iter().find(|check| check.misread).unwrap();
+    let (expected, deviation) = check.expected.unwrap();
+    assert_eq!((check.test, check.mark), ("slow-roll", "time"));
+    assert!((check.marked - 3.0 - expected).abs() < 0.3 && deviation < 0.3, "{check:?}");
     for change in &found.constants {
         let expected = TableDoubt::value(&truth, &change.name).unwrap();
         assert!((change.after - expected).abs() < 2.0 * change.after_deviation, "{change:?} for {expected}");
@@ -133,7 +133,7 @@ fn a_misread_mark_is_named_with_what_was_expected_and_hardly_counts() {
 
 /// Earlier, marks of a wrong stroke counted if they did not contradict the others, so that the constants seemed more certain.
 #[test]
-fn no_mark_of_a_stroke_with_mostly_misread_marks_counts() {
+fn strokes_with_mostly_misread_marks_are_left_out() {
     let (table, doubt) = base();
     let lag = exact(&other(&table)).into_iter().find(|(_, trial)| trial.test.name == "lag").unwrap();
     let alone = calibrate("club", &table, &doubt, std::slice::from_ref(&lag)).unwrap();
@@ -159,12 +159,12 @@ fn no_mark_of_a_stroke_with_mostly_misread_marks_counts() {
 
 /// Earlier, a watch left running for a minute pulled the constants towards it, and made them less certain than without the stroke.
 #[test]
-fn one_absurd_mark_neither_pulls_the_constants_nor_widens_them() {
+fn one_absurd_mark_does_not_distort_the_estimate() {
     let (table, doubt) = base();
     let found = |rests: &[f64]| {
         let lag = |rest: &f64| {
             let marks = [("lap", 4.5), ("rest", *rest), ("stop", 3.4)];
-            let marks = marks.map(|(name, value)| (name.to_owned(), Written::Number(value))).into();
+            let marks = marks.map(|(name, value)| (name.to_owned(), MarkValue::Number(value))).into();
             Entry { test: "lag".into(), marks, ..Entry::default() }
         };
         let entries = Entries { name: None, trials: rests.iter().map(lag).collect() };
@@ -179,7 +179,7 @@ fn one_absurd_mark_neither_pulls_the_constants_nor_widens_them() {
 }
 
 #[test]
-fn a_mark_that_only_another_stroke_explains_is_reported() {
+fn marks_that_need_another_stroke_are_reported() {
     let (table, doubt) = base();
     let mut trials = exact(&table);
     let corner = trials.iter().rposition(|(_, trial)| trial.test.name == "corner-five").unwrap();
@@ -187,9 +187,9 @@ fn a_mark_that_only_another_stroke_explains_is_reported() {
     trials[corner].1.readings[1].value -= 1.5;
     let found = calibrate("club", &table, &doubt, &trials).unwrap();
     let is_reported =
-        found.strange.iter().any(|strange| strange.trial == corner + 1) || found.misread() == [corner + 1];
-    assert!(is_reported, "{:?} {:?}", found.strange, found.verdicts);
-    assert!(calibrate("club", &table, &doubt, &exact(&table)).unwrap().strange.is_empty());
+        found.outlier_strokes.iter().any(|stroke| stroke.trial == corner + 1) || found.misread() == [corner + 1];
+    assert!(is_reported, "{:?} {:?}", found.outlier_strokes, found.mark_checks);
+    assert!(calibrate("club", &table, &doubt, &exact(&table)).unwrap().outlier_strokes.is_empty());
 }
 
 #[test]
@@ -197,23 +197,23 @@ fn marks_that_contradict_each_other_are_reported() {
     let (table, doubt) = base();
     let trial = |time: f64| Entry {
         test: "slow-roll".into(),
-        marks: [("time".to_owned(), Written::Number(time)), ("stop".to_owned(), Written::Number(5.0))].into(),
+        marks: [("time".to_owned(), MarkValue::Number(time)), ("stop".to_owned(), MarkValue::Number(5.0))].into(),
         ..Entry::default()
     };
     let entries = Entries { name: None, trials: [5.0, 9.0, 16.0].map(trial).into() };
     let (trials, odd) = entries.trials(&table);
     assert_eq!(odd, []);
     let found = calibrate("club", &table, &doubt, &trials).unwrap();
-    assert!(found.is_contradictory(), "{:?}", found.verdicts);
+    assert!(found.is_contradictory(), "{:?}", found.mark_checks);
     let text = found.agreement(|trial, test| format!("stroke {trial} of {test}"));
     for trial in found.misread() {
         assert!(text.contains(&format!("stroke {trial} of slow-roll")), "{text}");
     }
-    assert!(found.constants.iter().all(|change| found.known(change) == "unsure"));
+    assert!(found.constants.iter().all(|change| found.certainty(change) == "unsure"));
 }
 
 #[test]
-fn an_incomplete_file_is_used_and_its_missing_strokes_are_listed() {
+fn an_incomplete_file_lists_its_missing_strokes() {
     let (table, doubt) = base();
     let text = "name = \"club\"\n[[trial]]\ntest = \"slow-roll\"\ntime = 9.0\nstop = \"1900 mm\"\nsure = { time = 0.3 }\n\
                 [[trial]]\ntest = \"lag\"\n[[trial]]\ntest = \"hard-lag\"\nstop = 3.2\n[[trial]]\ntest = \"masse\"\nx = 1\n";
@@ -221,7 +221,7 @@ fn an_incomplete_file_is_used_and_its_missing_strokes_are_listed() {
     let (trials, odd) = entries.trials(&table);
     assert_eq!((trials.len(), trials[0].0), (1, 0));
     let stop = trials[0].1.readings[1];
-    assert!((stop.value - 1.9 / table.diamond()).abs() < 1e-12 && stop.sure < 0.02, "by tape: {stop:?}");
+    assert!((stop.value - 1.9 / table.diamond()).abs() < 1e-12 && stop.standard_error < 0.02, "by tape: {stop:?}");
     let problems: Vec<String> = odd.iter().map(ToString::to_string).collect();
     assert!(problems[0].starts_with("trial 2 (lag): nothing is marked yet"), "{problems:?}");
     assert!(problems[1].contains("hard-lag") && problems[1].contains("rails = 5"), "{problems:?}");
@@ -274,7 +274,7 @@ fn problematic_marks_are_reported_with_the_accepted_values() {
 }
 
 #[test]
-fn a_ball_that_is_marked_at_a_rail_touches_it_and_has_met_none() {
+fn a_mark_at_a_rail_counts_no_rail_hit() {
     let (table, doubt) = base();
     let text = "[[trial]]\ntest = \"full-hit\"\nobject = 8\n[[trial]]\ntest = \"slow-back\"\nstop = 0\ndrift = 4\n";
     let trials = Entries::parse(text).unwrap().trials(&table).0;
@@ -285,11 +285,11 @@ fn a_ball_that_is_marked_at_a_rail_touches_it_and_has_met_none() {
     assert!((far - (8.0 - radius)).abs() < 1e-12 && (near - radius).abs() < 1e-12, "{far} {near}");
     assert!((trials[1].1.readings[1].value - (4.0 - radius)).abs() < 1e-12);
     let found = calibrate("club", &table, &doubt, &trials[..1]).unwrap();
-    assert_eq!(found.verdicts[0].rails.unwrap().0, 0, "{:?}", found.verdicts);
+    assert_eq!(found.mark_checks[0].rails.unwrap().0, 0, "{:?}", found.mark_checks);
 }
 
 #[test]
-fn a_constant_that_has_become_certain_is_correlated_with_nothing() {
+fn certain_constants_have_no_correlations() {
     let (table, doubt) = base();
     let belief = Belief::new(&table, &doubt).unwrap();
     let mut covariance = vec![vec![0.0; belief.count()]; belief.count()];
@@ -307,7 +307,7 @@ fn a_constant_that_has_become_certain_is_correlated_with_nothing() {
 }
 
 #[test]
-fn entries_are_the_same_after_a_round_trip_and_may_be_json() {
+fn entries_survive_a_round_trip_in_toml_and_json() {
     let text =
         "[[trial]]\ntest = \"hard-lag\"\nrails = 5\nlengths = 2.6\nstop = \"1100 mm\"\nsure = { lengths = 0.2 }\n";
     let entries = Entries::parse(text).unwrap();
@@ -328,7 +328,7 @@ fn travel_and_position_are_inverse_over_several_rails() {
     let lag = Test::named("lag").unwrap();
     assert_eq!(lag.position(&table, 3.0), (0, 3.0));
     assert_eq!(Test::named("slow-back").unwrap().position(&table, 3.0), (0, 5.0));
-    let drawn = played(&table, &mut Xoshiro256PlusPlus::seed_from_u64(3));
+    let drawn = simulate_protocol(&table, &mut Xoshiro256PlusPlus::seed_from_u64(3));
     let stops =
         drawn.iter().flat_map(|trial| trial.readings.iter().map(|reading| trial.test.marks[reading.mark].quantity));
     assert!(stops.filter(|quantity| matches!(quantity, Quantity::StopAlong(_))).count() >= 9);
@@ -338,7 +338,7 @@ fn travel_and_position_are_inverse_over_several_rails() {
 fn every_test_can_be_played() {
     let table = Table::default();
     for test in PROTOCOL {
-        let (cue, layout) = Hand::ASSUMED.stroke(&table, test, &[0.0; STROKE]);
+        let (cue, layout) = StrokeSpread::ASSUMED.stroke(&table, test, &[0.0; STROKE_PARAMETERS]);
         cue.validate().unwrap();
         assert!(!cue.is_miscue(&table), "{}", test.name);
         for (index, ball) in layout.balls.iter().enumerate().filter(|(_, ball)| ball.x.abs() < 10.0) {
@@ -348,29 +348,29 @@ fn every_test_can_be_played() {
 }
 
 #[test]
-fn a_slower_day_is_reported_and_only_constants_that_the_weather_changes_move_much() {
+fn a_slower_day_changes_mostly_weather_constants() {
     let (table, doubt) = base();
     let known = calibrate("club", &table, &doubt, &exact(&table)).unwrap().table;
     let before = known.doubt.clone().unwrap();
-    let after = overnight(&known, &before);
+    let after = next_day_doubt(&known, &before);
     after.validate().unwrap();
     assert!(after.deviations["mu_r"] > before.deviations["mu_r"]);
     assert_eq!(after.deviations["m_end"], before.deviations["m_end"]);
     let damp = TableDoubt::with_value(&known, "mu_r", 1.25 * TableDoubt::value(&known, "mu_r").unwrap());
-    let today: Vec<_> = exact(&damp).into_iter().filter(|(_, trial)| DAILY.contains(&trial.test.name)).collect();
+    let today: Vec<_> = exact(&damp).into_iter().filter(|(_, trial)| DAILY_TESTS.contains(&trial.test.name)).collect();
     let found = calibrate("club", &known, &after, &today).unwrap();
-    let text = Play::of(&found.table).against(&Play::of(&known));
+    let text = TablePlay::of(&found.table).describe_change_from(&TablePlay::of(&known));
     assert!(text.contains("a lag rolls shorter"), "{text}");
     let roll = found.constants.iter().find(|change| change.name == "mu_r").unwrap();
     assert!(roll.after > 1.1 * roll.before, "{roll:?}");
 }
 
 #[test]
-fn the_weather_changes_single_rails_as_it_changes_all() {
+fn weather_changes_single_rails_like_all_rails() {
     let (mut table, mut doubt) = base();
     *table.rail.own_mut(Rail::Top) = Some(OneRail { e: Some(0.8), ..OneRail::default() });
     doubt.deviations.insert("rail.top.e".to_owned(), 0.008);
-    let after = overnight(&table, &doubt);
+    let after = next_day_doubt(&table, &doubt);
     after.validate().unwrap();
     let [all, own] = ["e_rail", "rail.top.e"].map(|name| after.deviations[name]);
     assert!((own - 0.008_f64.hypot(0.01)).abs() < 1e-12, "{own}");
@@ -380,7 +380,7 @@ fn the_weather_changes_single_rails_as_it_changes_all() {
 }
 
 #[test]
-fn a_single_stroke_with_misread_marks_makes_no_table() {
+fn a_single_misread_stroke_makes_no_table() {
     let (table, doubt) = base();
     let mut trial = exact(&table).into_iter().find(|(_, trial)| trial.test.name == "lag").unwrap();
     for reading in &mut trial.1.readings {
@@ -395,13 +395,13 @@ fn a_single_stroke_with_misread_marks_makes_no_table() {
 }
 
 #[test]
-fn one_odd_mark_of_a_single_stroke_leaves_the_others_to_count() {
+fn one_misread_mark_leaves_the_stroke_usable() {
     let (table, doubt) = base();
     let mut trial = exact(&table).into_iter().find(|(_, trial)| trial.test.name == "slow-roll").unwrap();
     let drift = trial.1.test.marks.iter().position(|mark| mark.name == "drift").unwrap();
     trial.1.readings.iter_mut().find(|reading| reading.mark == drift).unwrap().value += 1.0;
     let found = calibrate("club", &table, &doubt, &[trial]).unwrap();
-    assert_eq!((found.misread().len(), found.left_out.len()), (1, 0), "{:?}", found.verdicts);
+    assert_eq!((found.misread().len(), found.left_out.len()), (1, 0), "{:?}", found.mark_checks);
     assert!(!found.is_contradictory());
 }
 
@@ -412,12 +412,12 @@ fn both(truth: &Table) -> Vec<(usize, Trial)> {
 }
 
 #[test]
-fn a_rail_that_differs_from_the_others_is_detected_if_tests_are_played_from_both_ends() {
+fn tests_from_both_ends_reveal_a_differing_rail() {
     let (table, doubt) = base();
     let mut truth = table.clone();
     *truth.rail.own_mut(Rail::Top) = Some(OneRail { e: Some(table.rail_restitution - 0.08), ..OneRail::default() });
     let found = calibrate("club", &table, &doubt, &both(&truth)).unwrap();
-    let texts = found.rails_apart();
+    let texts = found.differing_rails();
     assert_eq!(texts.len(), 1, "{texts:?}");
     assert!(texts[0].starts_with("the left long rail (top) is unlike the others: it gives back less (0."), "{texts:?}");
     let own = found.table.rail.top.unwrap().e.unwrap();
@@ -426,21 +426,21 @@ fn a_rail_that_differs_from_the_others_is_detected_if_tests_are_played_from_both
     assert!(deviation < 0.035 && found.table.rail.bottom.is_none(), "{deviation}");
     assert_eq!(Table::from_toml(&toml::to_string(&found.table).unwrap()).unwrap(), found.table);
     // Equal rails keep common constants, and tests from one end alone do not distinguish rails.
-    assert_eq!(calibrate("club", &table, &doubt, &both(&table)).unwrap().rails_apart(), [""; 0]);
+    assert_eq!(calibrate("club", &table, &doubt, &both(&table)).unwrap().differing_rails(), [""; 0]);
     assert_eq!(calibrate("club", &table, &doubt, &exact(&truth)).unwrap().table.rail.top, None);
 }
 
 #[test]
-fn a_test_from_the_far_end_is_read_and_written_and_hits_the_opposite_rails() {
+fn tests_from_the_far_end_hit_the_opposite_rails() {
     let text = "[[trial]]\ntest = \"lag\"\nfar-end = true\nlap = 2.6\n";
     let entries = Entries::parse(text).unwrap();
     assert_eq!(toml::to_string(&entries).unwrap(), text);
     let (table, _) = base();
     assert!(entries.trials(&table).0[0].1.is_turned);
     let mut entry = Entry { test: "lag".into(), ..Entry::default() };
-    entry.take(FAR_END, "yes").unwrap();
-    assert!(entry.far_end && entry.typed(FAR_END) == "yes");
-    assert!(entry.take(FAR_END, "maybe").unwrap_err().contains("accepted are yes and no"));
+    entry.set_field(FAR_END, "yes").unwrap();
+    assert!(entry.far_end && entry.field_text(FAR_END) == "yes");
+    assert!(entry.set_field(FAR_END, "maybe").unwrap_err().contains("accepted are yes and no"));
     let table = Table { tilt: glam::DVec2::new(1e-3, -5e-4), ..table };
     let mut leaning = table.clone();
     leaning.rail.left = Some(OneRail { e: Some(0.7), ..OneRail::default() });
@@ -451,7 +451,7 @@ fn a_test_from_the_far_end_is_read_and_written_and_hits_the_opposite_rails() {
 }
 
 #[test]
-fn the_words_for_a_stroke_fit_the_place_of_the_tip() {
+fn stroke_descriptions_match_the_tip_position() {
     for test in PROTOCOL {
         let [_, height, ..] = test.cue;
         let expected = match height {

@@ -1,7 +1,7 @@
 //! Describes the result of a calibration in a player's words.
 
 use super::{
-    calibrate::{Calibration, Change, Strange, Verdict},
+    calibrate::{Calibration, Change, MarkCheck, OutlierStroke},
     protocol::Test,
 };
 use crate::table::Rail;
@@ -29,7 +29,7 @@ const CONSTANTS: [(&str, [&str; 2]); 14] = [
 ];
 
 /// Formats a value and its error with as many decimals as give the error two significant digits.
-fn to_the_error(value: f64, error: f64) -> [String; 2] {
+fn round_to_error(value: f64, error: f64) -> [String; 2] {
     let first = error.abs().log10().floor();
     let decimals = if first.is_finite() { (1.0 - first).clamp(0.0, 9.0) as usize } else { 5 };
     [value, error].map(|number| format!("{number:.decimals$}"))
@@ -37,7 +37,7 @@ fn to_the_error(value: f64, error: f64) -> [String; 2] {
 
 impl Change {
     /// Returns a word for how well the constant is known after the trials, if the marks agree.
-    fn known(&self) -> &'static str {
+    fn certainty(&self) -> &'static str {
         match self.after_deviation / self.before_deviation {
             left if left < 0.5 => "well",
             left if left < 0.9 => "better",
@@ -46,13 +46,13 @@ impl Change {
     }
 
     /// Returns the prior mean and standard deviation as text.
-    pub fn told_before(&self) -> [String; 2] {
-        to_the_error(self.before, self.before_deviation)
+    pub fn before_text(&self) -> [String; 2] {
+        round_to_error(self.before, self.before_deviation)
     }
 
     /// Returns the posterior mean and standard deviation as text.
-    pub fn told(&self) -> [String; 2] {
-        to_the_error(self.after, self.after_deviation)
+    pub fn after_text(&self) -> [String; 2] {
+        round_to_error(self.after, self.after_deviation)
     }
 
     /// Describes the constant's meaning at the table, compared with the prior table, which is called `before`. `None` if the tests contain
@@ -67,7 +67,7 @@ impl Change {
             "mu_sp" => ("side is lost", ["later than", "as soon as", "sooner than"], false),
             _ => return None,
         };
-        let known = Some(self.known()).filter(|known| *known != NO_BETTER)?;
+        let known = Some(self.certainty()).filter(|known| *known != NO_BETTER)?;
         let (from, to) = if is_inverse { (self.after, self.before) } else { (self.before, self.after) };
         // There is no percentage of zero.
         if from == 0.0 {
@@ -86,20 +86,20 @@ impl Change {
     }
 
     /// Describes the constant in at most twelve characters; empty for a constant that no test measures.
-    pub fn short_words(&self) -> String {
-        match self.of_a_rail() {
-            Some((rail, own)) => format!("{} {}", called(rail)[1], if own == "e" { "bounce" } else { "grip" }),
-            None => self.of_the_table()[1].to_owned(),
+    pub fn short_name(&self) -> String {
+        match self.rail_constant() {
+            Some((rail, own)) => format!("{} {}", rail_names(rail)[1], if own == "e" { "bounce" } else { "grip" }),
+            None => self.common_words()[1].to_owned(),
         }
     }
 
     /// Returns the descriptions in [`CONSTANTS`]; empty if the constant is not among them.
-    fn of_the_table(&self) -> [&'static str; 2] {
+    fn common_words(&self) -> [&'static str; 2] {
         CONSTANTS.iter().find(|(name, _)| *name == self.name).map_or([""; 2], |(_, words)| *words)
     }
 
     /// Returns the rail and the kind, `e` or `mu`, of a single rail's constant.
-    fn of_a_rail(&self) -> Option<(Rail, &str)> {
+    fn rail_constant(&self) -> Option<(Rail, &str)> {
         let own = |rail: &Rail| Some((*rail, self.name.strip_prefix("rail.")?.strip_prefix(rail.name())?));
         let (rail, own) = Rail::ALL.iter().find_map(own)?;
         [".e", ".mu"].contains(&own).then(|| (rail, &own[1..]))
@@ -107,16 +107,16 @@ impl Change {
 
     /// Describes the constant.
     pub fn words(&self) -> String {
-        match self.of_a_rail() {
-            Some((rail, "e")) => format!("bounce of {}", called(rail)[0]),
-            Some((rail, _)) => format!("grip of {}", called(rail)[0]),
-            None => self.of_the_table()[0].to_owned(),
+        match self.rail_constant() {
+            Some((rail, "e")) => format!("bounce of {}", rail_names(rail)[0]),
+            Some((rail, _)) => format!("grip of {}", rail_names(rail)[0]),
+            None => self.common_words()[0].to_owned(),
         }
     }
 }
 
 /// Returns a rail's name for a player who stands at the left end, and the same in one word.
-const fn called(rail: Rail) -> [&'static str; 2] {
+const fn rail_names(rail: Rail) -> [&'static str; 2] {
     match rail {
         Rail::Left => ["your own short rail", "near"],
         Rail::Right => ["the far short rail", "far"],
@@ -125,9 +125,9 @@ const fn called(rail: Rail) -> [&'static str; 2] {
     }
 }
 
-impl Verdict {
+impl MarkCheck {
     /// Explains why a mark of the stroke called `stroke` looks misread.
-    pub fn doubtful(&self, stroke: &str) -> String {
+    pub fn misread_text(&self, stroke: &str) -> String {
         let Self { test, mark, marked, expected, rails, .. } = self;
         let unit = Test::named(test)
             .and_then(|test| test.marks.iter().find(|one| one.name == *mark))
@@ -145,7 +145,7 @@ impl Verdict {
     }
 }
 
-impl Strange {
+impl OutlierStroke {
     /// Describes the difference of the stroke called `stroke` from the requested one.
     pub fn words(&self, stroke: &str) -> String {
         let Self { what, off, .. } = self;
@@ -155,13 +155,13 @@ impl Strange {
 
 impl Calibration {
     /// Describes the rails that differ from the others.
-    pub fn rails_apart(&self) -> Vec<String> {
+    pub fn differing_rails(&self) -> Vec<String> {
         let constant = |name: &str| self.constants.iter().find(|one| one.name == name);
         let differs = |rail: Rail| {
             let part = |own: &str, common: &str, [less, more]: [&str; 2]| {
                 let (own, all) = (constant(&format!("rail.{}.{own}", rail.name()))?, constant(common)?);
                 let word = if own.after < all.after { less } else { more };
-                let ([value, deviation], [others, _]) = (own.told(), all.told());
+                let ([value, deviation], [others, _]) = (own.after_text(), all.after_text());
                 Some(format!("{word} ({value} ± {deviation}, the others {others})"))
             };
             let parts = [
@@ -170,15 +170,15 @@ impl Calibration {
             ];
             let parts: Vec<String> = parts.into_iter().flatten().collect();
             (!parts.is_empty()).then(|| {
-                format!("{} ({}) is unlike the others: it {}", called(rail)[0], rail.name(), parts.join(" and "))
+                format!("{} ({}) is unlike the others: it {}", rail_names(rail)[0], rail.name(), parts.join(" and "))
             })
         };
         Rail::ALL.into_iter().filter_map(differs).collect()
     }
 
     /// Returns a word for how well a constant is known after the trials; "unsure" if the marks contradict each other.
-    pub fn known(&self, change: &Change) -> &'static str {
-        if self.is_contradictory() { "unsure" } else { change.known() }
+    pub fn certainty(&self, change: &Change) -> &'static str {
+        if self.is_contradictory() { "unsure" } else { change.certainty() }
     }
 
     /// Describes the meaning at the table of all constants about which the marks contain information.
@@ -186,14 +186,14 @@ impl Calibration {
         if self.is_contradictory() {
             return Vec::new();
         }
-        self.constants.iter().filter_map(|change| change.meaning(&self.before)).collect()
+        self.constants.iter().filter_map(|change| change.meaning(&self.prior_name)).collect()
     }
 
     /// Describes whether the marks agree; `called` names a stroke by its number and test.
     pub fn agreement(&self, called: impl Fn(usize, &str) -> String) -> String {
         if self.is_contradictory() {
             let mut strokes: Vec<String> =
-                self.verdicts.iter().filter(|one| one.misread).map(|one| called(one.trial, one.test)).collect();
+                self.mark_checks.iter().filter(|one| one.misread).map(|one| called(one.trial, one.test)).collect();
             strokes.dedup();
             if let [only] = &strokes[..] {
                 return format!(
@@ -209,7 +209,7 @@ impl Calibration {
             return "all marks agree with each other".to_owned();
         }
         let (left_out, counted): (Vec<_>, Vec<_>) =
-            self.verdicts.iter().partition(|one| self.left_out.contains(&one.trial));
+            self.mark_checks.iter().partition(|one| self.left_out.contains(&one.trial));
         let mut parts = Vec::new();
         if counted.iter().any(|one| !one.misread) {
             parts.push("the other marks agree with each other".to_owned());
@@ -235,8 +235,8 @@ mod tests {
     use crate::table::{Table, TableDoubt};
 
     #[test]
-    fn a_value_has_as_many_digits_as_its_error_supports() {
-        let told = |value, error| to_the_error(value, error).join(" ");
+    fn values_are_rounded_to_their_error() {
+        let told = |value, error| round_to_error(value, error).join(" ");
         assert_eq!(told(1.27419, 0.17394), "1.27 0.17");
         assert_eq!(told(0.00493, 0.00039), "0.00493 0.00039");
         assert_eq!(told(0.118, 0.03), "0.118 0.030");
@@ -277,8 +277,8 @@ mod tests {
     }
 
     #[test]
-    fn one_rail_is_no_plural() {
-        let verdict = Verdict {
+    fn one_rail_is_singular() {
+        let check = MarkCheck {
             trial: 1,
             test: "slow-roll",
             mark: "stop",
@@ -288,19 +288,19 @@ mod tests {
             expected: Some((6.0, 0.1)),
             rails: Some((1, 0)),
         };
-        let said = verdict.doubtful("slow-roll");
+        let said = check.misread_text("slow-roll");
         assert!(said.contains("5.0 diamonds after 1 rail, expected 6.0 ± 0.1 after 0 rails"), "{said}");
     }
 
     #[test]
-    fn every_constant_has_words_and_short_ones_of_its_own() {
+    fn every_constant_has_a_description_and_short_name() {
         let doubt = TableDoubt::of(&Table::default());
         let of_rails = Rail::ALL.iter().flat_map(|rail| ["e", "mu"].map(|own| format!("rail.{}.{own}", rail.name())));
         let names = doubt.deviations.into_keys().chain(of_rails);
         let mut told: Vec<String> = names
             .map(|name| {
                 let change = Change { name, before: 0.0, before_deviation: 1.0, after: 0.0, after_deviation: 1.0 };
-                let (words, short) = (change.words(), change.short_words());
+                let (words, short) = (change.words(), change.short_name());
                 assert!(!words.is_empty() && (1..=12).contains(&short.len()), "{change:?}: {words}, {short}");
                 short
             })

@@ -111,7 +111,7 @@ impl<'a> Sensitivity<'a> {
     /// makes it. `None` if the intended stroke makes it in none.
     pub fn margins(&self, cue: &CueInputs) -> Option<[Margin; 5]> {
         let least = self.least(cue)?;
-        parallel::map(platform::threads(), &Input::ALL, |input| self.around(*input, cue, least)).try_into().ok()
+        parallel::map(platform::thread_count(), &Input::ALL, |input| self.around(*input, cue, least)).try_into().ok()
     }
 
     /// Returns the margin of a single input.
@@ -181,7 +181,7 @@ impl<'a> Sensitivity<'a> {
         let (columns, rows) = (line(width), line(height));
         // Around a stroke that makes no point, a variation counts as made if half of the worlds make it.
         let least = self.least(cue).unwrap_or(self.worlds.len().div_ceil(2).max(1));
-        let outcomes = parallel::map(platform::threads(), &rows, |&y| {
+        let outcomes = parallel::map(platform::thread_count(), &rows, |&y| {
             let row = up.shifted(self.table, middle, y);
             let cell = |x: f64| self.raised(&across.shifted(self.table, &row, x), &[across, up]);
             columns.iter().map(|&x| self.usual(&cell(x), least)).collect()

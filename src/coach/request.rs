@@ -82,7 +82,7 @@ impl Default for Request {
             first: FirstMet::Any,
             budget: Duration::from_millis(500),
             simulations: u64::MAX,
-            threads: platform::threads(),
+            threads: platform::thread_count(),
             seed: 0,
             former: Vec::new(),
             cancel: Arc::default(),

@@ -53,7 +53,7 @@ pub fn scatter(
     let ends = without_limits(table, layout, rule, shooter.into(), CONTACT_STEPS, cancel, |task| {
         let draws = Draws::independent(attempts, task.worlds, seed);
         let draws: Vec<_> = draws.iter().collect();
-        parallel::map(platform::threads(), &draws, |draw| {
+        parallel::map(platform::thread_count(), &draws, |draw| {
             if task.clock.is_cancelled() { None } else { final_layout(task, cue, *draw) }
         })
     });

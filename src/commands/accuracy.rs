@@ -7,8 +7,8 @@ use std::{
 
 use super::{
     Failure,
-    input::{seed, table_named, whole},
-    output::{check_place, plural, print_note},
+    input::{parse_seed, table_by_name, whole_number},
+    output::{check_writable, plural, print_note},
 };
 use crate::{
     printing::{self, ProgressLine},
@@ -29,10 +29,10 @@ pub struct Args {
     #[arg(long)]
     quick: bool,
     /// Number of random shots on each table. Default: 1000, or 96 with --quick; with --stability 100000, or 10000 with --quick
-    #[arg(long, value_parser = whole(1..=1_000_000_000_u32))]
+    #[arg(long, value_parser = whole_number(1..=1_000_000_000_u32))]
     shots: Option<u32>,
     /// Seed of the shots. Default: 2026, or 1 for the stability table
-    #[arg(long, value_parser = seed)]
+    #[arg(long, value_parser = parse_seed)]
     seed: Option<u64>,
     /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file. If its balls can leave the cloth,
     /// strokes of up to 60 degrees are studied, too. Default: textbook and thesis, and such strokes on match
@@ -62,7 +62,7 @@ pub struct Args {
 const SEED: u64 = 2026;
 
 /// Maximum number of shots that are studied with every method: all of them are kept in memory.
-const MOST_STUDIED: u32 = 1_000_000;
+const MAX_STUDIED: u32 = 1_000_000;
 
 /// File name of the stability table.
 const STABILITY: &str = "stability.md";
@@ -76,7 +76,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         } else {
             "accuracy.csv"
         };
-        check_place(folder, &folder.join(first))?;
+        check_writable(folder, &folder.join(first))?;
     }
     if args.filmed {
         return if args.fit { fit_film(args) } else { replay_film(args) };
@@ -86,12 +86,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         let random = args.shots.map_or(plan.random, u64::from);
         return play_stability(args, &stability::Plan { random, ..plan });
     }
-    if let Some(shots) = args.shots.filter(|shots| *shots > MOST_STUDIED) {
+    if let Some(shots) = args.shots.filter(|shots| *shots > MAX_STUDIED) {
         return Err(Failure::wrong_input(format_args!(
-            "--shots {shots} is more than can be studied; accepted are 1 to {MOST_STUDIED}, and more with --stability"
+            "--shots {shots} is more than can be studied; accepted are 1 to {MAX_STUDIED}, and more with --stability"
         )));
     }
-    let tables = args.table.as_ref().map_or_else(default_tables, |name| table_named(name).map(with_flights))?;
+    let tables = args.table.as_ref().map_or_else(default_tables, |name| table_by_name(name).map(with_flights))?;
     let references = study::check_references();
     let measured = tables.into_iter().map(|(table, steepest)| measure(args, table, steepest));
     let studies = measured.collect::<Result<Vec<_>, _>>()?;
@@ -125,7 +125,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// Returns the table called `name` if it has the size of the filmed one.
 fn filmed_table(name: &str) -> Result<Table, Failure> {
-    let table = table_named(name)?;
+    let table = table_by_name(name)?;
     filmed::check_size(&table).map_err(Failure::wrong_input)?;
     Ok(table)
 }
@@ -212,7 +212,7 @@ fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
 
 /// Returns the default tables: two with ordinary strokes, and one with steep strokes that make balls fly.
 fn default_tables() -> Result<Vec<(Table, Steepest)>, Failure> {
-    let flat = JUDGED.into_iter().map(|name| Ok((table_named(name)?, Steepest::USUAL)));
+    let flat = JUDGED.into_iter().map(|name| Ok((table_by_name(name)?, Steepest::USUAL)));
     flat.chain([Ok((Table::default(), Steepest::FLIGHTS))]).collect()
 }
 

@@ -25,13 +25,13 @@ pub struct Args {
 }
 
 /// Longest measurement of a figure, s.
-const LONGEST: f64 = 3600.0;
+const MAX_SECONDS: f64 = 3600.0;
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let accepted = args.seconds > 0.0 && args.seconds <= LONGEST;
+    let accepted = args.seconds > 0.0 && args.seconds <= MAX_SECONDS;
     let time = Duration::try_from_secs_f64(args.seconds).ok().filter(|_| accepted).ok_or_else(|| {
         Failure::wrong_input(format_args!(
-            "--seconds {} is not a valid time; accepted is above 0 and at most {LONGEST}",
+            "--seconds {} is not a valid time; accepted is above 0 and at most {MAX_SECONDS}",
             number(args.seconds)
         ))
     })?;
@@ -73,7 +73,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn thousands_are_set_apart() {
+    fn thousands_are_separated() {
         assert_eq!(
             [grouped(7.2), grouped(812.0), grouped(1234.4), grouped(1_234_567.0)],
             ["7", "812", "1 234", "1 234 567"]

@@ -12,10 +12,10 @@ use crate::{
 };
 
 /// Longest run time of one shot. The slowest shots on real tables take a few milliseconds.
-const LONGEST: Duration = Duration::from_secs(5);
+const TIME_LIMIT: Duration = Duration::from_secs(5);
 
 /// Maximum number of time steps of one shot: a few seconds of computing.
-const MOST_STEPS: f64 = 4e6;
+const MAX_STEPS: f64 = 4e6;
 
 /// Plays a shot with the event-driven engine.
 ///
@@ -23,7 +23,7 @@ const MOST_STEPS: f64 = 4e6;
 /// Fails if the layout, the stroke or the motion is invalid, if computing takes too long, or if numbers overflow.
 pub fn play(table: &Table, layout: &Layout, start: Start<'_>) -> Result<Recording, Failure> {
     let (recording, is_over) =
-        Recording::within_bounds(table, layout, start, LONGEST, u32::MAX).map_err(Failure::wrong_input)?;
+        Recording::within_bounds(table, layout, start, TIME_LIMIT, u32::MAX).map_err(Failure::wrong_input)?;
     check_finite(table, recording, is_over, "")
 }
 
@@ -39,17 +39,17 @@ pub fn play_in_steps(
 ) -> Result<(Recording, Stepped), Failure> {
     layout.validate(table).map_err(Failure::wrong_input)?;
     cue.validate().map_err(Failure::wrong_input)?;
-    let finest = Steps::finest(table, &strike(table, cue), MOST_STEPS);
+    let finest = Steps::finest(table, &strike(table, cue), MAX_STEPS);
     if steps.dt < finest {
         return Err(Failure::wrong_input(format_args!(
-            "dt = {} s might take more than {MOST_STEPS} steps; accepted is {} s or more for this shot on \"{}\"",
+            "dt = {} s might take more than {MAX_STEPS} steps; accepted is {} s or more for this shot on \"{}\"",
             number(steps.dt),
             number(rounded_up(finest)),
             table.name
         )));
     }
     let play = |impulse: &Impulse, recorder: &mut Recorder| -> (End, (Stepped, bool)) {
-        let mut bounded = Bounded::new(recorder, LONGEST, u32::MAX);
+        let mut bounded = Bounded::new(recorder, TIME_LIMIT, u32::MAX);
         let stepped = steps.simulate(table, layout, impulse, &mut bounded);
         (stepped.end, (stepped, bounded.is_over()))
     };
@@ -78,7 +78,7 @@ fn check_finite(
     if is_over {
         return Err(Failure::failed(format_args!(
             "the shot takes more than {} s to compute on \"{name}\" and was stopped; use {other_remedies}a less stiff table",
-            LONGEST.as_secs()
+            TIME_LIMIT.as_secs()
         )));
     }
     if recording.is_finite() {
@@ -94,7 +94,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_refusal_names_is_never_less_than_what_is_accepted() {
+    fn the_step_named_in_a_refusal_is_accepted() {
         for (value, said) in
             [(3.04e-5, 3.1e-5), (9.91e-5, 1e-4), (3e-7, 3e-7), (1.0, 1.0), (99.5, 100.0), (0.123, 0.13)]
         {

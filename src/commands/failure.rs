@@ -2,7 +2,7 @@
 
 use std::{fmt::Display, io};
 
-use crate::{learning::PolicyError, platform::UNFINISHED, storage::without_numbers};
+use crate::{learning::PolicyError, platform::UNFINISHED, storage::without_error_numbers};
 
 /// A sentence for the user and the exit code of the process.
 #[derive(Clone, Debug, thiserror::Error)]
@@ -16,12 +16,12 @@ impl Failure {
     /// The request is acceptable but cannot be fulfilled: a named thing or a path is missing or unreadable, or an operation failed. Exit
     /// code 1.
     pub fn failed(message: impl Display) -> Self {
-        Self { message: without_numbers(message.to_string()), code: 1 }
+        Self { message: without_error_numbers(message.to_string()), code: 1 }
     }
 
     /// The command line, an input line or the content of a file is not acceptable, on any machine. Exit code 2.
     pub fn wrong_input(message: impl Display) -> Self {
-        Self { message: without_numbers(message.to_string()), code: 2 }
+        Self { message: without_error_numbers(message.to_string()), code: 2 }
     }
 
     /// The work was stopped and can be resumed by the same command. Exit code 75.
@@ -30,7 +30,7 @@ impl Failure {
     }
 
     /// Everything was already reported: there is no further message.
-    pub const fn said(code: u8) -> Self {
+    pub const fn silent(code: u8) -> Self {
         Self { message: String::new(), code }
     }
 
@@ -61,7 +61,7 @@ impl From<io::Error> for Failure {
     /// An error in writing the output. A closed pipe (`carom simulate | head`) does not count as a failure.
     fn from(error: io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {
-            Self::said(0)
+            Self::silent(0)
         } else {
             Self::failed(format_args!("the output cannot be written: {error}"))
         }

@@ -4,12 +4,12 @@ use std::sync::atomic::Ordering;
 
 use super::{
     Failure, failure,
-    output::{json_line, line, print_note},
+    output::{json_line, print_line, print_note},
 };
 use crate::{
     platform::stop_on_signal,
     printing,
-    storage::{Places, Player},
+    storage::{DataPaths, Player},
     terminal::{self, Seat, Settings, ShownTable, Sight, all_shown, follow_in_lines},
 };
 
@@ -34,7 +34,7 @@ pub(super) fn run(args: &Args, seat: Seat) -> Result<(), Failure> {
     let Some(player) = &args.followed else { return list(args.json) };
     // The message is the same for players with and without a folder, so that it does not reveal who has one.
     let hidden = || Failure::failed(format_args!("{player} shows no table now; carom follow lists the players who do"));
-    let folder = Places::of_player(player).map_err(Failure::failed)?.shown;
+    let folder = DataPaths::of_player(player).map_err(Failure::failed)?.spectator_folder;
     if matches!(ShownTable::look(&folder), Sight::Nothing) {
         return Err(hidden());
     }
@@ -66,7 +66,7 @@ fn list(json: bool) -> Result<(), Failure> {
         if json {
             json_line(&serde_json::json!({ "player": player.name() }))?;
         } else {
-            line(player)?;
+            print_line(player)?;
         }
     }
     if shown.is_empty() {

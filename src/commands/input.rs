@@ -22,18 +22,18 @@ use crate::{
     game::{Reward, Rule},
     learning::{Policy, policy::file::Origin},
     printing,
-    storage::{self, LONGEST_LINE, NextLine, Places, next_line},
+    storage::{self, DataPaths, MAX_LINE_BYTES, NextLine, next_line},
     table::{CueBall, Layout, PRESETS, Table, TableError},
 };
 
 /// Returns the bundled table, the table in the TOML file at the path `name`, or the user's own table of that name.
-pub fn table_named(name: &str) -> Result<Table, Failure> {
+pub fn table_by_name(name: &str) -> Result<Table, Failure> {
     match Table::preset(name) {
         Err(error @ TableError::Unknown(_)) => {
             let here = Some(PathBuf::from(name)).filter(|path| path.exists());
             let file = here.clone().filter(|path| !path.is_dir());
-            let path = file.or_else(|| Places::of_this_user().own_table(name)).or(here);
-            table_in(&path.ok_or_else(|| Failure::failed(error))?)
+            let path = file.or_else(|| DataPaths::of_this_user().own_table(name)).or(here);
+            load_table(&path.ok_or_else(|| Failure::failed(error))?)
         }
         table => table.map_err(Failure::wrong_input),
     }
@@ -50,19 +50,19 @@ pub fn bundled_table(name: &str) -> Result<Table, Failure> {
 }
 
 /// Reads the table in a TOML file.
-pub fn table_in(file: &Path) -> Result<Table, Failure> {
-    let text = storage::read_text(file, storage::SMALL)
+pub fn load_table(file: &Path) -> Result<Table, Failure> {
+    let text = storage::read_text(file, storage::MAX_SMALL_FILE)
         .map_err(|error| Failure::failed(format_args!("{} cannot be read: {error}", file.display())))?;
     Table::from_file(file, &text).map_err(|error| Failure::wrong_input(format_args!("{}: {error}", file.display())))
 }
 
 /// Prints notes about a policy that was trained on another table or, if `rule` is given, for another reward.
-pub fn note_doubts(policy: &Policy, table: &Table, rule: Option<Rule>) {
+pub fn note_training_mismatch(policy: &Policy, table: &Table, rule: Option<Rule>) {
     let Origin { reward, table: trained_on, .. } = policy.origin();
     if let Some(rule) = rule.filter(|rule| *reward != Reward::for_rule(*rule)) {
         print_note(format_args!("note: this policy was trained for {reward}; of the rule \"{rule}\" it knows nothing"));
     }
-    if !policy.knows(table) {
+    if !policy.is_trained_for(table) {
         print_note(format_args!("note: this policy was trained on \"{trained_on}\", not on \"{}\"", table.name));
     }
 }
@@ -84,7 +84,7 @@ pub struct PositionArgs {
 impl PositionArgs {
     /// Returns the table and the validated layout.
     pub fn read(&self) -> Result<(Table, Layout), Failure> {
-        let table = table_named(&self.table)?;
+        let table = table_by_name(&self.table)?;
         let opening = Layout::opening(&table);
         let Some(text) = &self.layout else {
             opening.validate(&table).map_err(Failure::wrong_input)?;
@@ -103,7 +103,7 @@ impl PositionArgs {
 
 /// Returns a clap parser for a whole number in a range. It names the range in every refusal; clap's own message does not if an unsigned
 /// number is negative.
-pub fn whole<T: FromStr + PartialOrd + Display + Clone>(
+pub fn whole_number<T: FromStr + PartialOrd + Display + Clone>(
     range: RangeInclusive<T>,
 ) -> impl Fn(&str) -> Result<T, String> + Clone {
     move |text| {
@@ -114,8 +114,10 @@ pub fn whole<T: FromStr + PartialOrd + Display + Clone>(
     }
 }
 
-/// Like [`whole`], without an upper bound.
-pub fn whole_from<T: FromStr + PartialOrd + Display + Clone>(least: T) -> impl Fn(&str) -> Result<T, String> + Clone {
+/// Like [`whole_number`], without an upper bound.
+pub fn whole_number_from<T: FromStr + PartialOrd + Display + Clone>(
+    least: T,
+) -> impl Fn(&str) -> Result<T, String> + Clone {
     move |text| {
         let number = text.parse().ok().filter(|number| *number >= least);
         number.ok_or_else(|| format!("accepted is a whole number from {least} on"))
@@ -123,25 +125,25 @@ pub fn whole_from<T: FromStr + PartialOrd + Display + Clone>(least: T) -> impl F
 }
 
 /// Parses a seed.
-pub fn seed(text: &str) -> Result<u64, String> {
-    whole(0..=u64::MAX)(text)
+pub fn parse_seed(text: &str) -> Result<u64, String> {
+    whole_number(0..=u64::MAX)(text)
 }
 
 /// Converts the value of `--minutes`, which may be fractional.
 ///
 /// # Errors
 /// Fails for a number that is not above 0, and for more than a thousand years.
-pub fn minutes(value: f64) -> Result<Duration, Failure> {
-    if value > 0.0 && value <= MOST_MINUTES {
+pub fn parse_minutes(value: f64) -> Result<Duration, Failure> {
+    if value > 0.0 && value <= MAX_MINUTES {
         return Ok(Duration::from_secs_f64(60.0 * value));
     }
     Err(Failure::wrong_input(format_args!(
-        "--minutes {value:?} is not a valid time; accepted is a number above 0 and at most {MOST_MINUTES:e}"
+        "--minutes {value:?} is not a valid time; accepted is a number above 0 and at most {MAX_MINUTES:e}"
     )))
 }
 
 /// Longest accepted time, minutes: a thousand years.
-const MOST_MINUTES: f64 = 5e8;
+const MAX_MINUTES: f64 = 5e8;
 
 /// Answers every line of the JSON Lines in `file` (`-` is the standard input) on the standard output, in the same order. A refused line is
 /// answered with `error`, and the following lines are still processed; the command then ends with exit code 2.
@@ -167,7 +169,7 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
             NextLine::Line => {
                 parse_request(&line).map_err(|reason| format!("line {index} is not a valid JSON request: {reason}"))
             }
-            NextLine::TooLong => Err(format!("line {index} is too long; accepted are up to {LONGEST_LINE} bytes")),
+            NextLine::TooLong => Err(format!("line {index} is too long; accepted are up to {MAX_LINE_BYTES} bytes")),
         };
         lines += 1;
         let answered =
@@ -194,12 +196,12 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
 }
 
 /// A cache of one value per table name.
-pub struct ByTable<T, F> {
+pub struct TableCache<T, F> {
     make: F,
     made: HashMap<String, T>,
 }
 
-impl<T, F: Fn(Table) -> Result<T, Failure>> ByTable<T, F> {
+impl<T, F: Fn(Table) -> Result<T, Failure>> TableCache<T, F> {
     /// Creates an empty cache whose values are computed by `make`.
     pub fn new(make: F) -> Self {
         Self { make, made: HashMap::new() }
@@ -208,7 +210,7 @@ impl<T, F: Fn(Table) -> Result<T, Failure>> ByTable<T, F> {
     /// Returns the value for the table called `name`.
     pub fn get(&mut self, name: &str) -> Result<&T, Failure> {
         if !self.made.contains_key(name) {
-            let made = (self.make)(table_named(name)?)?;
+            let made = (self.make)(table_by_name(name)?)?;
             self.made.insert(name.to_owned(), made);
         }
         Ok(&self.made[name])
@@ -220,7 +222,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_ball_beside_the_table_is_told_in_the_unit_in_which_it_was_typed() {
+    fn errors_use_the_typed_unit() {
         let said = |layout: &str| {
             let args = PositionArgs { table: "match".to_owned(), layout: Some(layout.to_owned()) };
             args.read().unwrap_err().to_string()
@@ -232,10 +234,10 @@ mod tests {
     }
 
     #[test]
-    fn no_time_is_refused_and_named() {
+    fn invalid_times_are_refused_and_quoted() {
         for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(minutes(wrong).unwrap_err().to_string().contains(&wrong.to_string()));
+            assert!(parse_minutes(wrong).unwrap_err().to_string().contains(&wrong.to_string()));
         }
-        assert_eq!(minutes(0.5).unwrap(), Duration::from_secs(30));
+        assert_eq!(parse_minutes(0.5).unwrap(), Duration::from_secs(30));
     }
 }

@@ -11,11 +11,11 @@ use crate::{
         Policy,
         policy::{
             bundled_names,
-            kept::{self, BUNDLED},
+            library::{self, BUNDLED},
         },
         run::{Config, POLICY, agent_of_checkpoint, list::latest_in},
     },
-    storage::Places,
+    storage::DataPaths,
     table::Table,
 };
 
@@ -23,13 +23,13 @@ use crate::{
 pub const LATEST: &str = "latest";
 
 /// Returns the file or folder `name`, or the folder of that name among the user's runs.
-fn run_named(name: &Path) -> Option<PathBuf> {
-    [name.to_owned(), Places::of_this_user().runs.join(name)].into_iter().find(|path| path.exists())
+fn run_path(name: &Path) -> Option<PathBuf> {
+    [name.to_owned(), DataPaths::of_this_user().runs.join(name)].into_iter().find(|path| path.exists())
 }
 
 /// Returns the file of the policy that the user has saved under this name.
-fn kept_policy(name: &Path) -> Option<PathBuf> {
-    kept::find(&Places::of_this_user().policies, name.to_str()?)
+fn saved_policy_path(name: &Path) -> Option<PathBuf> {
+    library::find(&DataPaths::of_this_user().policies, name.to_str()?)
 }
 
 /// Reports that nothing of this name exists, and what would be accepted.
@@ -38,7 +38,7 @@ fn not_found(what: &str, accepted: &str) -> Failure {
     Failure::failed(format_args!(
         "there is {what}, neither here nor among the runs in {}; accepted are a run (its folder or its name), {accepted} a policy (its \
          file, the name of one that was kept, {BUNDLED}, or one of {})",
-        Places::of_this_user().runs.display(),
+        DataPaths::of_this_user().runs.display(),
         bundled.join(", ")
     ))
 }
@@ -48,10 +48,10 @@ fn not_found(what: &str, accepted: &str) -> Failure {
 /// # Errors
 /// Fails if there is no such folder.
 pub fn existing_run(name: &Path) -> Result<PathBuf, Failure> {
-    if let Some(folder) = run_named(name) {
+    if let Some(folder) = run_path(name) {
         return Ok(folder);
     }
-    let runs = Places::of_this_user().runs;
+    let runs = DataPaths::of_this_user().runs;
     if name == Path::new(LATEST) {
         return latest_in(&runs).ok_or_else(|| {
             Failure::failed(format_args!("there are no runs in {} yet; start one with carom train", runs.display()))
@@ -77,12 +77,12 @@ pub enum Source {
 ///
 /// # Errors
 /// Fails if nothing of this name exists.
-pub fn weights_named(name: &Path, table: &Table, rule: Rule) -> Result<Source, Failure> {
+pub fn weights_by_name(name: &Path, table: &Table, rule: Rule) -> Result<Source, Failure> {
     if name == Path::new(BUNDLED) {
         let found = bundled_policy(table, rule, false)?.bundled_name();
         return Ok(Source::Bundled(found.unwrap_or(BUNDLED)));
     }
-    if let Some(path) = run_named(name).or_else(|| kept_policy(name)) {
+    if let Some(path) = run_path(name).or_else(|| saved_policy_path(name)) {
         return Ok(Source::Path(path));
     }
     let bundled = bundled_names().find(|bundled| name == Path::new(bundled)).map(Source::Bundled);
@@ -109,12 +109,12 @@ pub fn bundled_policy(table: &Table, rule: Rule, errs: bool) -> Result<Policy, F
 ///
 /// # Errors
 /// Fails if there is none, or if it cannot be used.
-pub fn policy_called(name: &str) -> Result<Policy, Failure> {
+pub fn policy_by_name(name: &str) -> Result<Policy, Failure> {
     let path = Path::new(name);
     // A run's folder may have the same name as a saved policy, which takes precedence.
     let file = Some(path.to_owned()).filter(|path| path.is_file());
-    let Some(found) = file.or_else(|| kept_policy(path)).or_else(|| run_named(path)) else {
-        let bundled = Policy::bundled_called(name).ok_or_else(|| not_found(&format!("no policy {name}"), "and"))?;
+    let Some(found) = file.or_else(|| saved_policy_path(path)).or_else(|| run_path(path)) else {
+        let bundled = Policy::bundled_by_name(name).ok_or_else(|| not_found(&format!("no policy {name}"), "and"))?;
         return Ok(bundled?);
     };
     if found.is_dir() {
@@ -165,7 +165,7 @@ const OWN: &str = "own";
 ///
 /// # Errors
 /// Fails if there is none.
-pub fn skill_called(name: &str) -> Result<Skill, Failure> {
+pub fn skill_by_name(name: &str) -> Result<Skill, Failure> {
     if name == OWN {
         return own_skill()?.ok_or_else(|| {
             Failure::failed("no skill of your own is kept yet; carom drill skill --keep estimates and keeps it")
@@ -184,6 +184,6 @@ pub fn skill_called(name: &str) -> Result<Skill, Failure> {
 /// # Errors
 /// Fails if its file cannot be read.
 pub fn own_skill() -> Result<Option<Skill>, Failure> {
-    let own = Store::new(&Places::of_this_user()).own_skill().map_err(Failure::failed)?;
+    let own = Store::new(&DataPaths::of_this_user()).own_skill().map_err(Failure::failed)?;
     Ok(own.map(|own| own.skill))
 }

@@ -90,7 +90,7 @@ impl Cli {
     /// Fails if it is wrong or asks for help; the message is already printed then.
     pub fn read() -> Result<Self, Failure> {
         let request = std::env::var(SSH_REQUEST).unwrap_or_default();
-        Self::parsed(std::env::args_os()).and_then(|cli| cli.with_ssh_request(&request)).map_err(|answer| {
+        Self::parse_words(std::env::args_os()).and_then(|cli| cli.with_ssh_request(&request)).map_err(|answer| {
             // A value that is well-formed but whose file cannot be read is not wrong input.
             if let Some(failure) = answer.source().and_then(|source| source.downcast_ref::<Failure>())
                 && failure.code() != 2
@@ -110,13 +110,13 @@ impl Cli {
             match said.and_then(|()| printing::stdout().flush()) {
                 Err(error) if code == 0 => error.into(),
                 // The error output may be closed, too; the exit code still reports the error.
-                _ => Failure::said(code),
+                _ => Failure::silent(code),
             }
         })
     }
 
     /// Parses the words of a command line, starting with the program's name.
-    fn parsed(words: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Result<Self, clap::Error> {
+    fn parse_words(words: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> Result<Self, clap::Error> {
         let mut command = with_negative_numbers(Self::command());
         let mut matches = command.try_get_matches_from_mut(words)?;
         Self::from_arg_matches_mut(&mut matches).map_err(|error| error.format(&mut command))
@@ -128,7 +128,7 @@ impl Cli {
         if !self.guest || words.first() != Some(&"follow") {
             return Ok(self);
         }
-        let request = Self::parsed(["carom"].iter().chain(&words))?;
+        let request = Self::parse_words(["carom"].iter().chain(&words))?;
         Ok(Self { command: request.command, ..self })
     }
 
@@ -147,15 +147,15 @@ impl Cli {
         }
         let seat = self.seat()?;
         // The operator of the machine chose the table on the command line, so it is read before a guest is confined to their folder.
-        let named = self.table.as_deref().map(input::table_named).transpose()?;
+        let named = self.table.as_deref().map(input::table_by_name).transpose()?;
         seat.take(None).map_err(|error| {
-            let folder = seat.places.own.display();
+            let folder = seat.places.root.display();
             Failure::failed(format_args!("the player's folder {folder} cannot be made: {error}"))
         })?;
         let path = &seat.places.settings;
         let (settings, complaints) = Settings::load(path);
         let settings = seat.allowed(settings);
-        let table = named.map_or_else(|| input::table_named(&settings.table), Ok)?;
+        let table = named.map_or_else(|| input::table_by_name(&settings.table), Ok)?;
         if self.plain {
             if let Some(news) = notice(&seat.places) {
                 print_note(format_args!("note: {news}"));

@@ -16,7 +16,7 @@ use crate::{
     game::Rule,
     physics::{CueInputs, Impulse},
     printing::{self, OneLine},
-    storage::{LONGEST_LINE, NextLine, folder_state, next_line},
+    storage::{MAX_LINE_BYTES, NextLine, folder_state, next_line},
     terminal::Settings,
 };
 
@@ -27,7 +27,7 @@ pub fn print_note(sentence: impl Display) {
 }
 
 /// Refuses a `folder` that is not writable, before anything is computed; `path` is the first file to be written there.
-pub fn check_place(folder: &Path, path: &Path) -> Result<(), Failure> {
+pub fn check_writable(folder: &Path, path: &Path) -> Result<(), Failure> {
     match folder_state(folder).refusal {
         Some(refusal) => Err(Failure::failed(format_args!("{} cannot be written: {refusal}", path.display()))),
         None => Ok(()),
@@ -36,7 +36,7 @@ pub fn check_place(folder: &Path, path: &Path) -> Result<(), Failure> {
 
 /// Reads the next line of the standard input and trims it; `None` at the end of the input. At a terminal, `words` is the prompt. The inner
 /// failure is a line that is too long; more lines may follow it.
-pub fn ask(words: &str) -> Result<Option<Result<String, Failure>>, Failure> {
+pub fn prompt_line(words: &str) -> Result<Option<Result<String, Failure>>, Failure> {
     if io::stdin().is_terminal() {
         // A prompt that cannot be written has no reader.
         let _ = printing::stderr().write_all(words.as_bytes());
@@ -46,14 +46,14 @@ pub fn ask(words: &str) -> Result<Option<Result<String, Failure>>, Failure> {
         Ok(NextLine::Line) => Ok(Some(Ok(String::from_utf8_lossy(line.trim_ascii()).into_owned()))),
         Ok(NextLine::End) => Ok(None),
         Ok(NextLine::TooLong) => Ok(Some(Err(Failure::wrong_input(format_args!(
-            "a line is too long; accepted are up to {LONGEST_LINE} bytes"
+            "a line is too long; accepted are up to {MAX_LINE_BYTES} bytes"
         ))))),
         Err(error) => Err(Failure::failed(format_args!("the input cannot be read: {error}"))),
     }
 }
 
 /// Prints one line to the standard output; line breaks in `text` are escaped.
-pub fn line(text: impl Display) -> Result<(), Failure> {
+pub fn print_line(text: impl Display) -> Result<(), Failure> {
     Ok(writeln!(printing::stdout(), "{}", OneLine(text))?)
 }
 
@@ -85,7 +85,7 @@ pub fn refused_lines_result(refused: usize) -> Result<(), Failure> {
 ///
 /// # Errors
 /// Fails if the folder of `file` does not exist.
-pub fn need_folder(file: &Path) -> Result<(), Failure> {
+pub fn check_folder_exists(file: &Path) -> Result<(), Failure> {
     match file.parent() {
         Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
             let (file, folder) = (file.display(), folder.display());
@@ -138,7 +138,7 @@ pub fn print_table<const COLUMNS: usize>(
     numbers: &[usize],
 ) -> Result<(), Failure> {
     let rows: Vec<_> = iter::once(heads.map(str::to_owned)).chain(rows).collect();
-    columns(&rows, numbers).iter().try_for_each(line)
+    columns(&rows, numbers).iter().try_for_each(print_line)
 }
 
 /// Formats rows of cells as lines with aligned columns, measured in terminal columns. The columns in `numbers` are right-aligned.
@@ -162,7 +162,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn columns_are_as_wide_as_a_terminal_shows_them() {
+    fn columns_are_measured_in_terminal_columns() {
         let rows = [["name", "shots", "of"], ["日本", "5", "5000000"], ["e\u{301}", "1000000", "5"]];
         let lines = columns(&rows.map(|row| row.map(str::to_owned)), &[1, 2]);
         assert_eq!(lines, ["name    shots       of", "日本        5  5000000", "e\u{301}     1000000        5"]);

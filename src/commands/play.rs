@@ -2,8 +2,8 @@
 
 use super::{
     Failure,
-    drill::{MOST_STROKES, PlayOptions, Workspace, play, size_words, strokes},
-    input::{table_named, whole},
+    drill::{MAX_STROKES, PlayOptions, Workspace, play, size_words, strokes},
+    input::{table_by_name, whole_number},
 };
 use crate::{
     drills::{Exercise, Goal},
@@ -25,10 +25,10 @@ pub struct Args {
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
     /// Number of innings.
-    #[arg(long, default_value_t = 10, value_parser = whole(1..=10_000_u32))]
+    #[arg(long, default_value_t = 10, value_parser = whole_number(1..=10_000_u32))]
     innings: u32,
     /// Maximum number of strokes; if innings are left then, a note says so.
-    #[arg(long, default_value_t = 1000, value_parser = whole(1..=MOST_STROKES))]
+    #[arg(long, default_value_t = 1000, value_parser = whole_number(1..=MAX_STROKES))]
     strokes: u32,
     /// Initial positions of the balls, cue ball first: "x,y x,y x,y" in metres from the centre, or in diamonds from the lower left corner
     /// ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position.
@@ -75,7 +75,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 /// Returns the table called `name` and a bundled table of the same size, on which positions are the same. A bundled table is its own
 /// counterpart.
 fn tables(name: &str) -> Result<(Table, &'static str), Failure> {
-    let table = table_named(name)?;
+    let table = table_by_name(name)?;
     let itself = PRESETS.into_iter().find(|preset| *preset == table.name);
     let of_its_size = |preset: &&str| Table::preset(preset).is_ok_and(|preset| preset.has_size_of(&table));
     match itself.or_else(|| PRESETS.into_iter().find(of_its_size)) {

@@ -6,8 +6,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::{
     Failure,
-    input::{seed, table_named, whole, whole_from},
-    output::{check_place, print_note},
+    input::{parse_seed, table_by_name, whole_number, whole_number_from},
+    output::{check_writable, print_note},
 };
 use crate::{
     platform::stop_on_signal,
@@ -29,16 +29,16 @@ pub struct Args {
     figures: Vec<String>,
     /// Number of shots of a training whose episodes are one shot; games get a quarter of them. Default: 50,000 for q-learning, 200,000 to
     /// 400,000 for the others
-    #[arg(long, value_name = "SHOTS", value_parser = whole_from(1_u64))]
+    #[arg(long, value_name = "SHOTS", value_parser = whole_number_from(1_u64))]
     episodes: Option<u64>,
     /// Seed of all random numbers: the same seed gives the same curves.
-    #[arg(long, default_value_t = 1, value_parser = seed)]
+    #[arg(long, default_value_t = 1, value_parser = parse_seed)]
     seed: u64,
     /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
     #[arg(long, default_value = "thesis")]
     table: String,
     /// Number of trainings at the same time. The curves do not depend on it. Default: one on each processor
-    #[arg(long, value_parser = whole(1..=1024_u16))]
+    #[arg(long, value_parser = whole_number(1..=1024_u16))]
     jobs: Option<u16>,
     /// Folder for a CSV and an SVG file of each figure.
     #[arg(long, value_name = "DIR", default_value = ".")]
@@ -51,14 +51,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if figures.is_empty() {
         figures = FIGURES.to_vec();
     }
-    check_place(&args.out, &args.out)?;
+    check_writable(&args.out, &args.out)?;
     let processors = || thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let session = Session {
         figures,
         shots: args.episodes,
         seed: args.seed,
         threads: args.jobs.map_or_else(processors, usize::from),
-        table: table_named(&args.table)?,
+        table: table_by_name(&args.table)?,
     };
     let stop = stop_on_signal(Some(1)).map_err(Failure::failed)?;
     let bar = progress(session.shots());
@@ -104,7 +104,7 @@ fn write(args: &Args, drawn: &Drawn) -> std::io::Result<()> {
 }
 
 fn progress(shots: u64) -> ProgressBar {
-    if !printing::is_watched() {
+    if !printing::is_stderr_terminal() {
         print_note(format_args!("training for {shots} shots"));
         return ProgressBar::hidden();
     }

@@ -73,7 +73,7 @@ const IGNORED_KEYS: [&str; 13] = [
 ];
 
 /// Maximum number of characters of a refused value that are repeated in the message.
-const MOST_REPEATED: usize = 200;
+const MAX_REPEATED: usize = 200;
 
 /// Parses the request in a line.
 pub fn parse_request<Q: DeserializeOwned + Keys>(line: &[u8]) -> Result<Q, String> {
@@ -121,7 +121,7 @@ fn not_json(error: &serde_json::Error) -> String {
 
 /// Returns the value, shortened if it is long.
 fn beginning_of(value: &str) -> String {
-    match value.char_indices().nth(MOST_REPEATED) {
+    match value.char_indices().nth(MAX_REPEATED) {
         Some((end, _)) => format!("{}…", &value[..end]),
         None => value.to_owned(),
     }
@@ -137,7 +137,7 @@ mod tests {
     };
 
     #[test]
-    fn a_request_that_lacks_something_is_told_what_all_need() {
+    fn incomplete_requests_are_refused_with_the_required_keys() {
         #[derive(Debug, serde::Deserialize)]
         struct Line {
             #[serde(rename = "preset")]

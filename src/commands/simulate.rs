@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     Failure, bounded,
-    input::{ByTable, PositionArgs, answer_lines},
-    lookup::skill_called,
+    input::{PositionArgs, TableCache, answer_lines},
+    lookup::skill_by_name,
     output::{chance_words, impulse_words, print_note, shot_text, units},
     request::{Key, Keys, RuleName},
     typed_stroke::TypedStroke,
@@ -43,7 +43,7 @@ pub struct Args {
     shot: Option<String>,
     /// Report how often this player makes the shot: perfect, expert, world-class, national, club, beginner, own, an average at
     /// three-cushion like 0.6, or standard errors.
-    #[arg(long, conflicts_with = "batch", value_parser = skill_called)]
+    #[arg(long, conflicts_with = "batch", value_parser = skill_by_name)]
     skill: Option<Skill>,
     /// Print one JSON object.
     #[arg(long)]
@@ -229,7 +229,7 @@ impl Moment {
 
 /// A ball that left the table.
 #[derive(Serialize)]
-struct BallOff {
+struct OffTableBall {
     ball: &'static str,
     rail: Rail,
 }
@@ -264,7 +264,7 @@ struct SimulateAnswer {
     end: Layout,
     /// Balls that left the table; in `final` they are on their spots.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    off_table: Vec<BallOff>,
+    off_table: Vec<OffTableBall>,
     duration: f64,
     /// Whether a real tip would slip off; the stroke is simulated nevertheless.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
@@ -335,7 +335,7 @@ impl SimulateAnswer {
             end: recording.final_layout(),
             off_table: verdict
                 .off_table()
-                .map(|(ball, off)| BallOff { ball: BALL_NAMES[ball], rail: off.over })
+                .map(|(ball, off)| OffTableBall { ball: BALL_NAMES[ball], rail: off.over })
                 .collect(),
             duration: recording.duration(),
             steps: *stepped,
@@ -349,7 +349,7 @@ type Played = (Recording, Option<Stepped>);
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let steps = steps_of(args)?;
     if let Some(file) = &args.batch {
-        let mut tables = ByTable::new(Ok);
+        let mut tables = TableCache::new(Ok);
         return answer_lines(file, |line: BatchLine| {
             let table = tables.get(&line.preset)?;
             line.answer(table, args, steps)
@@ -357,9 +357,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let (table, layout) = args.position.read()?;
     // clap requires a shot if there is no batch.
-    let typed = TypedStroke::read(args.shot.as_deref().unwrap_or_default())?;
-    let cue = typed.on(&table, &layout, CueBall::White)?;
-    if matches!(typed, TypedStroke::Said(_)) {
+    let typed = TypedStroke::parse(args.shot.as_deref().unwrap_or_default())?;
+    let cue = typed.resolve(&table, &layout, CueBall::White)?;
+    if matches!(typed, TypedStroke::Words(_)) {
         print_note(format_args!("note: the shot is \"{}\"", shot_text(&cue)));
     }
     let played = play(&table, &layout, &cue, steps)?;
@@ -387,7 +387,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         printing::json_line(
             &mut out,
             &SimulateAnswer {
-                cue: matches!(typed, TypedStroke::Said(_)).then_some(cue),
+                cue: matches!(typed, TypedStroke::Words(_)).then_some(cue),
                 make_probability: chance.map(|(_, rate, _)| rate),
                 make_interval: chance.map(|(.., interval)| interval),
                 ..SimulateAnswer::of(&played, &verdict, miscue, cue_room, &args.at)

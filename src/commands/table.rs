@@ -6,12 +6,12 @@ use clap::Subcommand;
 
 use super::{
     Failure,
-    input::{table_in, table_named},
+    input::{load_table, table_by_name},
     output::print_note,
 };
 use crate::{
     printing,
-    storage::Places,
+    storage::DataPaths,
     table::{PRESETS, Table},
 };
 
@@ -47,7 +47,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     match args.command.as_ref().unwrap_or(&TableCommand::List) {
         TableCommand::List => {
             let bundled = PRESETS.iter().map(|name| Table::preset(name).map_err(Failure::failed));
-            let own = Places::of_this_user().own_tables();
+            let own = DataPaths::of_this_user().own_tables();
             // Listed by file name, because tables are looked up by that.
             let named = |file: &PathBuf| {
                 let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -57,7 +57,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
                         file.display()
                     )));
                 }
-                table_in(file).map(|table| Table { name, ..table })
+                load_table(file).map(|table| Table { name, ..table })
             };
             for table in bundled.chain(own.iter().map(named)) {
                 let table = match table {
@@ -70,12 +70,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
                 if args.json {
                     printing::json_line(&mut out, &table)?;
                 } else {
-                    writeln!(out, "{}", line(&table))?;
+                    writeln!(out, "{}", summary_line(&table))?;
                 }
             }
         }
         TableCommand::Show { table } => {
-            let table = table_named(table)?;
+            let table = table_by_name(table)?;
             if args.json {
                 printing::json_line(&mut out, &table)?;
             } else {
@@ -83,11 +83,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             }
         }
         TableCommand::Check { file } => {
-            let table = table_in(file)?;
+            let table = load_table(file)?;
             if args.json {
                 printing::json_line(&mut out, &table)?;
             } else {
-                writeln!(out, "{} is a valid table: {}", file.display(), line(&table))?;
+                writeln!(out, "{} is a valid table: {}", file.display(), summary_line(&table))?;
             }
         }
     }
@@ -95,7 +95,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// Describes the table in one line.
-fn line(table: &Table) -> String {
+fn summary_line(table: &Table) -> String {
     let Table { name, length, width, radius, .. } = table;
     // A calibration has more digits than its accuracy.
     let [rolling, rails] = [table.rolling_friction, table.rail_restitution].map(|value| (1e4 * value).round() / 1e4);

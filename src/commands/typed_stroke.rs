@@ -13,7 +13,7 @@ pub enum TypedStroke {
     /// Given by its inputs.
     Inputs(CueInputs),
     /// Given in words, which define a stroke only for given positions of the balls.
-    Said(SpokenStroke),
+    Words(SpokenStroke),
 }
 
 impl TypedStroke {
@@ -21,14 +21,14 @@ impl TypedStroke {
     ///
     /// # Errors
     /// Fails if the text is not a stroke, or if an input is outside its range.
-    pub fn read(text: &str) -> Result<Self, Failure> {
+    pub fn parse(text: &str) -> Result<Self, Failure> {
         let parts = || text.split(',');
         let numbers = parts().filter(|part| part.trim().parse::<f64>().is_ok()).count();
         let has_words = text.contains(char::is_alphabetic) && 2 * numbers <= parts().count();
         if !has_words {
             return inputs(text).map(Self::Inputs);
         }
-        SpokenStroke::read(text).map(Self::Said).map_err(|error| match error {
+        SpokenStroke::read(text).map(Self::Words).map_err(|error| match error {
             SpokenError::Part(_) => Failure::wrong_input(format_args!(
                 "\"{text}\" is not a shot: {error}; or the inputs \"a,b,theta,phi,V\" like \"0,0.2,5,12.5,3\" (radii, degrees, m/s)"
             )),
@@ -40,10 +40,10 @@ impl TypedStroke {
     ///
     /// # Errors
     /// Fails if the words are incomplete, or if the stroke cannot be played.
-    pub fn on(self, table: &Table, layout: &Layout, cue_ball: CueBall) -> Result<CueInputs, Failure> {
+    pub fn resolve(self, table: &Table, layout: &Layout, cue_ball: CueBall) -> Result<CueInputs, Failure> {
         match self {
             Self::Inputs(cue) => Ok(cue),
-            Self::Said(said) => said.stroke(table, layout, cue_ball, None).map_err(Failure::wrong_input),
+            Self::Words(said) => said.stroke(table, layout, cue_ball, None).map_err(Failure::wrong_input),
         }
     }
 }
@@ -72,11 +72,11 @@ mod tests {
     use super::*;
 
     fn said(text: &str) -> String {
-        TypedStroke::read(text).unwrap_err().to_string()
+        TypedStroke::parse(text).unwrap_err().to_string()
     }
 
     #[test]
-    fn a_stroke_that_is_refused_is_told_as_it_was_typed() {
+    fn refused_strokes_are_quoted_as_typed() {
         let outside = |value: &str| format!("{value} is outside its range; accepted is ");
         for (text, value) in [
             ("0,0,0,1e6,3", "phi = 1e6"),
@@ -91,14 +91,14 @@ mod tests {
         }
         assert!(said("0.9,0.9,0,0,3").contains("misses the ball"));
         assert!(["0,0,0", "0,0,fast,0,3", "", ",,,"].iter().all(|text| said(text).contains("is not a shot")));
-        assert!(matches!(TypedStroke::read("0,0.2,5,12.5,3"), Ok(TypedStroke::Inputs(_))));
+        assert!(matches!(TypedStroke::parse("0,0.2,5,12.5,3"), Ok(TypedStroke::Inputs(_))));
     }
 
     #[test]
-    fn words_are_a_stroke_where_the_balls_lie() {
+    fn words_are_resolved_for_the_layout() {
         let table = Table::default();
         let layout = Layout::parse("2d,2d 6d,3d 6d,1d", &table).unwrap();
-        let on = |text: &str, cue_ball| TypedStroke::read(text).unwrap().on(&table, &layout, cue_ball);
+        let on = |text: &str, cue_ball| TypedStroke::parse(text).unwrap().resolve(&table, &layout, cue_ball);
         let cue = on("yellow full, 3 lengths", CueBall::White).unwrap();
         assert_eq!(cue, on("white full, 3 lengths", CueBall::Yellow).unwrap());
         assert!((cue.phi - (layout.balls[1] - layout.balls[0]).to_angle()).abs() < 1e-3);

@@ -12,12 +12,12 @@ use super::{
     Failure,
     lookup::{LATEST, existing_run},
     output::{json_line, print_note},
-    train::{line, print_runs},
+    train::{format_record, print_runs},
 };
 use crate::{
     learning::run::{
+        contains_run,
         follow::{Condition, Followed, Follower},
-        holds_checkpoints,
         metrics::Record,
         status::Phase,
     },
@@ -51,7 +51,7 @@ pub struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let folder = args.run.as_deref().map(existing_run).transpose()?;
-    let is_run = folder.as_deref().is_some_and(holds_checkpoints);
+    let is_run = folder.as_deref().is_some_and(contains_run);
     if !args.plain && !args.json && terminal::is_there() {
         return terminal::watch(folder.as_deref().filter(|_| is_run), folder.as_deref().filter(|_| !is_run))
             .map_err(Failure::wrong_input);
@@ -86,7 +86,7 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
     // A run that resumes from an earlier checkpoint writes the same lines again; they are printed only once.
     let mut printed = 0;
     while !stop.load(Ordering::Relaxed) {
-        if let Some(update) = follower.look() {
+        if let Some(update) = follower.poll() {
             if update.config.is_some() {
                 printed = 0;
             }
@@ -104,7 +104,7 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
         over = condition.is_over().then(|| over.unwrap_or_else(Instant::now));
         let is_settled = over.is_none_or(|since| since.elapsed() >= GRACE);
         // A measurement is already reported by its own line.
-        if is_settled && condition != Condition::Is(Phase::Measuring) && !condition.is_like(before) {
+        if is_settled && condition != Condition::InPhase(Phase::Measuring) && !condition.is_like(before) {
             before = condition;
             print_note(OneLine(followed.sentence()));
         }
@@ -114,7 +114,7 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
         thread::sleep(INTERVAL);
     }
     match followed.condition {
-        Condition::Died | Condition::Removed | Condition::Is(Phase::Failed) => {
+        Condition::Died | Condition::Removed | Condition::InPhase(Phase::Failed) => {
             Err(Failure::failed(format_args!("the run did not end well: {}", followed.condition)))
         }
         _ => Ok(()),
@@ -126,7 +126,7 @@ fn print(record: &Record, json: bool) -> io::Result<()> {
     if json {
         return json_line(record);
     }
-    match line(record) {
+    match format_record(record) {
         Some(line) => writeln!(printing::stdout(), "{line}"),
         None => Ok(()),
     }

@@ -9,7 +9,7 @@ use super::{
     Exercise,
     marked::{self, MarkError, NEWEST},
 };
-use crate::{printing::VERSION, storage::json_flaw};
+use crate::{printing::VERSION, storage::describe_json_error};
 
 /// The content of a file of exercises.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,7 +31,7 @@ pub struct LibraryFile {
 #[derive(Debug, thiserror::Error)]
 pub enum LibraryFileError {
     /// The file is not JSON, or has the wrong structure.
-    #[error("this is not a file of exercises: {}; {ACCEPTED}", json_flaw(_0))]
+    #[error("this is not a file of exercises: {}; {ACCEPTED}", describe_json_error(_0))]
     Syntax(#[from] serde_json::Error),
     /// The file is JSON without the fields that identify its format.
     #[error("this is not a file of exercises: it does not begin with a \"format\" and a \"version\"; {ACCEPTED}")]

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
-use crate::{printing::VERSION, storage::json_flaw};
+use crate::{printing::VERSION, storage::describe_json_error};
 
 /// Newest version of all these formats that can be read, and the one that is written.
 pub const NEWEST: u32 = 1;
@@ -11,7 +11,7 @@ pub const NEWEST: u32 = 1;
 #[derive(Debug, thiserror::Error)]
 pub enum MarkError {
     /// The text is not JSON, or has the wrong structure.
-    #[error("it is damaged: {}", json_flaw(_0))]
+    #[error("it is damaged: {}", describe_json_error(_0))]
     Syntax(#[from] serde_json::Error),
     /// The format is another one.
     #[error("its format is \"{found}\"; accepted is \"{accepted}\"")]

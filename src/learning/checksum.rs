@@ -1,21 +1,21 @@
 //! A checksum that is stored inside the file that it protects. It detects any changed byte, including those of the checksum.
 
 /// Field name of a checkpoint's checksum: the first field of a JSON note, which is stored as a string in the header's JSON.
-pub const OF_CHECKPOINT: &str = "checksum";
+pub const CHECKPOINT_FIELD: &str = "checksum";
 
 /// Field name of a policy's checksum.
-pub const OF_POLICY: &str = "policy_checksum";
+pub const POLICY_FIELD: &str = "policy_checksum";
 
 /// Hexadecimal digits of a checksum.
 const DIGITS: usize = 16;
 
 /// Placeholder in the note until the checksum is written.
-pub const NO_CHECKSUM: &str = "0000000000000000";
+pub const CHECKSUM_PLACEHOLDER: &str = "0000000000000000";
 
 /// Writes the checksum into the field `name`. Returns `false` if `bytes` have no such field.
 pub fn write_checksum(name: &str, bytes: &mut [u8]) -> bool {
     let Some(offset) = digits_offset(name, bytes) else { return false };
-    bytes[offset..offset + DIGITS].copy_from_slice(NO_CHECKSUM.as_bytes());
+    bytes[offset..offset + DIGITS].copy_from_slice(CHECKSUM_PLACEHOLDER.as_bytes());
     let digits = checksum(bytes);
     bytes[offset..offset + DIGITS].copy_from_slice(digits.as_bytes());
     true
@@ -27,10 +27,10 @@ pub fn checksum(bytes: &[u8]) -> String {
 }
 
 /// Whether the content matches the checksum in the field `name`; `None` if there is no such field.
-pub fn is_whole(name: &str, bytes: &[u8]) -> Option<bool> {
+pub fn is_intact(name: &str, bytes: &[u8]) -> Option<bool> {
     let offset = digits_offset(name, bytes)?;
     let digits = &bytes[offset..offset + DIGITS];
-    let parts = [&bytes[..offset], NO_CHECKSUM.as_bytes(), &bytes[offset + DIGITS..]];
+    let parts = [&bytes[..offset], CHECKSUM_PLACEHOLDER.as_bytes(), &bytes[offset + DIGITS..]];
     Some(digits == format!("{:016x}", hash(parts.into_iter())).as_bytes())
 }
 
@@ -54,21 +54,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_changed_byte_is_noticed() {
+    fn every_changed_byte_is_detected() {
         // The published value of this hash for "foobar".
         assert_eq!(hash([b"foo".as_slice(), b"bar"].into_iter()), 0x8594_4171_f739_67e8);
-        let mut bytes = format!("{{\"note\":\"{{\\\"checksum\\\":\\\"{NO_CHECKSUM}\\\"}}\"}}  weights").into_bytes();
-        assert!(write_checksum(OF_CHECKPOINT, &mut bytes));
-        assert_eq!(is_whole(OF_CHECKPOINT, &bytes), Some(true));
-        assert_eq!(is_whole(OF_POLICY, &bytes), None);
+        let mut bytes =
+            format!("{{\"note\":\"{{\\\"checksum\\\":\\\"{CHECKSUM_PLACEHOLDER}\\\"}}\"}}  weights").into_bytes();
+        assert!(write_checksum(CHECKPOINT_FIELD, &mut bytes));
+        assert_eq!(is_intact(CHECKPOINT_FIELD, &bytes), Some(true));
+        assert_eq!(is_intact(POLICY_FIELD, &bytes), None);
         for index in 0..bytes.len() {
             for change in [1, 0x20, 0x80, 0xff] {
                 let mut damaged = bytes.clone();
                 damaged[index] ^= change;
-                assert_ne!(is_whole(OF_CHECKPOINT, &damaged), Some(true), "byte {index}");
+                assert_ne!(is_intact(CHECKPOINT_FIELD, &damaged), Some(true), "byte {index}");
             }
-            assert_ne!(is_whole(OF_CHECKPOINT, &bytes[..index]), Some(true), "cut at {index}");
+            assert_ne!(is_intact(CHECKPOINT_FIELD, &bytes[..index]), Some(true), "cut at {index}");
         }
-        assert!(!write_checksum(OF_CHECKPOINT, &mut b"nothing to seal".to_vec()));
+        assert!(!write_checksum(CHECKPOINT_FIELD, &mut b"nothing to seal".to_vec()));
     }
 }

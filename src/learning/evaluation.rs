@@ -49,7 +49,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn held_out_layouts_repeat_and_differ_from_what_the_same_seed_trains_on() {
+    fn held_out_layouts_repeat_and_differ_from_training_layouts() {
         let table = Table::default();
         let layouts = held_out_layouts(&table, 3, 1);
         assert_eq!(layouts, held_out_layouts(&table, 3, 1));

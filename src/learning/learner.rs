@@ -71,7 +71,7 @@ pub fn settings_as_object(settings: &impl Serialize) -> Value {
 
 /// Merges `changes` into `settings` by name. A setting that is an object in the agent's defaults is merged part by part; any other
 /// value is replaced as a whole.
-pub fn lay_over(settings: &mut Value, changes: &Value, defaults: &Value) {
+pub fn merge_settings(settings: &mut Value, changes: &Value, defaults: &Value) {
     let Some(changes) = changes.as_object() else {
         *settings = changes.clone();
         return;
@@ -81,7 +81,7 @@ pub fn lay_over(settings: &mut Value, changes: &Value, defaults: &Value) {
     }
     for (name, value) in changes {
         match defaults.get(name) {
-            Some(parts) if parts.is_object() => lay_over(&mut settings[name.as_str()], value, parts),
+            Some(parts) if parts.is_object() => merge_settings(&mut settings[name.as_str()], value, parts),
             _ => settings[name.as_str()] = value.clone(),
         }
     }
@@ -98,7 +98,7 @@ pub fn settings_from<S: Default + Serialize + DeserializeOwned>(
     let defaults = settings_as_object(&S::default());
     let read = |changes: &Value| {
         let mut settings = defaults.clone();
-        lay_over(&mut settings, changes, &defaults);
+        merge_settings(&mut settings, changes, &defaults);
         S::deserialize(settings)
     };
     // Finds the accepted range of a setting: the error for a value outside the range contains it.
@@ -227,7 +227,7 @@ pub trait Learner: Debug + Send {
     fn score(&self, layouts: &[Layout]) -> candle_core::Result<Score>;
 
     /// Returns the shots that [`Learner::score`] plays on the layouts.
-    fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>>;
+    fn choose_shots(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>>;
 
     /// Returns the bytes of a policy file; `None` for agents whose policy the coach cannot use. `held_out_reward` is the measured mean
     /// reward on held-out layouts, `date` the day on which the run started. For a finished run the calibration may take minutes:
@@ -283,10 +283,10 @@ mod tests {
     }
 
     #[test]
-    fn a_setting_that_is_no_object_by_default_is_replaced_as_a_whole() {
+    fn settings_that_are_no_objects_are_replaced_whole() {
         let defaults = json!({"episode": "one-shot", "noise": {"theta": 1, "sigma": 2}});
         let mut settings = json!({"episode": {"shots": 20}, "noise": {"theta": 3}});
-        lay_over(&mut settings, &json!({"episode": {"until-miss": 5}, "noise": {"sigma": 4}}), &defaults);
+        merge_settings(&mut settings, &json!({"episode": {"until-miss": 5}, "noise": {"sigma": 4}}), &defaults);
         assert_eq!(settings, json!({"episode": {"until-miss": 5}, "noise": {"theta": 3, "sigma": 4}}));
     }
 }

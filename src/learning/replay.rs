@@ -40,7 +40,7 @@ impl<T: Copy> ReplayBuffer<T> {
     }
 
     /// Share of the buffer that is filled.
-    pub fn fill(&self) -> f64 {
+    pub fn fill_fraction(&self) -> f64 {
         self.stored.len() as f64 / self.capacity as f64
     }
 
@@ -69,12 +69,12 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
-    fn the_oldest_shots_make_room_for_the_newest() {
+    fn new_shots_replace_the_oldest() {
         let mut buffer = ReplayBuffer::new(3);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
         assert!(buffer.sample(5, &mut rng).is_empty());
         (0..5).for_each(|shot| buffer.push(shot));
-        assert_eq!((buffer.len(), buffer.fill()), (3, 1.0));
+        assert_eq!((buffer.len(), buffer.fill_fraction()), (3, 1.0));
         let mut seen = buffer.sample(100, &mut rng);
         seen.sort_unstable();
         seen.dedup();

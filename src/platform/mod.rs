@@ -13,12 +13,13 @@ mod system;
 mod threads;
 
 pub use self::{
-    stop::{UNFINISHED, outlive_hang_up, stop_on_signal},
+    stop::{UNFINISHED, ignore_hang_up, stop_on_signal},
     system::{
-        CAN_SUSPEND, CLOCK, Input, NEEDS_TERM, die, file_identity, free_space, free_the_screen, listen, own_group,
-        refuse_large_files, suspend, sync_folder, terminal_output, thread_time, use_umask_permissions,
+        CAN_SUSPEND, CLOCK_NAME, Input, NEEDS_TERM, discard_pending_output, exit_by_signal, file_identity, free_space,
+        handle_signals, in_own_process_group, refuse_large_files, suspend, sync_folder, terminal_output, thread_time,
+        use_umask_permissions,
     },
-    threads::{limit_threads, threads},
+    threads::{limit_threads, thread_count},
 };
 
 /// A signal, classified by how the screen reacts to it.
@@ -36,13 +37,13 @@ pub enum Signal {
 
 /// Result of waiting for terminal input.
 #[derive(Debug)]
-pub enum Came {
+pub enum TerminalInput {
     /// Number of bytes read.
     Bytes(usize),
     /// An event that the system itself decoded.
     Event(crossterm::event::Event),
     /// The timeout expired without input.
-    Silence,
+    Timeout,
     /// The terminal is gone: there will be no more input.
-    Gone,
+    Closed,
 }

@@ -10,28 +10,28 @@ use std::{
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::threads;
+use super::thread_count;
 
 /// Worker threads in addition to the calling thread, shared by all calls that may use every thread of this process. They sleep when idle.
-static OTHERS: OnceLock<Option<ThreadPool>> = OnceLock::new();
+static SHARED_WORKERS: OnceLock<Option<ThreadPool>> = OnceLock::new();
 
 /// Number of shared workers that are busy.
-static BUSY: AtomicUsize = AtomicUsize::new(0);
+static BUSY_WORKERS: AtomicUsize = AtomicUsize::new(0);
 
 /// A reserved shared worker; dropping this releases it.
-struct Helper;
+struct ReservedWorker;
 
-impl Helper {
+impl ReservedWorker {
     /// Reserves all free workers among `count`. It never waits for a busy one, which may be occupied for hours by a whole training run.
-    fn all_free(count: usize) -> Vec<Self> {
-        let busy = BUSY.fetch_max(count, Ordering::Relaxed);
+    fn reserve_free(count: usize) -> Vec<Self> {
+        let busy = BUSY_WORKERS.fetch_max(count, Ordering::Relaxed);
         (busy..count).map(|_| Self).collect()
     }
 }
 
-impl Drop for Helper {
+impl Drop for ReservedWorker {
     fn drop(&mut self) {
-        BUSY.fetch_sub(1, Ordering::Relaxed);
+        BUSY_WORKERS.fetch_sub(1, Ordering::Relaxed);
     }
 }
 
@@ -75,7 +75,7 @@ pub fn try_map<T: Sync, R: Send, E: Send>(
             (_, Err(_)) => {}
         }
     };
-    let share_out = |others: &ThreadPool, helpers: Vec<Option<Helper>>| {
+    let share_out = |others: &ThreadPool, helpers: Vec<Option<ReservedWorker>>| {
         others.in_place_scope(|scope| {
             for helper in helpers {
                 scope.spawn(move |_| {
@@ -88,8 +88,8 @@ pub fn try_map<T: Sync, R: Send, E: Send>(
     };
     match count.min(items.len()) {
         0 | 1 => take_over(),
-        count if count == threads() => match OTHERS.get_or_init(|| start(count - 1)) {
-            Some(others) => share_out(others, Helper::all_free(count - 1).into_iter().map(Some).collect()),
+        count if count == thread_count() => match SHARED_WORKERS.get_or_init(|| start(count - 1)) {
+            Some(others) => share_out(others, ReservedWorker::reserve_free(count - 1).into_iter().map(Some).collect()),
             None => take_over(),
         },
         count => match start(count - 1) {
@@ -103,7 +103,7 @@ pub fn try_map<T: Sync, R: Send, E: Send>(
 }
 
 /// Runs `work` on one thread, including the parts that libraries would otherwise spread over several threads.
-pub fn alone<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+pub fn on_one_thread<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     match start(1) {
         Some(pool) => pool.install(work),
         None => work(),
@@ -125,19 +125,19 @@ mod tests {
     };
 
     #[test]
-    fn results_come_in_the_order_of_the_work() {
+    fn results_keep_the_order_of_the_items() {
         let items: Vec<u64> = (0..1000).collect();
         // The first items are the slowest.
         let slow = |item: &u64| (0..(1000 - item) * 50).fold(*item, |sum, n| sum ^ n ^ (n + 1) ^ (n + 1) ^ n);
-        for count in [0, 1, threads(), 4] {
+        for count in [0, 1, thread_count(), 4] {
             assert_eq!(map(count, &items, slow), items, "on {count} threads");
         }
     }
 
     #[test]
-    fn all_threads_work_at_once_and_one_of_them_is_the_one_that_has_the_work() {
+    fn all_threads_including_the_calling_one_work_at_once() {
         // More than the shared workers, which other tests may occupy.
-        let count = threads() + 1;
+        let count = thread_count() + 1;
         let together = Barrier::new(count);
         let who = map(count, &vec![(); count], |()| {
             together.wait();
@@ -148,21 +148,21 @@ mod tests {
     }
 
     #[test]
-    fn nobody_waits_for_threads_that_have_other_work() {
-        let count = threads().max(2);
-        let Some(others) = OTHERS.get_or_init(|| start(count - 1)) else { return };
-        let helpers = Helper::all_free(count - 1);
+    fn busy_workers_are_not_waited_for() {
+        let count = thread_count().max(2);
+        let Some(others) = SHARED_WORKERS.get_or_init(|| start(count - 1)) else { return };
+        let helpers = ReservedWorker::reserve_free(count - 1);
         let (done, ends) = mpsc::channel();
         let (told, outcome) = mpsc::channel();
         others.spawn(move || told.send(ends.recv_timeout(Duration::from_secs(20)).is_ok()).unwrap());
-        assert_eq!(map(threads(), &[1, 2, 3], |n| n * n), [1, 4, 9]);
+        assert_eq!(map(thread_count(), &[1, 2, 3], |n| n * n), [1, 4, 9]);
         done.send(()).unwrap();
         assert!(outcome.recv().unwrap(), "the other work was over before");
         drop(helpers);
     }
 
     #[test]
-    fn after_a_failure_no_other_item_is_begun() {
+    fn no_item_is_started_after_a_failure() {
         let items: Vec<u64> = (0..1000).collect();
         for count in [1, 2] {
             let begun = AtomicU64::new(0);

@@ -33,7 +33,7 @@ pub fn stop_on_signal(at_once: Option<u8>) -> io::Result<Arc<AtomicBool>> {
 /// # Errors
 /// Fails if the system refuses a signal handler.
 #[cfg_attr(windows, allow(clippy::unnecessary_wraps, reason = "other systems can fail"))]
-pub fn outlive_hang_up() -> io::Result<()> {
+pub fn ignore_hang_up() -> io::Result<()> {
     #[cfg(unix)]
     flag::register(signal_hook::consts::SIGHUP, Arc::new(AtomicBool::new(false)))?;
     Ok(())

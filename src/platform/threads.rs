@@ -6,7 +6,7 @@ use std::{num::NonZero, sync::OnceLock, thread};
 static LIMIT: OnceLock<usize> = OnceLock::new();
 
 /// Returns the number of threads for parallel work: the hardware parallelism, or the limit if that is smaller.
-pub fn threads() -> usize {
+pub fn thread_count() -> usize {
     let runs = thread::available_parallelism().map_or(1, NonZero::get);
     LIMIT.get().map_or(runs, |limit| runs.min(*limit))
 }

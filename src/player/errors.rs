@@ -3,7 +3,7 @@
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use crate::statistics::{normal_pair, quantile};
+use crate::statistics::{normal_pair, normal_quantile};
 
 /// Errors in a, b, theta, phi and V, in units of the player's standard errors.
 pub type Errors = [f64; 5];
@@ -30,7 +30,7 @@ impl Halton {
     /// Returns the `n`th errors of the sequence.
     pub fn errors(&self, n: usize) -> Errors {
         let place = |index: usize| (self.shift[index] + radical_inverse(n as u32 + 1, BASES[index])).fract();
-        std::array::from_fn(|index| quantile(place(index)))
+        std::array::from_fn(|index| normal_quantile(place(index)))
     }
 }
 
@@ -58,7 +58,7 @@ impl Streams {
             self.streams.push((f64::from(prime).sqrt(), self.rng.random()));
         }
         let (root, shift) = self.streams[stream];
-        quantile((shift + n as f64 * root).fract())
+        normal_quantile((shift + n as f64 * root).fract())
     }
 }
 

@@ -4,11 +4,11 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Returns the current time in UTC as `2026-11-20T14:30:05Z`.
 pub fn now() -> String {
-    moment(SystemTime::now())
+    format_utc(SystemTime::now())
 }
 
 /// Returns a time in UTC as `2026-11-20T14:30:05Z`; times before 1970 become the start of 1970.
-pub fn moment(time: SystemTime) -> String {
+pub fn format_utc(time: SystemTime) -> String {
     let seconds = time.duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
     let (year, month, day) = date(seconds / 86_400);
     let (hour, minute, second) = (seconds / 3600 % 24, seconds / 60 % 60, seconds % 60);
@@ -17,12 +17,12 @@ pub fn moment(time: SystemTime) -> String {
 
 /// Returns the current time in UTC as `20261120-143005`, which sorts by time and is a valid file name everywhere.
 pub fn timestamp() -> String {
-    timestamp_of(SystemTime::now())
+    format_timestamp(SystemTime::now())
 }
 
 /// Returns a time in the form of [`timestamp`]; times before 1970 become the start of 1970.
-pub fn timestamp_of(time: SystemTime) -> String {
-    moment(time).replace(['-', ':', 'Z'], "").replace('T', "-")
+pub fn format_timestamp(time: SystemTime) -> String {
+    format_utc(time).replace(['-', ':', 'Z'], "").replace('T', "-")
 }
 
 /// Returns year, month and day of the Gregorian calendar, `days` after 1970-01-01 (Hinnant, "chrono-compatible low-level date algorithms").
@@ -50,7 +50,7 @@ mod tests {
         assert_eq!(date(20_777), (2026, 11, 20));
         assert_eq!(date(47_541), (2100, 3, 1));
         assert_eq!(
-            moment(UNIX_EPOCH + std::time::Duration::from_secs(11_016 * 86_400 + 3_661)),
+            format_utc(UNIX_EPOCH + std::time::Duration::from_secs(11_016 * 86_400 + 3_661)),
             "2000-02-29T01:01:01Z"
         );
         assert_eq!(timestamp().len(), 15);

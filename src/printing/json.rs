@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 use serde_json::{Serializer, ser::Formatter};
 
-use super::visible::{is_hidden, parts};
+use super::visible::{is_hidden, split_at_hidden};
 
 /// Writes `value` as one line of JSON, or nothing if it fails.
 ///
@@ -30,7 +30,7 @@ struct Escaping;
 
 impl Formatter for Escaping {
     fn write_string_fragment<W: ?Sized + Write>(&mut self, out: &mut W, fragment: &str) -> io::Result<()> {
-        for (plain, hidden) in parts(fragment, is_hidden) {
+        for (plain, hidden) in split_at_hidden(fragment, is_hidden) {
             out.write_all(plain.as_bytes())?;
             if let Some(hidden) = hidden {
                 for unit in hidden.encode_utf16(&mut [0; 2]) {
@@ -55,7 +55,7 @@ mod tests {
     }
 
     #[test]
-    fn of_what_json_has_no_form_for_nothing_is_written() {
+    fn unserializable_values_write_nothing() {
         let mut out = Vec::new();
         let no_key = std::collections::BTreeMap::from([((1, 2), 3)]);
         assert!(json_line(&mut out, &("before", no_key)).is_err());
@@ -64,7 +64,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_is_read_back_is_what_was_written(text in any::<String>()) {
+        fn strings_survive_a_round_trip(text in any::<String>()) {
             let written = json_text(&text).unwrap();
             prop_assert!(!written.chars().any(is_hidden));
             prop_assert_eq!(serde_json::from_str::<String>(&written).unwrap(), text);

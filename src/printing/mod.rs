@@ -5,25 +5,25 @@
 //! which escape such characters; clippy forbids other ways (`clippy.toml`). If the locale has no UTF-8, both also transliterate text to
 //! ASCII, except JSON and text meant for a file.
 
+mod ascii;
 mod calendar;
+mod escaping_writer;
 mod json;
 mod number;
 mod progress;
 mod shell;
-mod shown;
-mod spelling;
 mod version;
 mod visible;
 mod wrapping;
 
 pub use self::{
-    calendar::{moment, now, timestamp, timestamp_of},
+    ascii::{is_unicode, is_windows_terminal, to_ascii},
+    calendar::{format_timestamp, format_utc, now, timestamp},
+    escaping_writer::{EscapingWriter, clear_line, is_stderr_terminal, redraw_line, stderr, stdout},
     json::{json_line, json_text},
-    number::{fixed, number, typed_number},
+    number::{fixed, number, parse_number},
     progress::ProgressLine,
     shell::shell_word,
-    shown::{Shown, clear_line, is_watched, redraw_line, stderr, stdout},
-    spelling::{is_unicode, is_windows_terminal, spelt},
-    version::{FULL_VERSION, SOURCE, TARGET, VERSION},
+    version::{COMMIT, FULL_VERSION, TARGET, VERSION},
     visible::{OneLine, is_hidden},
 };

@@ -7,7 +7,7 @@ pub fn number(value: f64) -> String {
 }
 
 /// Parses a number that somebody typed, with a decimal point or a decimal comma.
-pub fn typed_number(text: &str) -> Option<f64> {
+pub fn parse_number(text: &str) -> Option<f64> {
     text.trim().replace(',', ".").parse().ok()
 }
 
@@ -26,22 +26,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_number_is_minus_zero() {
+    fn negative_zero_is_printed_as_zero() {
         assert_eq!(fixed(-0.000_4, 3), "0.000");
         assert_eq!(fixed(-0.000_6, 3), "-0.001");
         assert_eq!(fixed(f64::NAN, 1), "NaN");
     }
 
     #[test]
-    fn a_decimal_comma_is_a_point() {
+    fn a_decimal_comma_is_accepted() {
         assert_eq!(
-            ["0,6", " 9.1 ", "-3", "1,2,3", "much"].map(typed_number),
+            ["0,6", " 9.1 ", "-3", "1,2,3", "much"].map(parse_number),
             [Some(0.6), Some(9.1), Some(-3.0), None, None]
         );
     }
 
     #[test]
-    fn no_number_is_a_line_of_zeros() {
+    fn extreme_numbers_use_powers_of_ten() {
         let said = [3.0, 0.25, 1e308, 1e-300, f64::NAN].map(number);
         assert_eq!(said, ["3", "0.25", "1e308", "1e-300", "NaN"]);
     }

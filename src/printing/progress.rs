@@ -6,7 +6,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{clear_line, is_watched, redraw_line, stderr};
+use super::{clear_line, is_stderr_terminal, redraw_line, stderr};
 
 /// Time between two lines if the output is not a terminal.
 const LINE_INTERVAL: Duration = Duration::from_secs(60);
@@ -25,7 +25,7 @@ pub struct ProgressLine {
 impl Default for ProgressLine {
     fn default() -> Self {
         let now = Instant::now();
-        Self { started: now, shown: now, terminal: is_watched() }
+        Self { started: now, shown: now, terminal: is_stderr_terminal() }
     }
 }
 

@@ -12,7 +12,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_shell_takes_a_word_as_it_is_meant() {
+    fn quoted_words_survive_the_shell() {
         assert_eq!(shell_word("runs/2026-11-27_a.b"), "runs/2026-11-27_a.b");
         assert_eq!(shell_word("it's $HOME `id`"), r"'it'\''s $HOME `id`'");
         assert_eq!(shell_word("-d2"), "./-d2");

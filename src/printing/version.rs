@@ -4,7 +4,7 @@
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// The commit: the output of `git describe`, or the commit recorded in the published package; `None` if neither is known.
-pub const SOURCE: Option<&str> = option_env!("CAROM_SOURCE");
+pub const COMMIT: Option<&str> = option_env!("CAROM_SOURCE");
 
 /// The target triple of the build, such as "x86_64-unknown-linux-gnu".
 pub const TARGET: &str = env!("CAROM_TARGET");

@@ -22,7 +22,10 @@ pub fn is_hidden(character: char) -> bool {
 
 /// Splits `text` after each character for which `is_obeyed` is true: yields the plain text before it and the character, which the last part
 /// may lack.
-pub(super) fn parts(text: &str, is_obeyed: impl Fn(char) -> bool + Copy) -> impl Iterator<Item = (&str, Option<char>)> {
+pub(super) fn split_at_hidden(
+    text: &str,
+    is_obeyed: impl Fn(char) -> bool + Copy,
+) -> impl Iterator<Item = (&str, Option<char>)> {
     text.split_inclusive(is_obeyed).map(move |part| match part.chars().next_back().filter(|last| is_obeyed(*last)) {
         Some(last) => (&part[..part.len() - last.len_utf8()], Some(last)),
         None => (part, None),
@@ -43,7 +46,7 @@ struct Escaping<'a, 'b>(&'a mut fmt::Formatter<'b>);
 
 impl Write for Escaping<'_, '_> {
     fn write_str(&mut self, text: &str) -> fmt::Result {
-        for (plain, hidden) in parts(text, is_hidden) {
+        for (plain, hidden) in split_at_hidden(text, is_hidden) {
             self.0.write_str(plain)?;
             if let Some(hidden) = hidden {
                 write!(self.0, "{}", hidden.escape_default())?;
@@ -58,7 +61,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_terminal_obeys_is_named_and_the_rest_stays() {
+    fn control_characters_are_escaped_and_other_text_stays() {
         let title = OneLine("\u{1b}]0;pwn\u{7}\u{9b}31m\u{202e}x\n\ty\u{7f}").to_string();
         assert_eq!(title, "\\u{1b}]0;pwn\\u{7}\\u{9b}31m\\u{202e}x\\n\\ty\\u{7f}");
         let plain = "Größe ° ± é 台 ●▀ \"quoted\" \\";

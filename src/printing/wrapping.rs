@@ -21,7 +21,7 @@ impl Wrapping {
     }
 
     /// Accepts `text` and returns what can be written now.
-    pub fn take(&mut self, text: &str) -> String {
+    pub fn push(&mut self, text: &str) -> String {
         let mut out = String::with_capacity(text.len() + 1);
         for character in text.chars() {
             match character {
@@ -72,27 +72,27 @@ mod tests {
 
     fn wrapped(width: usize, parts: &[&str]) -> String {
         let mut wrapping = Wrapping::new(width);
-        let out: String = parts.iter().map(|part| wrapping.take(part)).collect();
+        let out: String = parts.iter().map(|part| wrapping.push(part)).collect();
         out + &wrapping.rest()
     }
 
     #[test]
-    fn a_line_breaks_between_words_however_it_comes_in() {
+    fn lines_break_between_words_across_split_input() {
         assert_eq!(wrapped(10, &["one two three four\n", "five\n"]), "one two\nthree four\nfive\n");
         assert_eq!(wrapped(10, &["one t", "wo thr", "ee four\nfi", "ve"]), "one two\nthree four\nfive");
         assert_eq!(wrapped(7, &["日本 日本 日本\n"]), "日本\n日本\n日本\n", "each letter is two columns wide");
     }
 
     #[test]
-    fn blanks_stay_where_no_line_breaks_and_a_long_word_is_left_alone() {
+    fn other_spaces_and_long_words_stay_unchanged() {
         assert_eq!(wrapped(12, &["  a    b\n\n> "]), "  a    b\n\n> ");
         assert_eq!(wrapped(6, &["see https://long.example/page now\n"]), "see\nhttps://long.example/page\nnow\n");
     }
 
     #[test]
-    fn an_answer_begins_a_line_whatever_the_prompt_before_it() {
+    fn text_after_a_prompt_starts_a_new_line() {
         let mut wrapping = Wrapping::new(8);
-        let prompt = wrapping.take("> ") + &wrapping.rest();
-        assert_eq!(prompt + &wrapping.take("one two\n"), "> one two\n");
+        let prompt = wrapping.push("> ") + &wrapping.rest();
+        assert_eq!(prompt + &wrapping.push("one two\n"), "> one two\n");
     }
 }

@@ -3,7 +3,7 @@
 use super::{dot, normal_matrix, solve};
 
 /// A least-squares problem: half the sum of squares of the residuals is minimized.
-pub trait Problem {
+pub trait LeastSquaresProblem {
     /// Fills `out` with the residuals at `parameters`.
     fn residuals(&mut self, parameters: &[f64], out: &mut Vec<f64>);
 
@@ -24,7 +24,7 @@ pub struct Minimum {
 }
 
 /// Minimizes from `start` in at most `rounds` iterations.
-pub fn minimize(start: &[f64], rounds: usize, problem: &mut impl Problem) -> Minimum {
+pub fn minimize(start: &[f64], rounds: usize, problem: &mut impl LeastSquaresProblem) -> Minimum {
     let (mut at, mut other) = (Vec::new(), Vec::new());
     let mut parameters = start.to_vec();
     problem.residuals(&parameters, &mut at);
@@ -87,19 +87,19 @@ pub fn fit<const N: usize>(
     rounds: usize,
     residuals: &mut impl FnMut(&[f64; N], &mut Vec<f64>),
 ) -> Fit<N> {
-    let mut problem = Differences { residuals, steps, other: Vec::new() };
+    let mut problem = FiniteDifferences { residuals, steps, other: Vec::new() };
     let Minimum { parameters, squares, normal } = minimize(&start, rounds, &mut problem);
     Fit { parameters: std::array::from_fn(|index| parameters[index]), squares, normal }
 }
 
 /// A problem whose derivatives are finite differences.
-struct Differences<'a, F, const N: usize> {
+struct FiniteDifferences<'a, F, const N: usize> {
     residuals: &'a mut F,
     steps: [f64; N],
     other: Vec<f64>,
 }
 
-impl<F: FnMut(&[f64; N], &mut Vec<f64>), const N: usize> Problem for Differences<'_, F, N> {
+impl<F: FnMut(&[f64; N], &mut Vec<f64>), const N: usize> LeastSquaresProblem for FiniteDifferences<'_, F, N> {
     fn residuals(&mut self, parameters: &[f64], out: &mut Vec<f64>) {
         (self.residuals)(&std::array::from_fn(|index| parameters[index]), out);
     }
@@ -124,7 +124,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_decay_is_found_from_its_points() {
+    fn an_exponential_decay_is_fitted() {
         let points: Vec<(f64, f64)> =
             (0..20).map(|i| 0.1 * f64::from(i)).map(|t| (t, 3.0 * (-1.7 * t).exp())).collect();
         let found = fit([1.0, 1.0], [1e-6, 1e-6], 50, &mut |[size, rate], out| {

@@ -16,7 +16,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_deviation_is_that_of_a_sample() {
+    fn the_deviation_uses_the_sample_formula() {
         let (mean, deviation) = mean_and_deviation(&[0.1, 0.2, 0.6]);
         assert!((mean - 0.3).abs() < 1e-15 && (deviation.unwrap() - 0.07_f64.sqrt()).abs() < 1e-15);
         assert_eq!(mean_and_deviation(&[0.1; 3]), (0.1, Some(0.0)));

@@ -43,7 +43,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn wilsons_interval_matches_published_values_and_stays_within_zero_to_one() {
+    fn wilson_intervals_match_published_values_within_zero_to_one() {
         // Newcombe 1998, table I: 81 of 263 gives 0.2553 to 0.3662, 0 of 20 gives 0 to 0.1611.
         let rate = SuccessRate::new(81, 263);
         assert!((rate.low - 0.2553).abs() < 5e-5 && (rate.high - 0.3662).abs() < 5e-5, "{rate:?}");

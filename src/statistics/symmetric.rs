@@ -79,13 +79,13 @@ pub fn solve(matrix: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
     for (line, value) in factor.iter().zip(right.iter().rev()) {
         half.push((value - dot(&line[..half.len()], &half)) / line[half.len()]);
     }
-    let mut solution = undo(&factor, &half);
+    let mut solution = back_substitute(&factor, &half);
     solution.reverse();
     Some(solution)
 }
 
 /// Returns the row vector whose product with the lower triangle `factor` is `product` (back substitution).
-pub fn undo(factor: &[Vec<f64>], product: &[f64]) -> Vec<f64> {
+pub fn back_substitute(factor: &[Vec<f64>], product: &[f64]) -> Vec<f64> {
     let mut row = vec![0.0; product.len()];
     for column in (0..product.len()).rev() {
         let later: f64 = (column + 1..product.len()).map(|k| row[k] * factor[k][column]).sum();
@@ -104,13 +104,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_factor_has_made_is_undone_and_an_inverse_is_one() {
+    fn back_substitution_and_inverse_undo_the_matrix_product() {
         let matrix = vec![vec![4.0, 1.2, -0.6], vec![1.2, 2.0, 0.3], vec![-0.6, 0.3, 1.0]];
         let factor = cholesky(&matrix, 0.0).unwrap();
         let entry = |row: usize, column: usize| factor[row].get(column).copied().unwrap_or(0.0);
         let inverse = inverse(&matrix).unwrap();
         let product = [0.3, -2.0, 0.7];
-        let row = undo(&factor, &product);
+        let row = back_substitute(&factor, &product);
         for column in 0..3 {
             let again: f64 = (0..3).map(|k| row[k] * entry(k, column)).sum();
             assert!((again - product[column]).abs() < 1e-12);
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn equations_are_solved_whichever_unknowns_depend_on_each_other() {
+    fn equations_are_solved_for_any_dependency_pattern() {
         // First, all unknowns depend on the first one only; then each depends on every other.
         for filled in [0.0, 0.1] {
             let entry = |row: usize, column: usize| match (row, column) {

@@ -8,7 +8,7 @@ use std::{
 
 use tempfile::NamedTempFile;
 
-use super::{confinement::may_write, reading::check_regular};
+use super::{confinement::check_write_allowed, reading::check_regular};
 use crate::platform;
 
 /// Prefix and suffix of temporary file names; they identify the files that a killed process left.
@@ -21,18 +21,18 @@ const ABANDONED: Duration = Duration::from_secs(3600);
 ///
 /// # Errors
 /// Fails if `path` exists and is not a regular file, or with any error of the file system. The old file is then untouched, as for
-/// [`Staged::publish`].
+/// [`StagedFile::publish`].
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    Staged::new(path, bytes)?.publish()
+    StagedFile::new(path, bytes)?.publish()
 }
 
 /// Like [`write_atomic`], but for a new file: of several programs that create the same file at once, exactly one succeeds.
 ///
 /// # Errors
-/// [`io::ErrorKind::AlreadyExists`] if the file exists, otherwise any error of the file system, as for [`Staged::publish`]. The existing
-/// file is untouched.
+/// [`io::ErrorKind::AlreadyExists`] if the file exists, otherwise any error of the file system, as for [`StagedFile::publish`]. The
+/// existing file is untouched.
 pub fn create_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    Staged::new(path, bytes)?.publish_new()
+    StagedFile::new(path, bytes)?.publish_new()
 }
 
 /// Like [`write_atomic`] for data that need not survive a power cut: a reader sees the old or the new content, and nothing waits for the
@@ -41,7 +41,7 @@ pub fn create_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// # Errors
 /// Fails if `path` exists and is not a regular file, if its folder is missing, or with any error of the file system. The old file is then
 /// untouched.
-pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+pub fn write_atomic_unsynced(path: &Path, bytes: &[u8]) -> io::Result<()> {
     check_replaceable(path)?;
     let mut file = readable_by_all(folder_of(path))?;
     file.as_file_mut().write_all(bytes)?;
@@ -51,12 +51,12 @@ pub fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
 
 /// A file that is safely on the disk under a temporary name. It is removed if it is dropped without being published.
 #[derive(Debug)]
-pub struct Staged {
+pub struct StagedFile {
     file: NamedTempFile,
     path: PathBuf,
 }
 
-impl Staged {
+impl StagedFile {
     /// Writes the future content of `path` to a temporary file. Creates missing folders.
     ///
     /// # Errors
@@ -64,7 +64,7 @@ impl Staged {
     pub fn new(path: &Path, bytes: &[u8]) -> io::Result<Self> {
         check_replaceable(path)?;
         let folder = folder_of(path);
-        may_write(folder)?;
+        check_write_allowed(folder)?;
         std::fs::create_dir_all(folder)?;
         let mut file = readable_by_all(folder)?;
         // Not through the temporary file's own methods, which would add its name to the error.
@@ -86,7 +86,7 @@ impl Staged {
     /// Renames the file to its final path if no file exists there.
     ///
     /// # Errors
-    /// [`io::ErrorKind::AlreadyExists`], or any error of [`Staged::publish`].
+    /// [`io::ErrorKind::AlreadyExists`], or any error of [`StagedFile::publish`].
     pub fn publish_new(self) -> io::Result<()> {
         self.file.persist_noclobber(&self.path)?;
         platform::sync_folder(folder_of(&self.path))
@@ -128,7 +128,7 @@ fn partial_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
 }
 
 /// Returns the file to replace when `path` is meant: symbolic links are followed, so that they stay links.
-pub fn target_of(path: &Path) -> PathBuf {
+pub fn resolve_symlinks(path: &Path) -> PathBuf {
     std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
 }
 
@@ -146,7 +146,7 @@ fn folder_of(path: &Path) -> &Path {
 
 /// Creates a temporary file with the permissions that the umask grants to any new file, instead of access for the owner alone.
 fn readable_by_all(folder: &Path) -> io::Result<NamedTempFile> {
-    may_write(folder)?;
+    check_write_allowed(folder)?;
     let [begin, end] = PARTIAL;
     let mut builder = tempfile::Builder::new();
     builder.prefix(begin).suffix(end);
@@ -168,7 +168,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_is_replaced_whole_and_nothing_else_is_left() {
+    fn a_write_replaces_the_file_and_leaves_nothing_else() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deep/file.json");
         write_atomic(&path, b"old").unwrap();
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn a_target_that_cannot_be_replaced_stays_as_it_was() {
+    fn an_irreplaceable_target_stays_unchanged() {
         let folder = tempfile::tempdir().unwrap();
         std::fs::create_dir(folder.path().join("taken")).unwrap();
         std::fs::write(folder.path().join("taken/inside"), b"kept").unwrap();
@@ -189,11 +189,11 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_device_stays_one() {
+    fn devices_are_not_replaced() {
         let folder = tempfile::tempdir().unwrap();
         let link = folder.path().join("link");
         std::os::unix::fs::symlink("/dev/null", &link).unwrap();
-        for write in [write_atomic, replace, create_atomic] {
+        for write in [write_atomic, write_atomic_unsynced, create_atomic] {
             let refused = write(&link, b"new").unwrap_err().to_string();
             assert!(refused.contains("a device") && refused.contains("regular file"), "{refused}");
         }
@@ -212,9 +212,9 @@ mod tests {
     }
 
     #[test]
-    fn what_a_killed_writer_left_is_told_from_other_files() {
+    fn leftover_temporary_files_are_removed_and_others_kept() {
         let folder = tempfile::tempdir().unwrap();
-        let staged = Staged::new(&folder.path().join("file"), b"half").unwrap();
+        let staged = StagedFile::new(&folder.path().join("file"), b"half").unwrap();
         let (_, left) = staged.file.keep().unwrap();
         std::fs::write(folder.path().join(".carom-notes"), b"kept").unwrap();
         remove_abandoned_files(folder.path()).unwrap();

@@ -35,20 +35,20 @@ pub fn confine(written: &Path, read: &[&Path]) -> io::Result<()> {
 ///
 /// # Errors
 /// Fails with an explanation if `path` is outside them.
-pub fn may_read(path: &Path) -> io::Result<()> {
-    CONFINEMENT.get().map_or(Ok(()), |confinement| confinement.reads(path))
+pub fn check_read_allowed(path: &Path) -> io::Result<()> {
+    CONFINEMENT.get().map_or(Ok(()), |confinement| confinement.check_read(path))
 }
 
 /// Refuses to write outside the folder.
 ///
 /// # Errors
 /// Fails with an explanation if `path` is outside it.
-pub fn may_write(path: &Path) -> io::Result<()> {
-    CONFINEMENT.get().map_or(Ok(()), |confinement| confinement.writes(path))
+pub fn check_write_allowed(path: &Path) -> io::Result<()> {
+    CONFINEMENT.get().map_or(Ok(()), |confinement| confinement.check_write(path))
 }
 
 impl Confinement {
-    fn reads(&self, path: &Path) -> io::Result<()> {
+    fn check_read(&self, path: &Path) -> io::Result<()> {
         let path = resolved(path);
         if std::iter::once(&self.written).chain(&self.read).any(|folder| path.starts_with(folder)) {
             return Ok(());
@@ -56,7 +56,7 @@ impl Confinement {
         Err(refusal("a guest can read only their own files"))
     }
 
-    fn writes(&self, path: &Path) -> io::Result<()> {
+    fn check_write(&self, path: &Path) -> io::Result<()> {
         if resolved(path).starts_with(&self.written) {
             return Ok(());
         }
@@ -90,7 +90,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_guest_gets_nowhere_else_by_names_links_or_ways_up() {
+    fn a_guest_cannot_escape_by_names_links_or_dots() {
         let house = tempfile::tempdir().unwrap();
         let folder = |name: &str| {
             let folder = house.path().join(name);
@@ -100,18 +100,24 @@ mod tests {
         let (own, runs, other) = (folder("own"), folder("runs"), folder("own-too"));
         std::fs::write(other.join("secret"), "").unwrap();
         let confinement = Confinement { written: own.clone(), read: vec![runs.clone()] };
-        assert!(confinement.writes(&own.join("new/file")).is_ok() && confinement.reads(&own.join("file")).is_ok());
-        assert!(confinement.reads(&runs.join("one/config.json")).is_ok());
-        assert!(confinement.writes(&runs.join("one/request")).is_err());
+        assert!(
+            confinement.check_write(&own.join("new/file")).is_ok() && confinement.check_read(&own.join("file")).is_ok()
+        );
+        assert!(confinement.check_read(&runs.join("one/config.json")).is_ok());
+        assert!(confinement.check_write(&runs.join("one/request")).is_err());
         let strangers = [other.join("secret"), own.join("../own-too/secret"), own.join("new/../../own-too/secret")];
         for path in strangers.iter().map(PathBuf::as_path).chain([Path::new("/etc/passwd"), Path::new("secret")]) {
-            assert!(confinement.reads(path).is_err() && confinement.writes(path).is_err(), "{}", path.display());
+            assert!(
+                confinement.check_read(path).is_err() && confinement.check_write(path).is_err(),
+                "{}",
+                path.display()
+            );
         }
         #[cfg(unix)]
         {
             std::os::unix::fs::symlink(&other, own.join("link")).unwrap();
-            assert!(confinement.reads(&own.join("link/secret")).is_err());
-            assert!(confinement.writes(&own.join("link/new")).is_err());
+            assert!(confinement.check_read(&own.join("link/secret")).is_err());
+            assert!(confinement.check_write(&own.join("link/new")).is_err());
         }
     }
 }

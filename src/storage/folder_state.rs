@@ -54,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_folder_that_is_not_there_is_judged_by_the_one_above_and_not_made() {
+    fn a_missing_folder_is_judged_by_its_parent() {
         let home = tempfile::tempdir().unwrap();
         let deep = home.path().join("deep/folder");
         let state = folder_state(&deep);
@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn where_a_file_stands_in_the_way_nothing_can_be_written() {
+    fn a_file_in_place_of_the_folder_is_refused() {
         let home = tempfile::tempdir().unwrap();
         std::fs::write(home.path().join("taken"), "").unwrap();
         let state = folder_state(&home.path().join("taken/inside"));

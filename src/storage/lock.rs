@@ -11,7 +11,7 @@ use std::{
 const ATTEMPTS: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(10);
 
-/// Number of attempts of [`Lock::wait`], a fifth of a second each.
+/// Number of attempts of [`Lock::acquire`], a fifth of a second each.
 const WAITS: u32 = 50;
 
 /// The exclusive right to write into a folder, until this is dropped.
@@ -30,7 +30,7 @@ impl Lock {
     ///
     /// # Errors
     /// Returns any error of the file system. A file system without locks counts as success, but nothing is locked then.
-    pub fn take(folder: &Path) -> io::Result<Option<Self>> {
+    pub fn try_acquire(folder: &Path) -> io::Result<Option<Self>> {
         let path = folder.join(Self::FILE);
         if let Ok(found) = path.metadata() {
             super::reading::check_regular(&found)?;
@@ -52,14 +52,14 @@ impl Lock {
         Ok(None)
     }
 
-    /// Like [`Lock::take`], but waits for another process to release the lock. Creates the folder if it is missing.
+    /// Like [`Lock::try_acquire`], but waits for another process to release the lock. Creates the folder if it is missing.
     ///
     /// # Errors
     /// Fails if the other process does not release the lock in time, or with any error of the file system.
-    pub fn wait(folder: &Path) -> io::Result<Self> {
+    pub fn acquire(folder: &Path) -> io::Result<Self> {
         std::fs::create_dir_all(folder)?;
         for _ in 0..WAITS {
-            if let Some(lock) = Self::take(folder)? {
+            if let Some(lock) = Self::try_acquire(folder)? {
                 return Ok(lock);
             }
         }
@@ -85,10 +85,10 @@ mod tests {
     fn a_folder_is_locked_until_the_lock_is_dropped() {
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(Lock::is_held(folder.path()), None);
-        let lock = Lock::take(folder.path()).unwrap();
+        let lock = Lock::try_acquire(folder.path()).unwrap();
         assert!(lock.is_some() && Lock::is_held(folder.path()) == Some(true));
-        assert!(Lock::take(folder.path()).unwrap().is_none());
+        assert!(Lock::try_acquire(folder.path()).unwrap().is_none());
         drop(lock);
-        assert!(Lock::is_held(folder.path()) == Some(false) && Lock::take(folder.path()).unwrap().is_some());
+        assert!(Lock::is_held(folder.path()) == Some(false) && Lock::try_acquire(folder.path()).unwrap().is_some());
     }
 }

@@ -2,26 +2,29 @@
 
 mod atomic;
 mod confinement;
+mod data_paths;
 mod folder_state;
 mod lines;
 mod lock;
 mod name;
 mod notices;
-mod places;
 mod plain_words;
 mod player;
 mod reading;
 
 pub use atomic::{
-    Staged, create_atomic, remove_abandoned_files, remove_partial_files, replace, target_of, write_atomic,
+    StagedFile, create_atomic, remove_abandoned_files, remove_partial_files, resolve_symlinks, write_atomic,
+    write_atomic_unsynced,
 };
-pub use confinement::{confine, may_read};
+pub use confinement::{check_read_allowed, confine};
+pub use data_paths::{DataPaths, has_name};
 pub use folder_state::{FolderState, folder_state};
-pub use lines::{LONGEST_LINE, NextLine, next_line};
+pub use lines::{MAX_LINE_BYTES, NextLine, next_line};
 pub use lock::Lock;
-pub use name::{LONGEST_NAME, NAME_RULE, is_letter, is_name};
+pub use name::{MAX_NAME_BYTES, NAME_RULE, is_letter, is_name};
 pub use notices::notice;
-pub use places::{Places, is_called};
-pub use plain_words::{in_plain_words, json_flaw, toml_flaw, without_numbers};
+pub use plain_words::{describe_json_error, describe_toml_error, in_plain_words, without_error_numbers};
 pub use player::{Player, PlayerNameError};
-pub use reading::{LARGE, PRACTICE, SMALL, open, put_aside, read, read_if_there, read_text};
+pub use reading::{
+    MAX_LARGE_FILE, MAX_PRACTICE_FILE, MAX_SMALL_FILE, open, read, read_if_exists, read_text, rename_unreadable,
+};

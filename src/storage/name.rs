@@ -1,7 +1,7 @@
 //! Names that users give to stored items. Each is also a file name.
 
 /// Longest name, bytes; file systems accept somewhat longer ones.
-pub const LONGEST_NAME: usize = 100;
+pub const MAX_NAME_BYTES: usize = 100;
 
 /// The rule of [`is_name`] in words.
 pub const NAME_RULE: &str =
@@ -9,7 +9,7 @@ pub const NAME_RULE: &str =
 
 /// Whether `name` is accepted as a name.
 pub fn is_name(name: &str) -> bool {
-    (1..=LONGEST_NAME).contains(&name.len()) && !name.starts_with('.') && name.chars().all(is_letter)
+    (1..=MAX_NAME_BYTES).contains(&name.len()) && !name.starts_with('.') && name.chars().all(is_letter)
 }
 
 /// Whether the character may be part of a name.
@@ -22,13 +22,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_rule_in_words_is_the_rule() {
-        assert!(NAME_RULE.starts_with(&format!("1 to {LONGEST_NAME} letters")));
-        let longest = "x".repeat(LONGEST_NAME);
-        for name in ["a", "0.-_", "größe", &*longest, &"ö".repeat(LONGEST_NAME / 2)] {
+    fn the_rule_text_matches_the_check() {
+        assert!(NAME_RULE.starts_with(&format!("1 to {MAX_NAME_BYTES} letters")));
+        let longest = "x".repeat(MAX_NAME_BYTES);
+        for name in ["a", "0.-_", "größe", &*longest, &"ö".repeat(MAX_NAME_BYTES / 2)] {
             assert!(is_name(name), "{name}");
         }
-        for name in ["", ".hidden", "a b", "a/b", &*(longest.clone() + "x"), &"ö".repeat(LONGEST_NAME / 2 + 1)] {
+        for name in ["", ".hidden", "a b", "a/b", &*(longest.clone() + "x"), &"ö".repeat(MAX_NAME_BYTES / 2 + 1)] {
             assert!(!is_name(name), "{name}");
         }
     }

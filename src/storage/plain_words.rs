@@ -34,7 +34,7 @@ pub fn in_plain_words(message: &str) -> String {
 }
 
 /// Removes the error numbers of the operating system from a sentence: its words have the same meaning.
-pub fn without_numbers(mut sentence: String) -> String {
+pub fn without_error_numbers(mut sentence: String) -> String {
     while let Some(start) = sentence.find(" (os error ")
         && let Some(length) = sentence[start..].find(')')
     {
@@ -44,7 +44,7 @@ pub fn without_numbers(mut sentence: String) -> String {
 }
 
 /// Describes what is wrong with a TOML text: the line, the key in that line, and the reason.
-pub fn toml_flaw(text: &str, error: &toml::de::Error) -> String {
+pub fn describe_toml_error(text: &str, error: &toml::de::Error) -> String {
     let reason = in_plain_words(error.message()).replace(NAME[0], NAME[1]);
     let is_missing = error.message().starts_with("missing field ");
     // A value that is missing in the whole file belongs to no line, and one that is missing in a section is not the fault of another key.
@@ -58,7 +58,7 @@ pub fn toml_flaw(text: &str, error: &toml::de::Error) -> String {
 }
 
 /// Describes what is wrong with a JSON text: the position and the reason.
-pub fn json_flaw(error: &serde_json::Error) -> String {
+pub fn describe_json_error(error: &serde_json::Error) -> String {
     let (line, column) = (error.line(), error.column());
     match error.classify() {
         Category::Eof if (line, column) == (1, 0) => "it is empty".to_owned(),
@@ -87,8 +87,8 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_told_in_the_words_of_a_library() {
-        let toml = |text: &str| toml_flaw(text, &toml::from_str::<Two>(text).unwrap_err());
+    fn error_messages_are_free_of_library_jargon() {
+        let toml = |text: &str| describe_toml_error(text, &toml::from_str::<Two>(text).unwrap_err());
         assert_eq!(toml(""), "`name` is missing");
         assert_eq!(toml("name = \"a\""), "`count` is missing");
         assert_eq!(
@@ -97,14 +97,14 @@ mod tests {
         );
         assert!(toml("nmae = \"a\"\ncount = 1").starts_with("line 1, nmae: unknown name `nmae`"));
         assert_eq!(toml("name = \"a\"\n[two\n"), "line 2: the name of a section has no end, expected `]`");
-        let json = |text: &str| json_flaw(&serde_json::from_str::<Two>(text).unwrap_err());
+        let json = |text: &str| describe_json_error(&serde_json::from_str::<Two>(text).unwrap_err());
         assert_eq!(json(""), "it is empty");
         assert_eq!(json("{\"name\":\n"), "it ends in the middle of line 2");
         assert_eq!(json("{\"name\" 3}"), "line 1, column 9 is not JSON");
         assert_eq!(json("{nam: 3}"), "line 1, column 2 is not JSON");
         let said = std::io::Error::from_raw_os_error(2).to_string();
         assert!(said.contains("os error"), "{said}");
-        let said = without_numbers(format!("a: {said}; b"));
+        let said = without_error_numbers(format!("a: {said}; b"));
         assert!(said.ends_with("; b") && !said.contains("os error") && said.len() > 6, "{said}");
         assert_eq!(json("{\"name\":\"a\"}"), "at line 1, column 12, `count` is missing");
     }

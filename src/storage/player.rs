@@ -3,7 +3,7 @@
 use std::{fmt, str::FromStr};
 
 /// Longest name, in characters.
-const LONGEST: usize = 32;
+const MAX_CHARACTERS: usize = 32;
 
 /// A player of a shared account. The name is safe to use as a folder name.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -12,8 +12,8 @@ pub struct Player(String);
 /// Error for a name that is not accepted for a player.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "\"{0}\" is not accepted as a player's name; accepted are 1 to {LONGEST} letters a to z and A to Z, digits, \"-\" and \"_\", beginning \
-     with a letter or a digit"
+    "\"{0}\" is not accepted as a player's name; accepted are 1 to {MAX_CHARACTERS} letters a to z and A to Z, digits, \"-\" and \"_\", \
+     beginning with a letter or a digit"
 )]
 pub struct PlayerNameError(String);
 
@@ -41,7 +41,7 @@ impl FromStr for Player {
 
     fn from_str(name: &str) -> Result<Self, PlayerNameError> {
         let is_letter = |letter: u8| letter.is_ascii_alphanumeric() || matches!(letter, b'-' | b'_');
-        let is_name = name.len() <= LONGEST
+        let is_name = name.len() <= MAX_CHARACTERS
             && name.bytes().all(is_letter)
             && name.bytes().next().is_some_and(|letter| letter.is_ascii_alphanumeric());
         if is_name { Ok(Self(name.to_owned())) } else { Err(PlayerNameError(name.to_owned())) }
@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_hostile_name_is_refused_with_what_would_be_accepted() {
+    fn hostile_names_are_refused_with_the_accepted_form() {
         for name in [
             "",
             ".",

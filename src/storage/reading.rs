@@ -6,16 +6,16 @@ use std::{
     path::Path,
 };
 
-use super::confinement::may_read;
+use super::confinement::check_read_allowed;
 
 /// Largest table, settings file or other small file, bytes.
-pub const SMALL: u64 = 1 << 20;
+pub const MAX_SMALL_FILE: u64 = 1 << 20;
 
 /// Largest practice file, bytes: ten thousand sessions take a tenth of it.
-pub const PRACTICE: u64 = 1 << 28;
+pub const MAX_PRACTICE_FILE: u64 = 1 << 28;
 
 /// Largest file of weights or metrics, bytes: a checkpoint with a full replay buffer takes a tenth of it.
-pub const LARGE: u64 = 1 << 32;
+pub const MAX_LARGE_FILE: u64 = 1 << 32;
 
 /// Returns the content of the file at `path`, if it is a regular file of at most `largest` bytes.
 ///
@@ -48,7 +48,7 @@ pub fn read_text(path: &Path, largest: u64) -> io::Result<String> {
 ///
 /// # Errors
 /// Fails like [`read`], except for a missing file.
-pub fn read_if_there(path: &Path, largest: u64) -> io::Result<Option<Vec<u8>>> {
+pub fn read_if_exists(path: &Path, largest: u64) -> io::Result<Option<Vec<u8>>> {
     match read(path, largest) {
         Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => Ok(None),
         bytes => bytes.map(Some),
@@ -56,7 +56,7 @@ pub fn read_if_there(path: &Path, largest: u64) -> io::Result<Option<Vec<u8>>> {
 }
 
 /// Renames an unreadable file, so that a new one can be written in its place. Returns the outcome as the end of a sentence about the file.
-pub fn put_aside(path: &Path) -> String {
+pub fn rename_unreadable(path: &Path) -> String {
     let (mut aside, mut number) = (path.with_extension("unread.json"), 1);
     // Files that were renamed earlier are kept.
     while aside.exists() {
@@ -74,7 +74,7 @@ pub fn put_aside(path: &Path) -> String {
 /// # Errors
 /// Fails if it is not a regular file, or with any error of the file system.
 pub fn open(path: &Path) -> io::Result<File> {
-    may_read(path)?;
+    check_read_allowed(path)?;
     // Check before opening, because opening a pipe without a writer blocks.
     check_regular(&fs::metadata(path).map_err(missing)?)?;
     let file = File::open(path)?;
@@ -113,7 +113,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_regular_files_of_the_size_that_is_accepted_are_read() {
+    fn only_regular_files_up_to_the_limit_are_read() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("file");
         fs::write(&path, "four").unwrap();
@@ -124,7 +124,7 @@ mod tests {
         for missing in [folder.path().join("none"), path.join("none")] {
             let error = read(&missing, 9).unwrap_err();
             assert_eq!(error.to_string(), "there is no such file; accepted is a regular file");
-            assert_eq!(read_if_there(&missing, 9).unwrap(), None);
+            assert_eq!(read_if_exists(&missing, 9).unwrap(), None);
         }
         #[cfg(unix)]
         assert!(read(Path::new("/dev/zero"), 9).unwrap_err().to_string().contains("a device"));

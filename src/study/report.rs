@@ -7,7 +7,7 @@ use super::{
     reference_check::{GOAL_MEDIAN, GOAL_P99, ReferenceRow},
     statistics::{Share, Spread},
 };
-use crate::platform::CLOCK;
+use crate::platform::CLOCK_NAME;
 
 /// Returns the report for people.
 pub fn text(references: &[ReferenceRow], studies: &[Study]) -> String {
@@ -144,7 +144,7 @@ fn study_text(out: &mut String, study: &Study) {
     if let Some(engine) = study.rows.first() {
         let _ = writeln!(out, "\nThe engine's worst shot by units:\n{}\n", engine.worst_shot);
     }
-    let _ = writeln!(out, "Cost is {CLOCK}, the minimum of the rounds; the methods take turns every 16 shots.\n");
+    let _ = writeln!(out, "Cost is {CLOCK_NAME}, the minimum of the rounds; the methods take turns every 16 shots.\n");
 }
 
 /// Width of the method column.

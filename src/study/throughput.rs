@@ -172,7 +172,7 @@ fn updates_a_second<T>(
     time: Duration,
     mut update: impl FnMut() -> candle_core::Result<T> + Send,
 ) -> candle_core::Result<f64> {
-    parallel::alone(|| {
+    parallel::on_one_thread(|| {
         let start = Instant::now();
         let mut done = 0_u64;
         let (worked, seconds) = timed(|| {
@@ -194,8 +194,8 @@ fn thesis_updates(
 ) -> candle_core::Result<f64> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
     // A small learning rate keeps the networks finite: training on one batch over and over cannot converge to anything useful.
-    let rates = Rates { adam: AdamConfig { learning_rate: 1e-6, gradient_clip: 1.0 }, keep: 0.999 };
-    let mut agent = ActorCritic::random(&sizes(actor, critic), rates, &mut rng)?.with(operations);
+    let rates = Rates { adam: AdamConfig { learning_rate: 1e-6, gradient_clip: 1.0 }, target_retention: 0.999 };
+    let mut agent = ActorCritic::random(&sizes(actor, critic), rates, &mut rng)?.with_operations(operations);
     let mut number = || rng.random_range(-1.0..1.0);
     let drawn: Vec<StoredTransition> = (0..rows)
         .map(|_| StoredTransition {
@@ -203,7 +203,7 @@ fn thesis_updates(
             action: std::array::from_fn(|_| number()),
             index: 0,
             reward: number(),
-            goes_on,
+            continues: goes_on,
             next: std::array::from_fn(|_| number()),
         })
         .collect();
@@ -221,7 +221,7 @@ fn coach_updates(time: Duration, table: &Table, operations: Operations) -> candl
     let observed = ObservationBatch::on(&Arc::new(table.clone()), space, observations)?;
     let actions: Vec<Action> = (0..rows).map(|_| std::array::from_fn(|_| rng.random_range(-1.0..1.0))).collect();
     let successes: Vec<f32> = (0..rows).map(|_| f32::from(u8::from(rng.random_bool(0.1)))).collect();
-    let mut agent = Ddpg::starting_from(Networks::random(&settings, &mut rng)?.with(operations), settings)?;
+    let mut agent = Ddpg::starting_from(Networks::random(&settings, &mut rng)?.with_operations(operations), settings)?;
     let played = ShotBatch { observed, actions, successes };
     updates_a_second(time, || agent.update(&played, None, 1.0))
 }

@@ -5,7 +5,7 @@ use rand::{Rng, RngExt};
 use serde::{Deserialize, Serialize};
 
 use super::{CueBall, Opening, Side, Table};
-use crate::printing::typed_number;
+use crate::printing::parse_number;
 
 /// Number of balls in carom billiards.
 pub const BALLS: usize = 3;
@@ -259,7 +259,7 @@ pub(super) fn coordinates(word: &str) -> Option<Vec<Coordinate>> {
         4 => parts.chunks(2).map(|parts| parts.join(",")).collect(),
         _ => return None,
     };
-    numbers.iter().map(|text| Some(Coordinate { number: typed_number(text)?, in_diamonds })).collect()
+    numbers.iter().map(|text| Some(Coordinate { number: parse_number(text)?, in_diamonds })).collect()
 }
 
 /// Returns the position of two coordinates, m from the middle; `None` if only one of them is in diamonds.

@@ -9,7 +9,7 @@ use super::{
     DoubtError, Flight, Opening, Rail, Room, TableDoubt, flaws,
     models::{Fade, Rails, SlipFriction, is_zero},
 };
-use crate::{printing::number, storage::toml_flaw};
+use crate::{printing::number, storage::describe_toml_error};
 
 /// Names of the bundled tables, the default first.
 pub const PRESETS: [&str; 3] = ["match", "textbook", "thesis"];
@@ -195,7 +195,7 @@ impl Table {
     /// [`TableError::Syntax`], [`TableError::Value`] or [`TableError::Doubt`].
     pub fn from_toml(text: &str) -> Result<Self, TableError> {
         let table = toml::Deserializer::parse(text).and_then(Self::deserialize);
-        let table = table.map_err(|error| TableError::Syntax(toml_flaw(text, &error)))?;
+        let table = table.map_err(|error| TableError::Syntax(describe_toml_error(text, &error)))?;
         table.validated()
     }
 

@@ -5,7 +5,7 @@ use super::{
     doubt::{CONSTANTS, Constant},
     flaws::steepest_tilt,
 };
-use crate::statistics::quantile;
+use crate::statistics::normal_quantile;
 
 /// Draws random tables around a table, according to its uncertainty.
 #[derive(Debug)]
@@ -38,7 +38,7 @@ impl TableSampler {
         for law in &doubt.laws {
             let (table, doubt) = doubt.with_model(law, &table);
             laws.push(Around::new(&table, &doubt, factor)?);
-            bounds.push(quantile(share));
+            bounds.push(normal_quantile(share));
             share += factor.min(1.0) * law.weight;
         }
         (laws.len() > 1 || !laws[0].constants.is_empty()).then_some(Self { laws, bounds })
@@ -146,7 +146,7 @@ mod tests {
             let mut normal = || (0..12).map(|_| rng.random::<f64>()).sum::<f64>() - 6.0;
             // The first number of each draw selects the rail model: evenly spaced quantiles from the lowest to the highest.
             let of = |share: f64| {
-                let mut first = Some(quantile(share));
+                let mut first = Some(normal_quantile(share));
                 sampler.draw(|| first.take().unwrap_or_else(&mut normal))
             };
             (0..4000).map(|index| (f64::from(index) + 0.5) / 4000.0).map(of).collect()

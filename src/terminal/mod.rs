@@ -29,7 +29,7 @@ use crate::{
     coach::Coach,
     drills::store::Store,
     printing,
-    storage::{self, Places},
+    storage::{self, DataPaths},
     table::{Layout, LayoutError, Table},
 };
 
@@ -124,10 +124,10 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Se
 }
 
 /// Restores what the user's last session saved: its state, the calibration stroke that was typed in part, and the user's own skill.
-fn with_saved_state(app: App, places: &Places) -> App {
+fn with_saved_state(app: App, places: &DataPaths) -> App {
     // The drill screens report a file that cannot be read.
     let own = Store::new(places).own_skill().unwrap_or_default();
-    let last = SavedSession::load_or_put_aside(&places.last);
+    let last = SavedSession::load_or_put_aside(&places.last_session);
     let draft = StrokeDraft::read_or_put_aside(&places.draft);
     let [of_session, of_draft] = [last.as_ref().err().cloned(), draft.as_ref().err().cloned()];
     let mut app = app
@@ -144,7 +144,7 @@ fn with_saved_state(app: App, places: &Places) -> App {
 ///
 /// # Errors
 /// [`TerminalError`]: the layout is not possible, or input or output fails.
-pub fn talk(table: Table, settings: &Settings, places: &Places) -> Result<usize, TerminalError> {
+pub fn talk(table: Table, settings: &Settings, places: &DataPaths) -> Result<usize, TerminalError> {
     let layout = Layout::opening(&table);
     let prompt = if io::stdin().is_terminal() { "> " } else { "" };
     let coach = Coach::new(table);
@@ -202,7 +202,7 @@ pub fn follow(name: &str, folder: &Path, settings: &Settings, seat: Seat) -> Res
 pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalError> {
     need_terminal(false)?;
     let (settings, complaints) = Settings::load(&Settings::path());
-    let places = Places::of_this_user();
+    let places = DataPaths::of_this_user();
     let app = App::watching(detect(&settings), run.map(Path::to_owned), list.map(Path::to_owned))?
         .with_detection(detect)
         .with_settings(&settings);

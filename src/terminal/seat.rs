@@ -5,7 +5,7 @@ use std::{io, path::Path};
 use super::Settings;
 use crate::{
     platform,
-    storage::{self, Places, Player},
+    storage::{self, DataPaths, Player},
 };
 
 /// Longest thinking time of the coach for a guest, ms: short enough that nobody minds the wait.
@@ -20,7 +20,7 @@ pub struct Seat {
     /// The player's name, or `None` for the user of the account.
     pub player: Option<Player>,
     /// Where this player's files are.
-    pub places: Places,
+    pub places: DataPaths,
     /// Whether the player is a guest. Guests cannot start or control training, read and write only their own files, are limited to one
     /// second of thinking on one thread, and cannot suspend the program to a shell.
     pub is_guest: bool,
@@ -29,7 +29,7 @@ pub struct Seat {
 impl Seat {
     /// The seat of the account's user.
     pub fn of_this_user() -> Self {
-        Self { player: None, places: Places::of_this_user(), is_guest: false }
+        Self { player: None, places: DataPaths::of_this_user(), is_guest: false }
     }
 
     /// The seat of a player with their own folder.
@@ -37,7 +37,7 @@ impl Seat {
     /// # Errors
     /// Fails if the account has no home directory.
     pub fn of_player(player: &Player, is_guest: bool) -> io::Result<Self> {
-        Ok(Self { player: Some(player.clone()), places: Places::of_player(player)?, is_guest })
+        Ok(Self { player: Some(player.clone()), places: DataPaths::of_player(player)?, is_guest })
     }
 
     /// Restricts this process to what the player may do, until it ends. The folder `seen`, where another player shares a table, may be read
@@ -48,7 +48,7 @@ impl Seat {
     pub fn take(&self, seen: Option<&Path>) -> io::Result<()> {
         if self.is_guest {
             let read: Vec<&Path> = seen.into_iter().chain([&*self.places.runs]).collect();
-            storage::confine(&self.places.own, &read)?;
+            storage::confine(&self.places.root, &read)?;
             platform::limit_threads(1);
         }
         Ok(())
@@ -65,7 +65,7 @@ impl Seat {
 
     /// Returns a warning if nothing can be saved in the player's folder, with the reason.
     pub fn warning(&self) -> Option<String> {
-        let folder = &self.places.own;
+        let folder = &self.places.root;
         let state = storage::folder_state(folder);
         let is_full = state.free.is_some_and(|free| free < MIN_FREE_SPACE);
         let refusal = state.refusal.map(|error| error.to_string());

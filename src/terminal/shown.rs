@@ -14,7 +14,7 @@ use crate::{
     coach::Skill,
     game::Rule,
     physics::CueInputs,
-    storage::{self, Lock, Places, Player},
+    storage::{self, DataPaths, Lock, Player},
     table::{BALLS, CueBall, Layout, Table},
     terminal::shot::playback::SPEEDS,
 };
@@ -158,7 +158,7 @@ impl ShownTable {
     /// # Errors
     /// Any error of the file system; the old file then stays.
     pub fn write(&self, folder: &Path) -> io::Result<()> {
-        storage::replace(&folder.join(FILE), &serde_json::to_vec(self)?)
+        storage::write_atomic_unsynced(&folder.join(FILE), &serde_json::to_vec(self)?)
     }
 
     /// Reads the view in `folder`, with its age.
@@ -202,11 +202,12 @@ impl ShownTable {
 
 /// The players of this account who are sharing their table now, sorted by name.
 pub fn all_shown() -> Vec<Player> {
-    let Some(folder) = Places::players() else { return Vec::new() };
+    let Some(folder) = DataPaths::players() else { return Vec::new() };
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let players = entries.filter_map(|entry| entry.file_name().to_str()?.parse::<Player>().ok());
     let is_shown = |player: &Player| {
-        Places::of_player(player).is_ok_and(|places| !matches!(ShownTable::look(&places.shown), Sight::Nothing))
+        DataPaths::of_player(player)
+            .is_ok_and(|places| !matches!(ShownTable::look(&places.spectator_folder), Sight::Nothing))
     };
     let mut shown: Vec<Player> = players.filter(is_shown).collect();
     shown.sort_by_key(Player::folder);
@@ -240,7 +241,7 @@ mod tests {
     #[test]
     fn what_is_written_is_seen_as_long_as_its_writer_lives() {
         let folder = tempfile::tempdir().unwrap();
-        let lock = Lock::take(folder.path()).unwrap();
+        let lock = Lock::try_acquire(folder.path()).unwrap();
         assert!(matches!(ShownTable::look(folder.path()), Sight::Nothing));
         shown().write(folder.path()).unwrap();
         let Sight::Table(found) = ShownTable::look(folder.path()) else { panic!("nothing is seen") };

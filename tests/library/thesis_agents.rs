@@ -161,7 +161,7 @@ fn symmetric_layouts_are_played_alike(agent: &dyn Learner) {
     for _ in 0..100 {
         let layout = Layout::random(agent.table(), &mut rng);
         let [cue, one, other] = layout.balls;
-        let shot_on = |balls| agent.shots_on(&[Layout::new(balls)]).unwrap()[0];
+        let shot_on = |balls| agent.choose_shots(&[Layout::new(balls)]).unwrap()[0];
         let shot = shot_on(layout.balls);
         assert_eq!(shot_on([cue, other, one]), shot);
         for mirror in [DVec2::new(-1.0, 1.0), DVec2::new(1.0, -1.0)] {

@@ -18,7 +18,7 @@ use crate::{
     game::{Rule, Tally},
     physics::{CueInputs, strike},
     simulation::{Event, EventKind, Observer, Recording, ShotError, StepBudget, watch},
-    statistics::{SuccessRate, quantile},
+    statistics::{SuccessRate, normal_quantile},
     table::{Layout, Table},
 };
 
@@ -149,7 +149,7 @@ fn aim_width(sensitivity: &Sensitivity, cue: &CueInputs, skill: Skill, made: Opt
     let margin = sensitivity.margin(Input::Direction, cue)?;
     let width = margin.less? + margin.more?;
     // Of all windows of this width, errors stay most often within the one centred at zero.
-    let least = |rate: f64| 2.0 * skill.at(cue).phi.to_degrees() * quantile(0.5 * (1.0 + rate));
+    let least = |rate: f64| 2.0 * skill.at(cue).phi.to_degrees() * normal_quantile(0.5 * (1.0 + rate));
     let explains = made.is_none_or(|made| made.rate >= 1.0 || width > EXPLAINED * least(made.rate));
     explains.then_some(width)
 }
@@ -277,7 +277,7 @@ mod tests {
         let width = told(1).unwrap();
         // Errors stay within a window of this width at most this often.
         let sigma = Skill::CLUB.at(&cue).phi.to_degrees();
-        let within = (1..100).find(|made| 2.0 * sigma * quantile(0.5 + 0.005 * *made as f64) > width).unwrap();
+        let within = (1..100).find(|made| 2.0 * sigma * normal_quantile(0.5 + 0.005 * *made as f64) > width).unwrap();
         assert_eq!(told(within / 2), Some(width));
         assert_eq!((told((2 * within).min(99)), told(100)), (None, Some(width)), "{width} {within}");
     }

@@ -6,7 +6,7 @@ use crate::{
     calibration::{Mark, PROTOCOL, RAILS, Test, Unit},
     commands::{
         Failure,
-        output::{json_line, line},
+        output::{json_line, print_line},
     },
     physics::CueInputs,
     table::{Layout, Table},
@@ -54,13 +54,15 @@ pub fn tests(table: &Table, is_json: bool) -> Result<(), Failure> {
             continue;
         }
         for text in words(number, test) {
-            line(text)?;
+            print_line(text)?;
         }
-        line("")?;
+        print_line("")?;
     }
     if !is_json {
-        let strokes: usize = PROTOCOL.iter().map(|test| test.times).sum();
-        line(format_args!("{COUNTING} {strokes} strokes in all; any test may be left out or played more often."))?;
+        let strokes: usize = PROTOCOL.iter().map(|test| test.repetitions).sum();
+        print_line(format_args!(
+            "{COUNTING} {strokes} strokes in all; any test may be left out or played more often."
+        ))?;
     }
     Ok(())
 }
@@ -71,14 +73,14 @@ const COUNTING: &str = "Places are in diamonds: along the table from your own sh
 
 /// Describes a test for a player.
 pub fn words(number: usize, test: &Test) -> Vec<String> {
-    let times = match test.times {
+    let times = match test.repetitions {
         0 => "if you like".to_owned(),
         1 => "once".to_owned(),
         times => format!("{times} times"),
     };
     let mut lines = vec![
         format!("{number}. {} ({times}): {}", test.name, test.title),
-        format!("   put     {}", test.place),
+        format!("   put     {}", test.placement),
         format!("   strike  {}", test.strike),
     ];
     lines.extend(test.marks.iter().map(|Mark { name, words, .. }| format!("   mark    {name}: {words}")));
@@ -92,7 +94,7 @@ pub fn words(number: usize, test: &Test) -> Vec<String> {
 const MET: &str = "how many short rails it has met";
 
 fn counts_rails(test: &Test) -> bool {
-    test.asked().any(|name| name == RAILS)
+    test.field_names().any(|name| name == RAILS)
 }
 
 fn usual(test: &Test) -> String {
@@ -113,7 +115,7 @@ pub fn template() -> String {
         for line in words(number, test) {
             text.extend(["# ", &line, "\n"]);
         }
-        for _ in 0..test.times {
+        for _ in 0..test.repetitions {
             text.extend(["# [[trial]]\n# test = \"", test.name, "\"\n"]);
             for mark in test.marks {
                 text.extend(["# ", mark.name, " =\n"]);
@@ -134,15 +136,20 @@ impl TestLine {
         Self {
             test: test.name,
             title: test.title,
-            place: test.place,
+            place: test.placement,
             strike: test.strike,
-            times: test.times,
+            times: test.repetitions,
             layout: balls[..taking_part].iter().map(glam::DVec2::to_array).collect(),
             cue: CueInputs { a, b, theta: theta.to_radians(), phi: phi.to_radians(), speed },
             marks: test
                 .marks
                 .iter()
-                .map(|mark| MarkLine { mark: mark.name, words: mark.words, unit: mark.unit(), sure: mark.sure })
+                .map(|mark| MarkLine {
+                    mark: mark.name,
+                    words: mark.words,
+                    unit: mark.unit(),
+                    sure: mark.standard_error,
+                })
                 .collect(),
             rails: counts_rails(test).then_some(RailsLine { words: MET, usual: test.rails }),
         }
@@ -155,7 +162,7 @@ mod tests {
     use crate::calibration::Entries;
 
     #[test]
-    fn the_file_to_fill_in_is_read_as_it_is_and_with_its_comments_taken_away() {
+    fn the_template_parses_with_and_without_comments() {
         let entries = Entries::parse(&template()).unwrap();
         assert_eq!((entries.name.as_deref(), entries.trials.len()), (Some("own"), 0));
         let filled: String = template()
@@ -167,7 +174,7 @@ mod tests {
             })
             .collect();
         let entries = Entries::parse(&filled).unwrap();
-        let strokes: usize = PROTOCOL.iter().map(|test| test.times).sum();
+        let strokes: usize = PROTOCOL.iter().map(|test| test.repetitions).sum();
         assert_eq!((entries.trials.len(), entries.missing().len()), (strokes, 0));
         assert_eq!(entries.trials(&Table::default()).1, []);
     }

@@ -9,13 +9,16 @@ use std::path::{Path, PathBuf};
 
 use super::{
     Failure,
-    input::{seed, table_named, whole},
-    output::{check_place, line, need_folder, print_note},
+    input::{parse_seed, table_by_name, whole_number},
+    output::{check_folder_exists, check_writable, print_line, print_note},
 };
 use crate::{
-    calibration::{Entries, KeptError, Play, calibrate, entries_of, may_save_table, overnight, prior, save_table},
+    calibration::{
+        Entries, EntriesFileError, TablePlay, calibrate, load_entries, may_save_table, next_day_doubt, prior,
+        save_table,
+    },
     drills::LONGEST_TITLE,
-    storage::target_of,
+    storage::resolve_symlinks,
     table::{PRESETS, Table, TableDoubt},
 };
 use report::Report;
@@ -55,11 +58,11 @@ pub struct Args {
     /// Measure the calibration itself: draw this many tables, let a simulated club player play all tests on each, and report how often the
     /// 95 % intervals contain the truth.
     #[arg(long, value_name = "TABLES", conflicts_with_all = ["file", "out"],
-        value_parser = whole(1..=100_000_u32))]
+        value_parser = whole_number(1..=100_000_u32))]
     simulate: Option<u32>,
     /// With --simulate: the seed of the tables and the player.
     #[arg(long, requires = "simulate", conflicts_with_all = ["file", "out", "daily", "tests", "template"], default_value_t = 1,
-        value_parser = seed)]
+        value_parser = parse_seed)]
     seed: u64,
     /// Print one JSON object.
     #[arg(long)]
@@ -68,9 +71,9 @@ pub struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if args.template {
-        return listing::template().lines().try_for_each(line);
+        return listing::template().lines().try_for_each(print_line);
     }
-    let table = table_named(&args.table)?;
+    let table = table_by_name(&args.table)?;
     if args.tests {
         return listing::tests(&table, args.json);
     }
@@ -82,14 +85,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     args.name.as_deref().map_or(Ok(()), check_name)?;
     args.out.as_deref().map_or(Ok(()), check_out)?;
     match &args.file {
-        Some(file) => report_result(args, &table, &doubt, &entries_of(file).map_err(failure)?),
+        Some(file) => report_result(args, &table, &doubt, &load_entries(file).map_err(failure)?),
         None => session::run(args, &table, &doubt),
     }
 }
 
 /// Converts an error: invalid content of a file is wrong input.
-fn failure(error: KeptError) -> Failure {
-    if matches!(error, KeptError::Wrong(..)) {
+fn failure(error: EntriesFileError) -> Failure {
+    if matches!(error, EntriesFileError::Invalid(..)) {
         return Failure::wrong_input(format_args!(
             "{error}; carom calibrate --template prints a file of entries to begin with"
         ));
@@ -101,7 +104,7 @@ fn failure(error: KeptError) -> Failure {
 fn doubt(args: &Args, table: &Table) -> Result<TableDoubt, Failure> {
     match &table.doubt {
         _ if !args.daily => Ok(prior(table)),
-        Some(doubt) => Ok(overnight(table, doubt)),
+        Some(doubt) => Ok(next_day_doubt(table, doubt)),
         None => Err(Failure::wrong_input(format_args!(
             "a check of the day needs a table that was calibrated before, and \"{}\" was not; give its file with --table",
             table.name
@@ -127,10 +130,10 @@ fn check_name(name: &str) -> Result<(), Failure> {
 
 /// Refuses a path at which no table can be written.
 fn check_out(path: &Path) -> Result<(), Failure> {
-    let target = target_of(path);
-    need_folder(&target)?;
+    let target = resolve_symlinks(path);
+    check_folder_exists(&target)?;
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    check_place(folder, path)?;
+    check_writable(folder, path)?;
     may_save_table(path).map_err(Failure::failed)
 }
 
@@ -144,7 +147,7 @@ fn report_result(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entri
     let name = args.name.as_ref().or(entries.name.as_ref()).or(own).map_or(NAME, String::as_str);
     check_name(name)?;
     let found = calibrate(name, table, doubt, &trials).map_err(Failure::wrong_input)?;
-    let play = args.daily.then(|| [Play::of(table), Play::of(&found.table)]);
+    let play = args.daily.then(|| [TablePlay::of(table), TablePlay::of(&found.table)]);
     let report = Report::new(&found, entries, &odd, play);
     // Save before anything is printed: a closed output must not prevent it.
     let out = args.out.as_ref().filter(|_| odd.is_empty() && !found.is_contradictory());
@@ -172,5 +175,5 @@ fn report_result(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entri
         print_note(said);
         return Ok(());
     }
-    line(said)
+    print_line(said)
 }

@@ -3,10 +3,10 @@
 use serde::Serialize;
 
 use crate::{
-    calibration::{Calibration, Change, Entries, Oddity, Play, missing_today},
+    calibration::{Calibration, Change, Entries, EntryProblem, TablePlay, missing_daily_tests},
     commands::{
         Failure,
-        output::{json_line, line, print_table},
+        output::{json_line, print_line, print_table},
     },
 };
 
@@ -23,7 +23,7 @@ pub struct Report<'a> {
     contradictory: bool,
     /// With `--daily`: how the table played before and how it plays now.
     #[serde(skip_serializing_if = "Option::is_none")]
-    play: Option<[Play; 2]>,
+    play: Option<[TablePlay; 2]>,
     #[serde(skip)]
     is_daily: bool,
 }
@@ -37,15 +37,15 @@ struct Missing {
 
 impl<'a> Report<'a> {
     /// Creates the report of a calibration.
-    pub fn new(found: &'a Calibration, entries: &Entries, odd: &[Oddity], play: Option<[Play; 2]>) -> Self {
+    pub fn new(found: &'a Calibration, entries: &Entries, odd: &[EntryProblem], play: Option<[TablePlay; 2]>) -> Self {
         let is_daily = play.is_some();
-        let missing = if is_daily { missing_today(entries) } else { entries.missing() };
+        let missing = if is_daily { missing_daily_tests(entries) } else { entries.missing() };
         // The comparison needs both tests of a daily check.
         let play = play.filter(|_| missing.is_empty());
         Self {
             found,
             missing: missing.into_iter().map(|(test, strokes)| Missing { test: test.name, strokes }).collect(),
-            odd: odd.iter().map(Oddity::to_string).collect(),
+            odd: odd.iter().map(EntryProblem::to_string).collect(),
             contradictory: found.is_contradictory(),
             play,
             is_daily,
@@ -61,33 +61,38 @@ impl<'a> Report<'a> {
     pub fn text(&self) -> Result<(), Failure> {
         let found = self.found;
         let row = |one: &Change| {
-            [one.name.clone(), one.told_before().join(" ± "), one.told().join(" ± "), found.known(one).to_owned()]
+            [
+                one.name.clone(),
+                one.before_text().join(" ± "),
+                one.after_text().join(" ± "),
+                found.certainty(one).to_owned(),
+            ]
         };
         print_table(["constant", "before", "after", "known"], found.constants.iter().map(row), &[1, 2])?;
-        line("")?;
-        for verdict in found.verdicts.iter().filter(|verdict| verdict.misread) {
-            line(verdict.doubtful(&in_file(verdict.trial, verdict.test)))?;
+        print_line("")?;
+        for check in found.mark_checks.iter().filter(|check| check.misread) {
+            print_line(check.misread_text(&in_file(check.trial, check.test)))?;
         }
-        for strange in &found.strange {
-            line(strange.words(&in_file(strange.trial, strange.test)))?;
+        for stroke in &found.outlier_strokes {
+            print_line(stroke.words(&in_file(stroke.trial, stroke.test)))?;
         }
-        found.rails_apart().iter().try_for_each(line)?;
-        line(found.agreement(in_file))?;
-        found.meanings().iter().try_for_each(line)?;
+        found.differing_rails().iter().try_for_each(print_line)?;
+        print_line(found.agreement(in_file))?;
+        found.meanings().iter().try_for_each(print_line)?;
         if !self.missing.is_empty() {
             let strokes = |one: &Missing| format!("{} ({})", one.test, one.strokes);
             let all: Vec<String> = self.missing.iter().map(strokes).collect();
-            line(format_args!("not entered yet: {}", all.join(", ")))?;
+            print_line(format_args!("not entered yet: {}", all.join(", ")))?;
         }
         if let Some([before, now]) = &self.play {
-            line(format_args!("today {}", now.against(before)))?;
+            print_line(format_args!("today {}", now.describe_change_from(before)))?;
         }
         if self.is_daily {
             return Ok(());
         }
         let most_useful: Vec<String> =
             found.next.iter().take(NEXT).map(|next| format!("{} ({:.1} bits)", next.test, next.bits)).collect();
-        line(format_args!(
+        print_line(format_args!(
             "next, one more stroke of these tests helps most (1 bit halves a doubt): {}",
             most_useful.join(", ")
         ))

@@ -4,12 +4,14 @@ use std::path::PathBuf;
 
 use super::{Args, failure, listing::words, report_result};
 use crate::{
-    calibration::{Edit, Entries, Entry, FAR_END, PROTOCOL, RAILS, Test, edit_entries, kept_entries, missing_today},
+    calibration::{
+        Edit, Entries, Entry, FAR_END, PROTOCOL, RAILS, Test, edit_entries, load_entries_or_empty, missing_daily_tests,
+    },
     commands::{
         Failure,
-        output::{ask, print_note, refused_lines_result},
+        output::{print_note, prompt_line, refused_lines_result},
     },
-    storage::Places,
+    storage::DataPaths,
     table::{Table, TableDoubt},
 };
 
@@ -20,7 +22,7 @@ const HELP: &str = "type the marks of a stroke on one line, in their order or by
 
 /// Asks for tests until all are played, the input ends or the player types "done"; then reports the result.
 pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure> {
-    let places = Places::of_this_user();
+    let places = DataPaths::of_this_user();
     let path = if args.daily { places.daily_check } else { places.calibration };
     let mut session = Session::open(path, args.daily)?;
     print_note(HELP);
@@ -32,8 +34,8 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
             words(number, test).iter().for_each(print_note);
             shown = Some((test.name, session.entries.trials.len()));
         }
-        let names: Vec<&str> = test.asked().collect();
-        let Some(text) = ask(&format!("{}: ", names.join(" ")))? else { break };
+        let names: Vec<&str> = test.field_names().collect();
+        let Some(text) = prompt_line(&format!("{}: ", names.join(" ")))? else { break };
         let text = match text {
             Ok(text) => text,
             Err(failure) => {
@@ -46,12 +48,12 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
             "" => {}
             "done" => break,
             "skip" => session.skip(test),
-            "again" => session.again(),
+            "again" => session.repeat_last(),
             "undo" => session.undo()?,
             "help" | "?" => print_note(HELP),
             marks => match entry(table, test, marks) {
                 Ok(entry) => {
-                    let kept = kept_words(test, &entry);
+                    let kept = entry_summary(test, &entry);
                     session.add(entry)?;
                     print_note(format_args!("kept: {}, stroke {}: {kept}", test.name, session.count(test)));
                 }
@@ -73,7 +75,7 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
 /// Parses a typed line as an entry.
 fn entry(table: &Table, test: &Test, text: &str) -> Result<Entry, String> {
     let mut entry = Entry { test: test.name.to_owned(), ..Entry::default() };
-    let mut marks = test.asked();
+    let mut marks = test.field_names();
     let is_a_name = |word: &str| [RAILS, FAR_END].contains(&word) || test.marks.iter().any(|mark| mark.name == word);
     let values = values(text, is_a_name);
     let mut words = values.iter().map(String::as_str);
@@ -85,19 +87,20 @@ fn entry(table: &Table, test: &Test, text: &str) -> Result<Entry, String> {
             marks.next().ok_or_else(|| format!("\"{word}\" is one value too many; {HELP}"))?
         };
         let value = if is_name { words.next().ok_or_else(|| format!("{word} has no value"))? } else { word };
-        entry.take(name, value)?;
+        entry.set_field(name, value)?;
     }
     let (_, odd) = entry.readings(table);
     if odd.is_empty() { Ok(entry) } else { Err(odd.join("; ")) }
 }
 
 /// Describes the marks of an entry and those it lacks, except a count of rails whose usual number is known.
-fn kept_words(test: &Test, entry: &Entry) -> String {
-    let has = |name: &&str| !entry.typed(name).is_empty();
-    let named = test.asked().chain([FAR_END]).filter(has).map(|name| format!("{name} {}", entry.typed(name)));
+fn entry_summary(test: &Test, entry: &Entry) -> String {
+    let has = |name: &&str| !entry.field_text(name).is_empty();
+    let named =
+        test.field_names().chain([FAR_END]).filter(has).map(|name| format!("{name} {}", entry.field_text(name)));
     let named = named.collect::<Vec<_>>().join(", ");
     let is_open = |name: &&str| !has(name) && (*name != RAILS || test.rails.is_none());
-    match test.asked().filter(is_open).collect::<Vec<_>>().join(", ") {
+    match test.field_names().filter(is_open).collect::<Vec<_>>().join(", ") {
         open if open.is_empty() => named,
         open => format!("{named}; without {open} (undo takes it back)"),
     }
@@ -138,7 +141,7 @@ struct Session {
 impl Session {
     /// Continues with the entries in the file. A daily check that already has both tests is from an earlier day: a new one begins.
     fn open(path: PathBuf, is_daily: bool) -> Result<Self, Failure> {
-        let entries = kept_entries(&path).map_err(failure)?;
+        let entries = load_entries_or_empty(&path).map_err(failure)?;
         let mut session =
             Self { path, entries, skipped: Vec::new(), repeated: None, is_daily, holds_earlier_check: false };
         if is_daily && session.next().is_none() {
@@ -156,14 +159,14 @@ impl Session {
     /// Returns the next test to ask for.
     fn next(&self) -> Option<&'static Test> {
         let is_wanted = |test: &Test| !self.skipped.contains(&test.name);
-        let missing = if self.is_daily { missing_today(&self.entries) } else { self.entries.missing() };
+        let missing = if self.is_daily { missing_daily_tests(&self.entries) } else { self.entries.missing() };
         self.repeated.or_else(|| missing.into_iter().map(|(test, _)| test).find(|test| is_wanted(test)))
     }
 
     fn add(&mut self, entry: Entry) -> Result<(), Failure> {
         self.repeated = None;
         if std::mem::take(&mut self.holds_earlier_check) {
-            self.edit(&Edit::Anew(Entries::default()))?;
+            self.edit(&Edit::ReplaceAll(Entries::default()))?;
         }
         self.edit(&Edit::Add(entry))
     }
@@ -175,7 +178,7 @@ impl Session {
         };
         self.skipped.retain(|name| *name != entry.test);
         let said = format!("the last entry ({}) is taken back", entry.test);
-        self.edit(&Edit::TakeOut(self.entries.trials.len() - 1, entry))?;
+        self.edit(&Edit::Remove(self.entries.trials.len() - 1, entry))?;
         print_note(said);
         Ok(())
     }
@@ -185,7 +188,7 @@ impl Session {
         self.skipped.push(test.name);
     }
 
-    fn again(&mut self) {
+    fn repeat_last(&mut self) {
         self.repeated = self.entries.trials.last().and_then(|entry| Test::named(&entry.test));
         if self.repeated.is_none() {
             print_note("there is no test yet to play again");

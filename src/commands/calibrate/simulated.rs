@@ -6,7 +6,7 @@ use crate::{
     calibration::{Coverage, PROTOCOL, coverage},
     commands::{
         Failure,
-        output::{json_line, line, print_table},
+        output::{json_line, print_line, print_table},
     },
     table::{Table, TableDoubt},
 };
@@ -14,7 +14,7 @@ use crate::{
 /// Measures how often the intervals contain the truth, and prints the result.
 pub fn run(table: &Table, doubt: &TableDoubt, tables: u32, seed: u64, is_json: bool) -> Result<(), Failure> {
     let constants = coverage(table, doubt, tables as usize, seed).map_err(Failure::wrong_input)?;
-    let strokes: usize = PROTOCOL.iter().map(|test| test.times).sum();
+    let strokes: usize = PROTOCOL.iter().map(|test| test.repetitions).sum();
     if is_json {
         return Ok(json_line(&json!({ "tables": tables, "seed": seed, "strokes": strokes, "constants": constants }))?);
     }
@@ -30,5 +30,5 @@ pub fn run(table: &Table, doubt: &TableDoubt, tables: u32, seed: u64, is_json: b
         ]
     };
     print_table(heads, constants.iter().map(row), &[1, 2, 3, 4])?;
-    line(format_args!("{tables} tables, seed {seed}; {strokes} strokes of a club player on each"))
+    print_line(format_args!("{tables} tables, seed {seed}; {strokes} strokes of a club player on each"))
 }

@@ -1,19 +1,19 @@
 //! `carom doctor`: reports the version, what it finds on this machine, and whether the program computes correctly.
 
-mod kept;
 mod screen;
+mod stored_data;
 mod text;
 
 use serde::Serialize;
 
 use self::{
-    kept::{Kept, Place},
     screen::Screen,
+    stored_data::{FolderReport, StoredData},
 };
 use super::{Failure, output::json_line};
 use crate::{
-    printing::{self, SOURCE, TARGET, VERSION},
-    storage::Places,
+    printing::{self, COMMIT, TARGET, VERSION},
+    storage::DataPaths,
     study::{self_test::SelfTest, throughput::Machine},
     terminal::Settings,
 };
@@ -42,10 +42,10 @@ struct Program {
 #[derive(Serialize)]
 struct Report {
     program: Program,
-    places: Vec<Place>,
+    places: Vec<FolderReport>,
     screen: Screen,
     #[serde(flatten)]
-    kept: Kept,
+    kept: StoredData,
     self_test: SelfTest,
     /// A sentence for each problem.
     problems: Vec<String>,
@@ -53,18 +53,18 @@ struct Report {
 
 impl Report {
     fn of_this_machine() -> Self {
-        let places = Places::of_this_user();
-        let (settings, complaints) = Settings::load(&places.settings);
+        let paths = DataPaths::of_this_user();
+        let (settings, complaints) = Settings::load(&paths.settings);
         let mut report = Self {
-            program: Program { version: VERSION, source: SOURCE, target: TARGET, machine: Machine::this() },
-            places: kept::places(&places),
+            program: Program { version: VERSION, source: COMMIT, target: TARGET, machine: Machine::this() },
+            places: stored_data::folders(&paths),
             screen: Screen::detect(&settings),
-            kept: Kept::find(&places, &complaints),
+            kept: StoredData::inspect(&paths, &complaints),
             self_test: SelfTest::run(),
             problems: Vec::new(),
         };
         let Self { places, screen, kept, self_test, .. } = &report;
-        let problems = places.iter().filter_map(Place::problem).chain(screen.problem());
+        let problems = places.iter().filter_map(FolderReport::problem).chain(screen.problem());
         report.problems = problems.chain(kept.problems()).chain(self_test.problems()).collect();
         report
     }

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::{Report, kept::Place, screen::Screen};
+use super::{Report, screen::Screen, stored_data::FolderReport};
 use crate::{
     commands::output::{columns, plural},
     printing::{FULL_VERSION, OneLine},
@@ -29,7 +29,7 @@ fn rows(report: &Report) -> Vec<[String; 2]> {
         ("program", format!("carom {FULL_VERSION}")),
         ("machine", format!("{}, {} threads, {}", machine.cpu, machine.threads, machine.os)),
     ];
-    rows.extend(places.iter().map(|place| ("folder", place_words(place))));
+    rows.extend(places.iter().map(|place| ("folder", folder_words(place))));
     rows.push(("terminal", screen_words(screen)));
     let environment = screen.environment.iter().map(|(name, value)| format!("{name}={value}"));
     rows.push(("environment", environment.collect::<Vec<_>>().join(" ")));
@@ -66,8 +66,8 @@ fn rows(report: &Report) -> Vec<[String; 2]> {
     rows.into_iter().map(|(name, words)| [name.to_owned(), words]).collect()
 }
 
-fn place_words(place: &Place) -> String {
-    let Place { what, path, exists, refusal, free_bytes } = place;
+fn folder_words(place: &FolderReport) -> String {
+    let FolderReport { what, path, exists, refusal, free_bytes } = place;
     let state = match (refusal, exists) {
         (Some(refusal), _) => format!("cannot be written: {refusal}"),
         (None, true) => "can be written".to_owned(),

@@ -3,10 +3,10 @@
 use super::{
     PlayOptions, Workspace,
     options::StrokeInput,
-    strokes::{MOST_STROKES, Strokes, play},
+    strokes::{MAX_STROKES, Strokes, play},
 };
 use crate::{
-    commands::{Failure, input::whole},
+    commands::{Failure, input::whole_number},
     drills::{
         Goal,
         exam::{HIGHEST_LEVEL, LENGTH, draw},
@@ -24,7 +24,7 @@ pub struct TryArgs {
     #[arg(long, allow_hyphen_values = true)]
     shot: String,
     /// Number of attempts.
-    #[arg(long, default_value_t = 1, value_parser = whole(1..=1_000_u32))]
+    #[arg(long, default_value_t = 1, value_parser = whole_number(1..=1_000_u32))]
     repeat: u32,
     /// Shift the balls by half a ball at each repetition except the first.
     #[arg(long)]
@@ -42,7 +42,7 @@ pub struct RunArgs {
     /// The exercise: its name, its title, or the beginning of either.
     name: String,
     /// Points in a row that end the session.
-    #[arg(long, value_parser = whole(1..=10_000_u32))]
+    #[arg(long, value_parser = whole_number(1..=10_000_u32))]
     goal: u32,
     /// Shift the balls by half a ball at each repetition except the first.
     #[arg(long)]
@@ -51,7 +51,7 @@ pub struct RunArgs {
     #[arg(long)]
     coach: bool,
     /// Maximum number of attempts.
-    #[arg(long, default_value_t = 1000, value_parser = whole(1..=MOST_STROKES))]
+    #[arg(long, default_value_t = 1000, value_parser = whole_number(1..=MAX_STROKES))]
     strokes: u32,
     #[command(flatten)]
     options: PlayOptions,
@@ -64,7 +64,7 @@ pub struct RunArgs {
 #[derive(Debug, clap::Args)]
 pub struct ExamArgs {
     /// Difficulty: 1, 2 or 3.
-    #[arg(long, default_value_t = 1, value_parser = whole(1..=HIGHEST_LEVEL))]
+    #[arg(long, default_value_t = 1, value_parser = whole_number(1..=HIGHEST_LEVEL))]
     level: u8,
     /// Let the coach play.
     #[arg(long)]

@@ -9,7 +9,7 @@ use super::{
 use crate::{
     commands::{
         Failure,
-        output::{json_line, line, print_note, print_table},
+        output::{json_line, print_line, print_note, print_table},
     },
     drills::{Goal, Record, Session, Venue},
     game::Rule,
@@ -183,9 +183,9 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
         return Ok(());
     }
     print_table(["started (UTC)", "where", "goal or score", "made", "tried", "rate", "high run"], rows, &[3, 4, 5, 6])?;
-    line(format_args!("rate   {}", bars(&tried)))?;
+    print_line(format_args!("rate   {}", bars(&tried)))?;
     for (venue, record) in Record::apart(sessions, |sessions| subject.record(sessions)) {
-        line(format_args!("{:<6} {}", venue.word(), words(&record)))?;
+        print_line(format_args!("{:<6} {}", venue.word(), words(&record)))?;
     }
     Ok(())
 }

@@ -11,8 +11,8 @@ use crate::{
     coach::ShotWords,
     commands::{
         Failure,
-        input::whole,
-        output::{json_line, line, print_table, shot_text, units},
+        input::whole_number,
+        output::{json_line, print_line, print_table, shot_text, units},
     },
     drills::{Category, Exercise, Filter, Record, encode},
     table::{BALL_NAMES, CueBall},
@@ -22,10 +22,10 @@ use crate::{
 #[derive(Debug, clap::Args)]
 pub struct ListArgs {
     /// Only this category: first-caroms, draw, follow, side, one-cushion, gather, three-cushion, systems, jump-and-masse or own.
-    #[arg(long, value_parser = category_called)]
+    #[arg(long, value_parser = parse_category)]
     category: Option<Category>,
     /// Only this grade, 1 (easy) to 5; 0 for exercises without a grade.
-    #[arg(long, value_parser = whole(0..=5_u8))]
+    #[arg(long, value_parser = whole_number(0..=5_u8))]
     grade: Option<u8>,
     /// Only those with this tag, with or without #.
     #[arg(long, value_parser = tag)]
@@ -58,7 +58,7 @@ struct Entry<'a> {
     record: Score,
 }
 
-fn category_called(name: &str) -> Result<Category, String> {
+fn parse_category(name: &str) -> Result<Category, String> {
     Category::ALL.into_iter().find(|category| category.name() == name).ok_or_else(|| {
         let names = Category::ALL.map(Category::name).join(", ");
         format!("there is no category \"{name}\"; use one of {names}")
@@ -112,33 +112,33 @@ pub fn show(args: &ShowArgs) -> Result<(), Failure> {
         return Ok(json_line(&entry)?);
     }
     let Exercise { name, title, category, grade, rule, point, tags, shot, par, .. } = exercise;
-    line(format_args!("{name}: {title}"))?;
+    print_line(format_args!("{name}: {title}"))?;
     let grade = if *grade > 0 { format!("grade {grade}") } else { "not graded".to_owned() };
     let tags = if tags.is_empty() { String::new() } else { format!("; {}", tags.join(", ")) };
-    line(format_args!("{}, {rule}, {grade}, table {}{tags}", category.title(), table.name))?;
+    print_line(format_args!("{}, {rule}, {grade}, table {}{tags}", category.title(), table.name))?;
     if !point.is_empty() {
-        line(point)?;
+        print_line(point)?;
     }
     for ((ball, name), diamonds) in exercise.layout.balls.iter().zip(BALL_NAMES).zip(diamonds) {
         let [x, y] = [1000.0 * ball.x, 1000.0 * ball.y];
         let [across, up] = diamonds;
-        line(format_args!("{name:<6} {x:>8.1} {y:>7.1} mm from the centre   {across:.2} {up:.2} diamonds"))?;
+        print_line(format_args!("{name:<6} {x:>8.1} {y:>7.1} mm from the centre   {across:.2} {up:.2} diamonds"))?;
     }
     if let Some(shot) = shot {
         if let Ok(words) = ShotWords::of(&table, &exercise.layout, shot) {
-            line(words.sentence(CueBall::White, units()))?;
+            print_line(words.sentence(CueBall::White, units()))?;
         }
-        line(format_args!("shot    {} (a, b in radii, theta, phi in degrees, V in m/s)", shot_text(shot)))?;
+        print_line(format_args!("shot    {} (a, b in radii, theta, phi in degrees, V in m/s)", shot_text(shot)))?;
     }
     if let Some(par) = par {
         let [beginner, club, best] = [par.beginner, par.club, par.world_class].map(|share| 100.0 * share);
-        line(format_args!("typical beginner {beginner:.0} %, club {club:.0} %, world-class {best:.0} %"))?;
+        print_line(format_args!("typical beginner {beginner:.0} %, club {club:.0} %, world-class {best:.0} %"))?;
     }
     if record.tried == 0 {
-        line(format_args!("record  {}", words(&record)))?;
+        print_line(format_args!("record  {}", words(&record)))?;
     }
     for (venue, record) in Record::apart(&sessions, |sessions| Record::of_exercise(sessions, name)) {
-        line(format_args!("{:<7} {}", venue.word(), words(&record)))?;
+        print_line(format_args!("{:<7} {}", venue.word(), words(&record)))?;
     }
-    line(format_args!("code    {code}"))
+    print_line(format_args!("code    {code}"))
 }

@@ -7,13 +7,13 @@ use serde::Serialize;
 use super::{
     Workspace,
     score::{Score, words},
-    workspace::player,
+    workspace::skill_or_default,
 };
 use crate::{
     commands::{
         Failure,
-        input::whole,
-        output::{ask, json_line, line, print_note, refused_lines_result},
+        input::whole_number,
+        output::{json_line, print_line, print_note, prompt_line, refused_lines_result},
     },
     drills::{Attempt, Goal, Session, Venue},
     storage::Lock,
@@ -29,10 +29,10 @@ pub struct Args {
     #[arg(conflicts_with_all = ["made", "of"])]
     results: Vec<String>,
     /// Number of points made, if their order is not known: they do not count for runs.
-    #[arg(long, requires = "of", value_parser = whole(0..=100_000_u32))]
+    #[arg(long, requires = "of", value_parser = whole_number(0..=100_000_u32))]
     made: Option<u32>,
     /// Number of attempts, including the points.
-    #[arg(long, requires = "made", value_parser = whole(1..=100_000_u32))]
+    #[arg(long, requires = "made", value_parser = whole_number(1..=100_000_u32))]
     of: Option<u32>,
     /// Print JSON.
     #[arg(long)]
@@ -69,7 +69,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let workspace = Workspace::open();
     let exercise = workspace.exercise(&args.name)?.clone();
     let name = exercise.name.clone();
-    let session = Session::new(Goal::Free, Venue::Table, vec![exercise], player(None), 0);
+    let session = Session::new(Goal::Free, Venue::Table, vec![exercise], skill_or_default(None), 0);
     let mut log = Log { workspace, session, name, json: args.json, known: None, lock: None };
     if let (Some(made), Some(of)) = (args.made, args.of) {
         if made > of {
@@ -81,7 +81,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         for number in 0..of {
             log.apply(if number < made { &LogEntry::Make } else { &LogEntry::Miss })?;
         }
-        return log.keep();
+        return log.save_and_report();
     }
     if args.results.is_empty() {
         return log.read();
@@ -90,12 +90,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     for (applied, word) in words.iter().enumerate() {
         if !log.apply(word)? {
             if applied > 0 {
-                log.keep()?;
+                log.save_and_report()?;
             }
             return Err(Failure::failed(log.nothing_to_undo()));
         }
     }
-    log.keep()
+    log.save_and_report()
 }
 
 struct Log {
@@ -183,7 +183,7 @@ impl Log {
     }
 
     /// Saves the session and prints the score.
-    fn keep(&mut self) -> Result<(), Failure> {
+    fn save_and_report(&mut self) -> Result<(), Failure> {
         self.save()?;
         // Unlock, so that another program can add attempts while this one waits for the next word.
         self.lock = None;
@@ -192,15 +192,15 @@ impl Log {
             return Ok(json_line(&Logged { session: &self.session.id, score: record.into() })?);
         }
         if record.tried == 0 {
-            return line("taken back; this session has no other attempts");
+            return print_line("taken back; this session has no other attempts");
         }
-        line(words(&record))
+        print_line(words(&record))
     }
 
     /// Reads results from the standard input, and answers each.
     fn read(&mut self) -> Result<(), Failure> {
         let (mut refused, mut lacked_undo) = (0, false);
-        while let Some(text) = ask("make, miss or undo: ")? {
+        while let Some(text) = prompt_line("make, miss or undo: ")? {
             if text.as_ref().is_ok_and(String::is_empty) {
                 continue;
             }
@@ -212,7 +212,8 @@ impl Log {
                 Ok(word) => {
                     if self.apply(&word)? {
                         // Continue without a reader of the answers: every result must still be saved.
-                        self.keep().or_else(|failure| if failure.is_silent() { Ok(()) } else { Err(failure) })?;
+                        self.save_and_report()
+                            .or_else(|failure| if failure.is_silent() { Ok(()) } else { Err(failure) })?;
                     } else {
                         self.lock = None;
                         lacked_undo = true;

@@ -18,7 +18,7 @@ use clap::Subcommand;
 pub use self::{
     attempts::strokes,
     options::{PlayOptions, size_words},
-    strokes::{MOST_STROKES, play},
+    strokes::{MAX_STROKES, play},
     workspace::Workspace,
 };
 use super::Failure;

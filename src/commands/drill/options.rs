@@ -2,13 +2,13 @@
 
 use std::io::{self, IsTerminal};
 
-use super::workspace::player;
+use super::workspace::skill_or_default;
 use crate::{
     coach::Skill,
     commands::{
         Failure,
-        input::{seed, table_named, whole},
-        lookup::skill_called,
+        input::{parse_seed, table_by_name, whole_number},
+        lookup::skill_by_name,
         output::{player_and_rule_words, print_note},
         typed_stroke::TypedStroke,
     },
@@ -27,13 +27,13 @@ pub struct PlayOptions {
     /// Who plays: perfect, expert, world-class, national, club, beginner, own, an average at three-cushion like 0.6, or standard errors in
     /// mm, degrees and m/s like "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". Default: own if `carom drill skill --keep` has saved one, otherwise
     /// expert.
-    #[arg(long, value_parser = skill_called)]
+    #[arg(long, value_parser = skill_by_name)]
     skill: Option<Skill>,
     /// Seed of the errors; without it they differ every time.
-    #[arg(long, value_parser = seed)]
+    #[arg(long, value_parser = parse_seed)]
     seed: Option<u64>,
     /// Time that the coach has for a shot, ms.
-    #[arg(long, default_value_t = 300, value_parser = whole(0..=3_600_000_u64))]
+    #[arg(long, default_value_t = 300, value_parser = whole_number(0..=3_600_000_u64))]
     pub(super) budget_ms: u64,
     /// Let the coach recommend neither jumps over a ball nor massés, which most clubs forbid.
     #[arg(long)]
@@ -53,12 +53,12 @@ impl PlayOptions {
     /// # Errors
     /// Fails if the table does not exist, or if its size differs from that of an exercise.
     pub fn session(&self, goal: Goal, exercises: Vec<Exercise>) -> Result<Session, Failure> {
-        let own = self.table.as_deref().map(table_named).transpose()?;
+        let own = self.table.as_deref().map(table_by_name).transpose()?;
         if let Some(own) = &own {
             exercises.iter().try_for_each(|exercise| check_size(exercise, own))?;
         }
         let seed = self.seed.unwrap_or_else(rand::random);
-        let mut session = Session::new(goal, Venue::Program, exercises, player(self.skill), seed);
+        let mut session = Session::new(goal, Venue::Program, exercises, skill_or_default(self.skill), seed);
         let is_another = |own: &Table| session.exercises.iter().any(|exercise| exercise.table != own.name);
         session.table = own.filter(is_another).map(Box::new);
         Ok(session)
@@ -106,7 +106,7 @@ impl std::str::FromStr for StrokeInput {
         if text == COACH {
             return Ok(Self::Coach);
         }
-        let stroke = TypedStroke::read(text)
+        let stroke = TypedStroke::parse(text)
             .map_err(|error| Failure::wrong_input(format_args!("{error}, or \"{COACH}\" for the coach's shot")))?;
         Ok(Self::Own(stroke))
     }

@@ -5,7 +5,7 @@ use crate::{
     commands::{
         Failure,
         input::bundled_table,
-        output::{line, print_note},
+        output::{print_line, print_note},
         typed_stroke::TypedStroke,
     },
     drills::{
@@ -90,8 +90,8 @@ pub fn tag(text: &str) -> Result<String, String> {
 pub fn save(args: &SaveArgs) -> Result<(), Failure> {
     let table = bundled_table(&args.table)?;
     let layout = Layout::parse(&args.layout, &table).map_err(Failure::wrong_input)?;
-    let typed = args.shot.as_deref().map(TypedStroke::read).transpose()?;
-    let shot = typed.map(|typed| typed.on(&table, &layout, CueBall::White)).transpose()?;
+    let typed = args.shot.as_deref().map(TypedStroke::parse).transpose()?;
+    let shot = typed.map(|typed| typed.resolve(&table, &layout, CueBall::White)).transpose()?;
     shot.as_ref().map_or(Ok(()), |cue| check(&table, cue)).map_err(Failure::wrong_input)?;
     let position = Exercise::own(&args.name, args.rule, &table.name, layout);
     let typed = args.title.as_deref().map(str::trim).filter(|title| !title.is_empty());
@@ -104,7 +104,10 @@ pub fn save(args: &SaveArgs) -> Result<(), Failure> {
             )));
         }
     }
-    keep(&Exercise { title, point: args.point.clone(), tags: args.tags.clone(), shot, ..position }, args.replace)?;
+    save_position(
+        &Exercise { title, point: args.point.clone(), tags: args.tags.clone(), shot, ..position },
+        args.replace,
+    )?;
     if let Some(cue) = &shot {
         if !has_room(&table, &layout, cue) {
             print_note("note: the cue has no room for the shot at this elevation, so it is not a model shot");
@@ -117,7 +120,7 @@ pub fn save(args: &SaveArgs) -> Result<(), Failure> {
 
 pub fn share(args: &ShareArgs) -> Result<(), Failure> {
     let workspace = Workspace::open();
-    line(encode(workspace.exercise(&args.name)?).map_err(Failure::failed)?)
+    print_line(encode(workspace.exercise(&args.name)?).map_err(Failure::failed)?)
 }
 
 pub fn add(args: &AddArgs) -> Result<(), Failure> {
@@ -128,7 +131,7 @@ pub fn add(args: &AddArgs) -> Result<(), Failure> {
         }
         position.name.clone_from(name);
     }
-    keep(&position, args.replace)
+    save_position(&position, args.replace)
 }
 
 pub fn remove(args: &RemoveArgs) -> Result<(), Failure> {
@@ -143,13 +146,13 @@ pub fn remove(args: &RemoveArgs) -> Result<(), Failure> {
         return Err(Failure::failed(format_args!("\"{name}\" is bundled and cannot be removed")));
     }
     workspace.store.remove_position(name).map_err(failure)?;
-    line(format_args!("removed {name}"))
+    print_line(format_args!("removed {name}"))
 }
 
-fn keep(position: &Exercise, replaces: bool) -> Result<(), Failure> {
+fn save_position(position: &Exercise, replaces: bool) -> Result<(), Failure> {
     let workspace = Workspace::open();
     workspace.store.save_position(position, replaces).map_err(failure)?;
-    line(format_args!("saved {}", position.name))
+    print_line(format_args!("saved {}", position.name))
 }
 
 fn failure(error: StoreError) -> Failure {

@@ -4,7 +4,7 @@ use std::time::{Duration, UNIX_EPOCH};
 
 use serde::Serialize;
 
-use crate::{commands::output::plural, drills::Record, printing::moment, table::Layout};
+use crate::{commands::output::plural, drills::Record, printing::format_utc, table::Layout};
 
 /// A record in JSON.
 #[derive(Clone, Debug, Serialize)]
@@ -64,7 +64,7 @@ pub fn words(record: &Record) -> String {
 
 /// Formats a Unix time as `2026-11-20T14:30:05Z`.
 pub fn time(seconds: u64) -> String {
-    moment(UNIX_EPOCH + Duration::from_secs(seconds))
+    format_utc(UNIX_EPOCH + Duration::from_secs(seconds))
 }
 
 /// Formats a layout in the form that the command line accepts, to 0.1 mm.

@@ -6,7 +6,7 @@ use super::Workspace;
 use crate::{
     commands::{
         Failure,
-        output::{json_line, line, plural, print_note},
+        output::{json_line, plural, print_line, print_note},
     },
     drills::estimate::{Estimate, estimate},
 };
@@ -62,11 +62,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         }
         return Ok(json_line(&answer)?);
     }
-    line(format_args!("you play like an average of {} at three-cushion (95 % interval)", estimate.words()))?;
-    line(format_args!("from {made} of {attempts} made at {}", plural(shots, "shot")))?;
+    print_line(format_args!("you play like an average of {} at three-cushion (95 % interval)", estimate.words()))?;
+    print_line(format_args!("from {made} of {attempts} made at {}", plural(shots, "shot")))?;
     match skill {
-        Some(skill) => line(format_args!("as a skill: {skill}"))?,
-        None => line(NO_SKILL)?,
+        Some(skill) => print_line(format_args!("as a skill: {skill}"))?,
+        None => print_line(NO_SKILL)?,
     }
     if left_out > 0 {
         print_note(format_args!(
@@ -75,7 +75,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         ));
     }
     if kept {
-        line("kept: --skill own is this player")?;
+        print_line("kept: --skill own is this player")?;
     }
     Ok(())
 }

@@ -15,7 +15,7 @@ use crate::{
     },
     commands::{
         Failure,
-        output::{json_line, line, plural, print_note, shot_text, units},
+        output::{json_line, plural, print_line, print_note, shot_text, units},
         recommend::coach_for,
     },
     drills::{
@@ -171,7 +171,7 @@ impl<'a> StrokeByStroke<'a> {
             // A cue ball that is always white is not mentioned.
             let is_mentioned = self.session.is_match() || cue_ball != CueBall::White;
             let turn = if is_mentioned { format!("; the cue ball is {cue_ball}") } else { String::new() };
-            line(format_args!("{name} ({rule}): {title}balls {}{turn}", layout_text(layout)))?;
+            print_line(format_args!("{name} ({rule}): {title}balls {}{turn}", layout_text(layout)))?;
         }
         self.shown = shown;
         Ok(())
@@ -182,7 +182,7 @@ impl<'a> StrokeByStroke<'a> {
         let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(true) };
         let cue_ball = self.session.cue_ball_now();
         let typed = match stroke {
-            StrokeInput::Own(typed) => Some(typed.on(table, layout, cue_ball)?),
+            StrokeInput::Own(typed) => Some(typed.resolve(table, layout, cue_ball)?),
             StrokeInput::Coach => None,
         };
         typed.as_ref().map_or(Ok(()), |cue| check(table, cue)).map_err(Failure::wrong_input)?;
@@ -253,18 +253,21 @@ impl<'a> StrokeByStroke<'a> {
         if is_raised {
             let over = least_elevation(table, layout, &meant).ok().and_then(|least| least.over);
             let over = over.map_or(String::new(), |over| format!(": {over} is in the way of a lower one"));
-            line(format_args!("   the cue is raised to {:.2} degrees{over}", meant.theta.to_degrees()))?;
+            print_line(format_args!("   the cue is raised to {:.2} degrees{over}", meant.theta.to_degrees()))?;
         }
         let side =
             if self.session.is_match() { format!(", {}", self.session.side_words(cue_ball)) } else { String::new() };
-        line(format_args!("{number}{side}: {verdict}; run {run}; this shot is made {} of the time", percent(&share)))?;
+        print_line(format_args!(
+            "{number}{side}: {verdict}; run {run}; this shot is made {} of the time",
+            percent(&share)
+        ))?;
         if by_coach {
-            line(format_args!("   the coach played {}", shot_text(&meant)))?;
+            print_line(format_args!("   the coach played {}", shot_text(&meant)))?;
         } else if let Some(advice) = advice {
             let changes = if changes.is_empty() { String::new() } else { format!(": {}", changes.join(", ")) };
             let (shot, share) = (shot_text(&advice.cue), percent(&advice.chance));
             let whose = if own.is_some() { "model shot" } else { "coach's shot" };
-            line(format_args!("   the {whose} {shot} is made {share} of the time{changes}"))?;
+            print_line(format_args!("   the {whose} {shot} is made {share} of the time{changes}"))?;
         }
         Ok(true)
     }
@@ -330,19 +333,19 @@ impl<'a> StrokeByStroke<'a> {
             })?);
         }
         if let Some(score) = session.score_words() {
-            line(score)?;
+            print_line(score)?;
             for cue_ball in [session.cue_ball, session.cue_ball.other()] {
-                line(format_args!("{}: {}", session.side_words(cue_ball), words(&session.side(cue_ball))))?;
+                print_line(format_args!("{}: {}", session.side_words(cue_ball), words(&session.side(cue_ball))))?;
             }
         } else {
-            line(words(&record))?;
+            print_line(words(&record))?;
         }
         match (session.goal, score) {
             (Goal::Run(points), _) if session.is_over() => {
-                line(format_args!("the run of {points} is made, after {}", plural(record.tried, "attempt")))
+                print_line(format_args!("the run of {points} is made, after {}", plural(record.tried, "attempt")))
             }
-            (Goal::Run(points), _) => line(format_args!("the run of {points} is not made yet")),
-            (Goal::Exam, Some(score)) => line(exam_words(&score, session.exercises.len())),
+            (Goal::Run(points), _) => print_line(format_args!("the run of {points} is not made yet")),
+            (Goal::Exam, Some(score)) => print_line(exam_words(&score, session.exercises.len())),
             _ => Ok(()),
         }
     }

@@ -7,13 +7,13 @@ use super::{
 use crate::{
     commands::{
         Failure,
-        output::{ask, print_note, refused_lines_result},
+        output::{print_note, prompt_line, refused_lines_result},
     },
     drills::{Session, Store},
 };
 
 /// Largest accepted value of `--strokes`.
-pub const MOST_STROKES: u32 = 10_000;
+pub const MAX_STROKES: u32 = 10_000;
 
 /// The source of the strokes.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ pub fn play(
             Strokes::Same(stroke) => Ok(stroke),
             _ if !is_line => Ok(StrokeInput::Coach),
             _ => {
-                let Some(text) = ask("shot in words, a,b,theta,phi,V, or coach: ")? else { break };
+                let Some(text) = prompt_line("shot in words, a,b,theta,phi,V, or coach: ")? else { break };
                 lines += 1;
                 if text.as_ref().is_ok_and(String::is_empty) {
                     continue;
@@ -74,7 +74,7 @@ pub fn play(
     let is_cut = game.session().attempts.len() >= most && !game.session().is_over();
     if is_cut && !matches!(strokes, Strokes::Same(_)) {
         print_note(format_args!(
-            "note: the limit of {most} strokes ended it; --strokes sets another, up to {MOST_STROKES}"
+            "note: the limit of {most} strokes ended it; --strokes sets another, up to {MAX_STROKES}"
         ));
     }
     refused_lines_result(refused)

@@ -5,18 +5,18 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::{Workspace, workspace::note};
+use super::{Workspace, workspace::print_notes};
 use crate::{
     commands::{
         Failure,
-        output::{json_line, line, need_folder, plural, print_note},
+        output::{check_folder_exists, json_line, plural, print_line, print_note},
     },
     drills::{
         Store,
         store::{Imported, Practice},
     },
     printing::OneLine,
-    storage::{self, Places, target_of, write_atomic},
+    storage::{self, DataPaths, resolve_symlinks, write_atomic},
 };
 
 /// Write all sessions, your own positions and your own skill to one JSON file.
@@ -40,17 +40,17 @@ pub struct ImportArgs {
 }
 
 pub fn export(args: &ExportArgs) -> Result<(), Failure> {
-    let (practice, notes) = Store::new(&Places::of_this_user()).export();
-    note(&notes);
+    let (practice, notes) = Store::new(&DataPaths::of_this_user()).export();
+    print_notes(&notes);
     match args.file.as_deref().filter(|file| *file != Path::new("-")) {
         None => json_line(&practice)?,
         Some(file) => {
             let refuse =
                 |error: io::Error| Failure::failed(format_args!("{} cannot be written: {error}", file.display()));
-            let target = target_of(file);
-            need_folder(&target)?;
+            let target = resolve_symlinks(file);
+            check_folder_exists(&target)?;
             let is_export = |text: String| text.is_empty() || Practice::is_export(&text);
-            if target.exists() && !storage::read_text(&target, storage::PRACTICE).is_ok_and(is_export) {
+            if target.exists() && !storage::read_text(&target, storage::MAX_PRACTICE_FILE).is_ok_and(is_export) {
                 let file = file.display();
                 return Err(Failure::failed(format_args!(
                     "{file} already exists and is not an export, so it stays as it is; accepted is a new name"
@@ -77,9 +77,9 @@ pub fn import(args: &ImportArgs) -> Result<(), Failure> {
     let file = args.file.display();
     let mut text = String::new();
     let read = if args.file == Path::new("-") {
-        io::stdin().take(storage::PRACTICE).read_to_string(&mut text).map(|_| ())
+        io::stdin().take(storage::MAX_PRACTICE_FILE).read_to_string(&mut text).map(|_| ())
     } else {
-        storage::read_text(&args.file, storage::PRACTICE).map(|read| text = read)
+        storage::read_text(&args.file, storage::MAX_PRACTICE_FILE).map(|read| text = read)
     };
     read.map_err(|error| Failure::failed(format_args!("{file} cannot be read: {error}")))?;
     let practice = Practice::parse(&text).map_err(|error| Failure::wrong_input(format_args!("{file}: {error}")))?;
@@ -89,7 +89,7 @@ pub fn import(args: &ImportArgs) -> Result<(), Failure> {
     if args.json {
         json_line(&imported)?;
     } else {
-        line(format_args!(
+        print_line(format_args!(
             "{} and {} imported, {longer} existing ones replaced by longer ones, {known} already known",
             plural(*positions, "position"),
             plural(*sessions, "session")

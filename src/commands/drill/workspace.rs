@@ -5,7 +5,7 @@ use crate::{
     commands::{Failure, lookup::own_skill, output::print_note},
     drills::{Exercise, Library, LibraryError, Session, Store},
     printing::OneLine,
-    storage::{self, Places},
+    storage::{self, DataPaths},
 };
 
 /// The user's store, and the library with the user's own positions.
@@ -17,11 +17,11 @@ pub struct Workspace {
 impl Workspace {
     /// Opens the store and reads the library. Unreadable files are reported on the standard error.
     pub fn open() -> Self {
-        let places = Places::of_this_user();
-        note(storage::notice(&places).map(str::to_owned).as_slice());
-        let store = Store::new(&places);
+        let paths = DataPaths::of_this_user();
+        print_notes(storage::notice(&paths).map(str::to_owned).as_slice());
+        let store = Store::new(&paths);
         let (library, notes) = store.library();
-        note(&notes);
+        print_notes(&notes);
         Self { store, library }
     }
 
@@ -38,16 +38,16 @@ impl Workspace {
     /// Returns all sessions. Unreadable files are reported on the standard error.
     pub fn sessions(&self) -> Vec<Session> {
         let found = self.store.sessions();
-        note(&found.notes);
+        print_notes(&found.notes);
         found.items
     }
 }
 
 /// Returns the given skill, otherwise the user's own, otherwise an expert's. An unreadable skill file gives a note and an expert's skill.
-pub fn player(given: Option<Skill>) -> Skill {
+pub fn skill_or_default(given: Option<Skill>) -> Skill {
     let own = || {
         own_skill().unwrap_or_else(|failure| {
-            note(&[failure.to_string()]);
+            print_notes(&[failure.to_string()]);
             None
         })
     };
@@ -55,7 +55,7 @@ pub fn player(given: Option<Skill>) -> Skill {
 }
 
 /// Prints notes about unreadable files.
-pub fn note(notes: &[String]) {
+pub fn print_notes(notes: &[String]) {
     for sentence in notes {
         print_note(format_args!("note: {}", OneLine(sentence)));
     }

@@ -5,9 +5,9 @@ use std::{fmt, path::PathBuf};
 use serde::Serialize;
 
 use super::{
-    robustness::{LEAST_LAYOUTS, Z},
+    robustness::{MIN_LAYOUTS, Z},
     shots::ShotRecord,
-    spec::{Records, Spec, merged},
+    spec::{Records, Spec, merge},
 };
 use crate::{
     commands::{Failure, output::plural},
@@ -32,13 +32,13 @@ pub struct Comparison {
 impl Comparison {
     /// Compares the measurement `records` with the one in the files `others`.
     pub fn of(spec: &Spec, records: &Records, others: &[PathBuf]) -> Result<Self, Failure> {
-        let (other, theirs) = merged(others)?;
+        let (other, theirs) = merge(others)?;
         let (Records::Shots(own), Records::Shots(theirs)) = (records, &theirs) else {
             return Err(Failure::wrong_input(
                 "innings of self-play cannot be compared: --against needs one shot per layout",
             ));
         };
-        if let Some(what) = spec.difference_of_layouts(&other) {
+        if let Some(what) = spec.layout_difference(&other) {
             return Err(Failure::wrong_input(format_args!(
                 "only measurements on the same layouts are compared: {what}"
             )));
@@ -58,7 +58,7 @@ impl Comparison {
         };
         let (mean, deviation) = mean_and_deviation(&differences);
         let spread = Z * deviation.unwrap_or(0.0) / (differences.len() as f64).sqrt();
-        let is_meaningful = differences.len() >= LEAST_LAYOUTS && spread > 0.0;
+        let is_meaningful = differences.len() >= MIN_LAYOUTS && spread > 0.0;
         Self {
             compared,
             layouts: differences.len(),
@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_alike_on_both_does_not_blur_the_difference() {
+    fn shared_variation_does_not_widen_the_interval() {
         let record = |layout: u32, chance| ShotRecord { layout, chance, ..ShotRecord::default() };
         // Layouts differ by up to 0.6, and the first measurement is better by 0.05 or 0.07 on each.
         let of = |more: f64, less: f64| -> Vec<ShotRecord> {

@@ -15,21 +15,21 @@ use self::{
     comparison::Comparison,
     drawn_tables::DrawnTables,
     shots::Player,
-    spec::{Part, Records, Shard, Spec, merged},
+    spec::{Part, Records, Shard, Spec, merge},
 };
 use super::{
     Failure,
-    input::{minutes, note_doubts, seed, table_named, whole, whole_from},
-    lookup::{bundled_policy, policy_called, skill_called},
-    output::{json_line, line},
+    input::{note_training_mismatch, parse_minutes, parse_seed, table_by_name, whole_number, whole_number_from},
+    lookup::{bundled_policy, policy_by_name, skill_by_name},
+    output::{json_line, print_line},
     recommend::coach_for,
 };
 use crate::{
     coach::{Doubt, Request, Skill},
     game::{Reward, Rule},
-    learning::{Policy, evaluation::EVALUATION_SEED, policy::kept::BUNDLED},
+    learning::{Policy, evaluation::EVALUATION_SEED, policy::library::BUNDLED},
     platform::limit_threads,
-    printing::{SOURCE, VERSION},
+    printing::{COMMIT, VERSION},
 };
 
 /// Options that need a search of shots, so that they conflict with the networks alone. clap does not require `--policy-only` if one of
@@ -44,10 +44,10 @@ const OF_SEARCHES: [&str; 7] =
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct Args {
     /// Number of layouts.
-    #[arg(long, default_value_t = 2_000, value_parser = whole(1..=10_000_000_u32))]
+    #[arg(long, default_value_t = 2_000, value_parser = whole_number(1..=10_000_000_u32))]
     layouts: u32,
     /// Seed of the layouts.
-    #[arg(long, default_value_t = EVALUATION_SEED, value_parser = seed)]
+    #[arg(long, default_value_t = EVALUATION_SEED, value_parser = parse_seed)]
     seed: u64,
     /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file.
     #[arg(long, default_value = "match")]
@@ -72,12 +72,12 @@ pub struct Args {
     reward: Option<Reward>,
     /// Measure a search of this many shots with random phi and V, which the simulator checks: the first success counts.
     #[arg(long, value_name = "SHOTS", conflicts_with_all = ["policy_only", "policy", "budget_ms"],
-        value_parser = whole_from(1_u32))]
+        value_parser = whole_number_from(1_u32))]
     random_search: Option<u32>,
     /// Who plays the shots: perfect, expert, world-class, national, club, beginner, own (saved by `carom drill skill --keep`), an average
     /// at three-cushion like 0.6, or a player's own standard errors in mm, degrees and m/s like "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The
     /// make probability is then measured, too, with independent errors.
-    #[arg(long, value_parser = skill_called, conflicts_with_all = ["random_search", "reward"])]
+    #[arg(long, value_parser = skill_by_name, conflicts_with_all = ["random_search", "reward"])]
     skill: Option<Skill>,
     /// Uncertainty in addition to the errors of the hand: full, none, or like "table=1,placing=3". Shots are chosen with it and played on
     /// tables and from positions that are drawn from it.
@@ -90,7 +90,7 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["policy_only", "random_search", "reward"])]
     self_play: bool,
     /// With --self-play: points after which an inning is stopped.
-    #[arg(long, requires = "self_play", conflicts_with_all = ["policy_only", "random_search"], default_value_t = 1000, value_parser = whole_from(1_u32))]
+    #[arg(long, requires = "self_play", conflicts_with_all = ["policy_only", "random_search"], default_value_t = 1000, value_parser = whole_number_from(1_u32))]
     most_points: u32,
     /// With --self-play: minutes after which play is stopped; fractions are accepted.
     #[arg(long, requires = "self_play", conflicts_with_all = ["policy_only", "random_search"])]
@@ -102,15 +102,15 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["policy_only", "random_search"])]
     no_jumps: bool,
     /// Time that the recommender has for a layout, ms.
-    #[arg(long, default_value_t = 500, conflicts_with = "policy_only", value_parser = whole(0..=3_600_000_u64))]
+    #[arg(long, default_value_t = 500, conflicts_with = "policy_only", value_parser = whole_number(0..=3_600_000_u64))]
     budget_ms: u64,
     /// Number of simulations after which the recommender starts nothing new on a layout, instead of a time: the answer is then the same on
     /// every machine. As for `carom recommend`, a minimum of work is always done in addition.
     #[arg(long, value_name = "COUNT", conflicts_with_all = ["policy_only", "random_search", "budget_ms"],
-        value_parser = whole_from(1_u64))]
+        value_parser = whole_number_from(1_u64))]
     simulations: Option<u64>,
     /// Threads that the recommender may use. Default: one on each processor
-    #[arg(long, value_name = "N", conflicts_with_all = ["policy_only", "random_search"], value_parser = whole(1..=1024_u16))]
+    #[arg(long, value_name = "N", conflicts_with_all = ["policy_only", "random_search"], value_parser = whole_number(1..=1024_u16))]
     threads: Option<u16>,
     /// Measure only part K of N of the layouts, and print the records as JSON for --merge.
     #[arg(long, value_name = "K/N", conflicts_with = "json")]
@@ -137,11 +137,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         }
         (spec, records)
     } else {
-        merged(&args.merge)?
+        merge(&args.merge)?
     };
     if !args.against.is_empty() {
         let comparison = Comparison::of(&spec, &records, &args.against)?;
-        return if args.json { Ok(json_line(&comparison)?) } else { line(comparison) };
+        return if args.json { Ok(json_line(&comparison)?) } else { print_line(comparison) };
     }
     match records {
         Records::Shots(records) => shots::print(&spec, &records, args.json)?,
@@ -155,7 +155,7 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
     if let Some(threads) = args.threads {
         limit_threads(threads.into());
     }
-    let table = table_named(&args.table)?;
+    let table = table_by_name(&args.table)?;
     let shard = args.shard.unwrap_or(Shard::WHOLE);
     let reward = args.reward.unwrap_or_else(|| Reward::for_rule(args.rule));
     let skill = if args.self_play { args.skill.or(Some(Skill::EXPERT)) } else { args.skill };
@@ -174,9 +174,9 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
         let policy = if args.policy == BUNDLED {
             bundled_policy(&on, reward.rule().unwrap_or_default(), errs)?
         } else {
-            policy_called(&args.policy)?
+            policy_by_name(&args.policy)?
         };
-        note_doubts(&policy, &table, reward.rule());
+        note_training_mismatch(&policy, &table, reward.rule());
         Player::Policy(Box::new(policy))
     } else {
         let coach = coach_for(table.clone(), &args.policy)?;
@@ -186,7 +186,7 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
         player: player.name().to_owned(),
         policy: args.random_search.is_none().then(|| args.policy.clone()),
         checksum: player.checksum().map_err(Failure::failed)?,
-        version: Some(SOURCE.map_or_else(|| VERSION.to_owned(), |source| format!("{VERSION} ({source})"))),
+        version: Some(COMMIT.map_or_else(|| VERSION.to_owned(), |source| format!("{VERSION} ({source})"))),
         networks: player.networks().map(str::to_owned),
         table,
         measure: args.reward.map_or(args.rule.name(), Reward::name).to_owned(),
@@ -207,7 +207,7 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
     };
     let records = match &player {
         Player::Recommender(coach, request) if args.self_play => {
-            let limit = args.minutes.map(minutes).transpose()?;
+            let limit = args.minutes.map(parse_minutes).transpose()?;
             Records::Innings(self_play::play(&spec, shard, coach, request, limit)?)
         }
         player => Records::Shots(shots::measure(&spec, shard, player, args.rule, reward)),

@@ -21,7 +21,7 @@ const ATTEMPTS: usize = 1000;
 pub const Z: f64 = 1.96;
 
 /// Minimum number of layouts for a statement about other layouts.
-pub const LEAST_LAYOUTS: usize = 10;
+pub const MIN_LAYOUTS: usize = 10;
 
 /// The make probability over all layouts.
 #[derive(Debug, Serialize)]
@@ -30,9 +30,9 @@ pub struct Robustness {
     doubt: Doubt,
     /// Mean make probability.
     make_probability: f64,
-    /// Its 95 % interval, from the spread between layouts; `None` for fewer than [`LEAST_LAYOUTS`].
+    /// Its 95 % interval, from the spread between layouts; `None` for fewer than [`MIN_LAYOUTS`].
     make_interval: Option<[f64; 2]>,
-    /// The first decile of the make probability over the layouts; `None` for fewer than [`LEAST_LAYOUTS`].
+    /// The first decile of the make probability over the layouts; `None` for fewer than [`MIN_LAYOUTS`].
     worst_tenth: Option<f64>,
     /// The predictions, if there were any.
     #[serde(flatten)]
@@ -130,7 +130,7 @@ impl Robustness {
             let alike = SuccessRate::new((mean * count).round() as usize, chances.len());
             [alike.low, alike.high]
         };
-        let is_enough = chances.len() >= LEAST_LAYOUTS;
+        let is_enough = chances.len() >= MIN_LAYOUTS;
         Self {
             skill,
             doubt,
@@ -164,7 +164,7 @@ impl fmt::Display for Robustness {
                 100.0 * high,
                 100.0 * worst
             )?,
-            _ => write!(formatter, "; fewer than {LEAST_LAYOUTS} layouts say nothing about others")?,
+            _ => write!(formatter, "; fewer than {MIN_LAYOUTS} layouts say nothing about others")?,
         }
         self.reliability.as_ref().map_or(Ok(()), |reliability| write!(formatter, "\n{reliability}"))
     }
@@ -175,7 +175,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn few_layouts_have_no_interval_and_equal_ones_one_that_is_not_empty() {
+    fn few_layouts_give_no_interval() {
         let of = |chances: &[f64]| Robustness::new(Skill::CLUB, Doubt::FULL, chances.to_vec());
         let few = of(&[0.737; 9]);
         assert_eq!((few.make_interval, few.worst_tenth), (None, None));
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn every_layout_has_errors_and_tables_of_its_own() {
+    fn every_layout_has_its_own_errors_and_tables() {
         let layout = Layout::opening(&Table::default());
         for doubt in [Doubt::FULL, Doubt::NONE] {
             let spec = Spec { doubt, ..Spec::of_random_search(4) };
@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_predicted_is_compared_with_what_was_observed_by_tenths() {
+    fn predictions_and_observations_are_compared_by_tenths() {
         let predicted = [Some(0.05), Some(0.93), Some(0.97), None, Some(1.0)];
         let reliability = Reliability::new(&predicted, &[0.0, 1.0, 0.5, 1.0, 1.0]);
         let bins: Vec<_> = reliability.bins.iter().map(|bin| (bin.layouts, bin.observed)).collect();

@@ -89,7 +89,7 @@ pub fn play(
     let most = spec.most_points.unwrap_or(u32::MAX);
     let mut records = Vec::new();
     let layouts = held_out_layouts(&spec.table, spec.layouts as usize, spec.seed);
-    for (index, layout) in (0..).zip(&layouts).filter(|(index, _)| shard.holds(*index)) {
+    for (index, layout) in (0..).zip(&layouts).filter(|(index, _)| shard.contains(*index)) {
         if Instant::now() >= until {
             break;
         }

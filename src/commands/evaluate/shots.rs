@@ -15,7 +15,7 @@ use crate::{
     coach::{Coach, Request, Skill, layout_seed},
     commands::output::{json_line, plural},
     game::{Reward, Rule, scores},
-    learning::{Policy, Proposal, evaluation::held_out_layouts, policy::any_earns, weights::WeightsError},
+    learning::{Policy, Proposal, evaluation::held_out_layouts, policy::any_scores, weights::WeightsError},
     physics::{CueInputs, has_room},
     printing,
     statistics::SuccessRate,
@@ -105,7 +105,7 @@ pub struct ShotRecord {
 /// Lets `player` decide on every layout of the part, and plays the decisions.
 pub fn measure(spec: &Spec, shard: Shard, player: &Player, rule: Rule, reward: Reward) -> Vec<ShotRecord> {
     let layouts = held_out_layouts(&spec.table, spec.layouts as usize, spec.seed);
-    let mine = (0..).zip(&layouts).filter(|(index, _)| shard.holds(*index));
+    let mine = (0..).zip(&layouts).filter(|(index, _)| shard.contains(*index));
     let drawn = spec.drawn_tables.then(|| DrawnTables::around(&spec.table, spec.seed));
     mine.map(|(index, layout)| {
         let own = drawn.as_ref().map(|tables| tables.of(index));
@@ -122,7 +122,7 @@ pub fn measure(spec: &Spec, shard: Shard, player: &Player, rule: Rule, reward: R
             seconds,
             simulations: decision.simulations,
             predicted: decision.predicted,
-            best_of_k: decision.others.map(|others| any_earns(table, reward, layout, earned, &others)),
+            best_of_k: decision.others.map(|others| any_scores(table, reward, layout, earned, &others)),
             chance: spec.skill.map(|skill| robustness::chance(spec, rule, table, (index, layout), skill, &cue)),
         }
     })
@@ -152,7 +152,7 @@ fn decide(
             let mut proposals = policy.proposals(table, layout, &skill);
             let Proposal { cue, success } = proposals.remove(0);
             // A prediction for another reward, or for a skill that is not an input of the networks, is not the measured probability.
-            let is_of_this = policy.origin().reward == reward && (skill.is_perfect() || policy.speaks_of(&skill));
+            let is_of_this = policy.origin().reward == reward && (skill.is_perfect() || policy.is_valid_for(&skill));
             let others = spec.is_yes_or_no.then_some(proposals);
             Decision { predicted: is_of_this.then_some(success), others, ..shot(cue) }
         }
@@ -293,7 +293,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_report_counts_what_the_records_say() {
+    fn the_report_counts_the_records() {
         let spec = Spec::of_random_search(4);
         let record = |layout, earned, speed| {
             let best_of_k = Some(speed < 6.0);

@@ -59,7 +59,7 @@ pub struct Spec {
 
 impl Spec {
     /// Describes how the layouts of another measurement, or the quantity measured on them, differ.
-    pub fn difference_of_layouts(&self, other: &Self) -> Option<String> {
+    pub fn layout_difference(&self, other: &Self) -> Option<String> {
         let of = |spec: &Self| {
             let Self { measure, seed, layouts, drawn_tables, table, .. } = spec;
             serde_json::json!({
@@ -70,7 +70,7 @@ impl Spec {
     }
 
     /// Completes this specification, which an earlier version may have written, from that of another part.
-    fn learn_from(&mut self, other: &Self) {
+    fn complete_from(&mut self, other: &Self) {
         self.checksum = self.checksum.take().or_else(|| other.checksum.clone());
         self.version = self.version.take().or_else(|| other.version.clone());
     }
@@ -89,7 +89,7 @@ impl Shard {
     pub const WHOLE: Self = Self { part: 1, of: 1 };
 
     /// Whether the layout with this number, from 0, belongs to the part.
-    pub const fn holds(self, index: u32) -> bool {
+    pub const fn contains(self, index: u32) -> bool {
         index % self.of == self.part - 1
     }
 }
@@ -149,8 +149,8 @@ impl Part {
     /// Describes how another part differs in its specification or its number of parts; `None` if both belong to one evaluation.
     fn difference(&self, other: &Self) -> Option<String> {
         let [mut own, mut others] = [self, other].map(|part| part.spec.clone());
-        own.learn_from(&others);
-        others.learn_from(&own);
+        own.complete_from(&others);
+        others.complete_from(&own);
         if own == others {
             let (own, others) = (self.shard.of, other.shard.of);
             return (own != others).then(|| format!("of {own} and of {others} parts"));
@@ -179,7 +179,7 @@ pub enum MergeError {
     #[error("{} cannot be read: {error}", path.display())]
     File { path: PathBuf, error: std::io::Error },
     /// Its content is not a part.
-    #[error("{} is not a part of an evaluation, as carom evaluate --shard prints it: {}", path.display(), what_is_wrong(error))]
+    #[error("{} is not a part of an evaluation, as carom evaluate --shard prints it: {}", path.display(), describe_content_error(error))]
     Contents { path: PathBuf, error: serde_json::Error },
     /// The parts measured different things.
     #[error("{} and {} are parts of different evaluations: {what}", one.display(), other.display())]
@@ -202,15 +202,15 @@ impl From<MergeError> for Failure {
 }
 
 /// Explains where the content stops being a part, without the jargon of the JSON library.
-fn what_is_wrong(error: &serde_json::Error) -> String {
+fn describe_content_error(error: &serde_json::Error) -> String {
     if error.is_data() {
         return format!("it contains something else at line {}, column {}", error.line(), error.column());
     }
-    storage::json_flaw(error)
+    storage::describe_json_error(error)
 }
 
 /// Merges the parts in these files into the whole.
-pub fn merged(files: &[PathBuf]) -> Result<(Spec, Records), MergeError> {
+pub fn merge(files: &[PathBuf]) -> Result<(Spec, Records), MergeError> {
     let mut whole: Option<Part> = None;
     let mut seen = BTreeSet::new();
     for path in files {
@@ -226,7 +226,7 @@ pub fn merged(files: &[PathBuf]) -> Result<(Spec, Records), MergeError> {
         match &mut whole {
             None => whole = Some(part),
             Some(whole) => {
-                whole.spec.learn_from(&part.spec);
+                whole.spec.complete_from(&part.spec);
                 if !whole.records.append(part.records) {
                     return Err(different("other records".to_owned()));
                 }
@@ -245,8 +245,8 @@ pub fn merged(files: &[PathBuf]) -> Result<(Spec, Records), MergeError> {
 }
 
 fn read(path: &Path) -> Result<Part, MergeError> {
-    let text =
-        storage::read(path, storage::LARGE).map_err(|error| MergeError::File { path: path.to_owned(), error })?;
+    let text = storage::read(path, storage::MAX_LARGE_FILE)
+        .map_err(|error| MergeError::File { path: path.to_owned(), error })?;
     serde_json::from_slice(&text).map_err(|error| MergeError::Contents { path: path.to_owned(), error })
 }
 

@@ -1,8 +1,8 @@
 //! `carom recommend`: recommends a shot for a layout, or for each layout in a file.
 
 mod description;
-mod in_time;
 mod margins;
+mod time_limit;
 
 use std::{
     collections::HashSet,
@@ -15,13 +15,15 @@ use serde::{Deserialize, Serialize};
 
 use self::{
     description::{Description, Reasons},
-    in_time::in_time,
     margins::Margins,
+    time_limit::with_time_limit,
 };
 use super::{
     Failure,
-    input::{ByTable, PositionArgs, answer_lines, note_doubts, seed, whole, whole_from},
-    lookup::{policy_called, skill_called},
+    input::{
+        PositionArgs, TableCache, answer_lines, note_training_mismatch, parse_seed, whole_number, whole_number_from,
+    },
+    lookup::{policy_by_name, skill_by_name},
     output::{chance_words, impulse_words, player_and_rule_words, units},
     request::{Key, Keys, RuleName},
 };
@@ -31,7 +33,7 @@ use crate::{
         systems::{Guide, guide},
     },
     game::Rule,
-    learning::{Proposal, policy::kept::BUNDLED},
+    learning::{Proposal, policy::library::BUNDLED},
     physics::{CueInputs, strike},
     printing::{self, fixed},
     simulation::{Recording, ShotError},
@@ -56,7 +58,7 @@ pub struct Args {
     /// "own" is the skill that `carom drill skill --keep` saved. An average at three-cushion like 0.6 is accepted, too, and standard errors
     /// in mm, degrees and m/s, like "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1". The recommended shot is the one that this player makes most
     /// often; for a perfect player it is the first one that makes the point.
-    #[arg(long, default_value_t = Skill::EXPERT, value_parser = skill_called)]
+    #[arg(long, default_value_t = Skill::EXPERT, value_parser = skill_by_name)]
     skill: Skill,
     /// Uncertainty in addition to the errors of the hand: full or none.
     ///
@@ -80,13 +82,13 @@ pub struct Args {
     #[arg(long)]
     margins: bool,
     /// Time of the search, ms. Default: 500, or unlimited if --simulations is given.
-    #[arg(long, value_parser = whole(0..=3_600_000_u64))]
+    #[arg(long, value_parser = whole_number(0..=3_600_000_u64))]
     budget_ms: Option<u64>,
     /// Number of simulations after which the search starts nothing new.
     ///
     /// Without --budget-ms, the answer is then the same on every machine; with it, both limits apply. This is not a hard limit: a minimal
     /// search and judging the shots that were found take thousands of simulations in addition.
-    #[arg(long, value_parser = whole_from(1_u64))]
+    #[arg(long, value_parser = whole_number_from(1_u64))]
     simulations: Option<u64>,
     /// Return the networks' own shot, without any search.
     #[arg(long)]
@@ -95,7 +97,7 @@ pub struct Args {
     #[arg(long, value_name = "FILE", default_value = "bundled", value_parser = NonEmptyStringValueParser::new())]
     policy: String,
     /// Seed of the search: if time does not run out, the same seed finds the same shot.
-    #[arg(long, default_value_t = 0, value_parser = seed)]
+    #[arg(long, default_value_t = 0, value_parser = parse_seed)]
     seed: u64,
     /// Print one JSON object.
     #[arg(long)]
@@ -200,7 +202,7 @@ impl RecommendAnswer {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(file) = &args.batch {
-        let mut coaches = ByTable::new(|table| coach_for(table, &args.policy));
+        let mut coaches = TableCache::new(|table| coach_for(table, &args.policy));
         let mut noted = HashSet::new();
         return answer_lines(file, |BatchLine { preset, layout, rule: RuleName(rule) }: BatchLine| {
             let coach = coaches.get(&preset)?;
@@ -240,13 +242,13 @@ pub(super) fn coach_for(table: Table, policy: &str) -> Result<Coach, Failure> {
     if policy == BUNDLED {
         return Ok(coach);
     }
-    Ok(coach.with_policy(policy_called(policy)?))
+    Ok(coach.with_policy(policy_by_name(policy)?))
 }
 
 /// Prints notes about the networks' own shots, if these are requested.
 fn note(args: &Args, coach: &Coach, rule: Rule) {
     if let Some(policy) = coach.policy(rule, &args.skill).filter(|_| args.policy_only) {
-        note_doubts(policy, coach.table(), Some(rule));
+        note_training_mismatch(policy, coach.table(), Some(rule));
     }
 }
 
@@ -255,11 +257,11 @@ fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Rec
     if args.margins {
         let (table, layout, cue) = (coach.table().clone(), *layout, answer.shot.cue);
         let doubt = Shooter { skill: args.skill, doubt: args.doubt }.doubts();
-        answer.margins = in_time("the margins", move || Margins::of(rule, &table, &layout, &cue, doubt))?;
+        answer.margins = with_time_limit("the margins", move || Margins::of(rule, &table, &layout, &cue, doubt))?;
     }
     if answer.solved == Some(true) {
         let (table, layout, cue) = (coach.table().clone(), *layout, answer.shot.cue);
-        answer.system = in_time("the diamond systems", move || {
+        answer.system = with_time_limit("the diamond systems", move || {
             Ok::<_, ShotError>(guide(&table, &Recording::new(&table, &layout, &cue)?))
         })?
         .flatten();
@@ -274,7 +276,7 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
         let policy = coach.policy(rule, &args.skill).ok_or_else(|| no_policy(coach.table()))?;
         let Proposal { cue, success } = policy.proposals(coach.table(), layout, &args.skill)[0];
         // Other networks predict the success of the shot without execution errors, whoever plays it.
-        let predicted = policy.speaks_of(&args.skill).then_some(success);
+        let predicted = policy.is_valid_for(&args.skill).then_some(success);
         let shot = Shot { make_probability: predicted, ..Shot::of(cue, None, None, Source::Policy, None) };
         return Ok(RecommendAnswer::of(shot, 0, start.elapsed()));
     }
@@ -299,7 +301,7 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
     let (table, layout, shooter, seed) = (coach.table().clone(), *layout, request.shooter(), args.seed);
     let shots: Vec<CueInputs> =
         std::iter::once(advice.cue).chain(advice.alternatives.iter().map(|shot| shot.cue)).collect();
-    let words = in_time("the words for the shot", move || {
+    let words = with_time_limit("the words for the shot", move || {
         let described = shots.iter().map(|cue| Description::of(&table, &layout, cue)).collect::<Result<Vec<_>, _>>()?;
         let why = advice.solved.then(|| Reasons::of(shooter, rule, &table, &layout, &advice, seed)).transpose()?;
         Ok::<_, ShotError>((described, why))

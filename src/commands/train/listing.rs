@@ -9,12 +9,12 @@ use crate::{
     },
     learning::run::list::{Listing, Summary, runs_in},
     printing::OneLine,
-    storage::Places,
+    storage::DataPaths,
 };
 
 /// Prints the runs in `folder`, or the user's runs, and returns whether there are any.
 pub fn print(folder: Option<&Path>, json: bool) -> Result<bool, Failure> {
-    let own = Places::of_this_user().runs;
+    let own = DataPaths::of_this_user().runs;
     // A user who has never trained has no such folder yet.
     let Listing { runs, unreadable } = match (folder, folder.unwrap_or(&own)) {
         (None, own) if !own.exists() => Listing::default(),

@@ -15,10 +15,10 @@ use std::{
 use serde_json::Value;
 
 use self::progress::Progress;
-pub(super) use self::{listing::print as print_runs, progress::line};
+pub(super) use self::{listing::print as print_runs, progress::format_record};
 use super::{
     Failure,
-    input::{minutes, seed, whole, whole_from},
+    input::{parse_minutes, parse_seed, whole_number, whole_number_from},
     lookup::{LATEST, existing_run},
     output::print_note,
 };
@@ -26,12 +26,12 @@ use crate::{
     game::Reward,
     learning::{
         agents::AGENTS,
-        ddpg::learner::STANDING_STILL,
+        ddpg::learner::MIN_ACTOR_LEARNING_RATE,
         evaluation::Score,
         learner::StartError,
-        run::{Ending, Limits, Run, RunError, discard, holds_checkpoints, seeds::is_group},
+        run::{Ending, Limits, Run, RunError, contains_run, discard, seeds::is_group},
     },
-    platform::{UNFINISHED, limit_threads, outlive_hang_up, stop_on_signal},
+    platform::{UNFINISHED, ignore_hang_up, limit_threads, stop_on_signal},
     printing::{self, shell_word},
 };
 
@@ -53,11 +53,11 @@ pub struct Args {
     #[arg(long)]
     table: Option<String>,
     /// Seed of all random numbers: the same seed gives the same weights.
-    #[arg(long, default_value_t = 1, value_parser = seed)]
+    #[arg(long, default_value_t = 1, value_parser = parse_seed)]
     seed: u64,
     /// Number of shots to play. The learning rates decay to zero over them. The agent ddpg plays rollouts, of 192 shots by default: its run
     /// ends with the first rollout that reaches this number.
-    #[arg(long, value_name = "SHOTS", default_value_t = 5_000_000, value_parser = whole_from(1_u64))]
+    #[arg(long, value_name = "SHOTS", default_value_t = 5_000_000, value_parser = whole_number_from(1_u64))]
     steps: u64,
     /// A TOML file with settings of the agent that differ from its defaults, or from those of --from.
     #[arg(long, value_name = "FILE")]
@@ -70,10 +70,10 @@ pub struct Args {
     #[arg(long, value_name = "RUN|FILE|NAME")]
     from: Option<PathBuf>,
     /// Number of shots between two measurements on held-out layouts. Default: a fiftieth of the shots, or 10,000 if that is more.
-    #[arg(long, value_name = "SHOTS", value_parser = whole_from(1_u64))]
+    #[arg(long, value_name = "SHOTS", value_parser = whole_number_from(1_u64))]
     evaluate_every: Option<u64>,
     /// Number of held-out layouts of a measurement.
-    #[arg(long, value_name = "N", default_value_t = 2_000, value_parser = whole(1..=10_000_000_u32))]
+    #[arg(long, value_name = "N", default_value_t = 2_000, value_parser = whole_number(1..=10_000_000_u32))]
     evaluation_layouts: u32,
     /// The run's folder. Default: a new one among the user's runs, named after the start time and what is trained, with -2, -3 and so on
     /// appended if that name exists.
@@ -83,7 +83,7 @@ pub struct Args {
     #[arg(long, requires = "run")]
     r#continue: bool,
     /// Train this many seeds, from --seed on, each in a subfolder of the run's folder, and write their spread to seeds.csv.
-    #[arg(long, value_name = "N", value_parser = whole(1..=1000_u64))]
+    #[arg(long, value_name = "N", value_parser = whole_number(1..=1000_u64))]
     seeds: Option<u64>,
     /// Resume this run or these seeds (a folder, a name among the user's runs, or "latest"), with their original settings.
     #[arg(long, value_name = "RUN", conflicts_with_all = [
@@ -92,10 +92,10 @@ pub struct Args {
     ])]
     resume: Option<PathBuf>,
     /// Number of seeds that are trained at the same time, one thread each.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole(1..=256_u32))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole_number(1..=256_u32))]
     jobs: u32,
     /// Number of threads that the searches of a run may use (setting searched). Default: one on each processor
-    #[arg(long, value_name = "N", value_parser = whole(1..=1024_u16))]
+    #[arg(long, value_name = "N", value_parser = whole_number(1..=1024_u16))]
     threads: Option<u16>,
     /// Stop after this many minutes, finished or not.
     #[arg(long)]
@@ -144,14 +144,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(folder) = &args.list {
         return listing::print(folder.as_deref(), args.json).map(drop);
     }
-    let limit = args.minutes.map(minutes).transpose()?;
+    let limit = args.minutes.map(parse_minutes).transpose()?;
     if let Some(threads) = args.threads {
         limit_threads(threads.into());
     }
     // The first signal waits for the current iteration and a measurement that is due, then saves and measures. The second signal ends that.
     let stop = stop_on_signal(Some(UNFINISHED)).map_err(Failure::failed)?;
     // After a hang-up, the run can still be watched and stopped from another terminal.
-    outlive_hang_up().map_err(Failure::failed)?;
+    ignore_hang_up().map_err(Failure::failed)?;
     let options =
         TrainOptions { limit, stop: &|| stop.load(Ordering::Relaxed), json: args.json, objective: args.objective };
     if let Some(name) = &args.resume {
@@ -160,14 +160,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         let group = found.parent().filter(|folder| name == Path::new(LATEST) && is_group(folder));
         return resume(group.unwrap_or(&found), args.jobs, &options);
     }
-    let folder = args.run.as_deref().filter(|folder| is_group(folder) || holds_checkpoints(folder));
+    let folder = args.run.as_deref().filter(|folder| is_group(folder) || contains_run(folder));
     if let Some(folder) = folder.filter(|_| args.r#continue) {
-        spec::same_spec(args, folder)?;
+        spec::check_same_spec(args, folder)?;
         return resume(folder, args.jobs, &options);
     }
     let request = spec::read(args)?;
     let rate = request.spec.settings.get("actor_learning_rate").and_then(Value::as_f64);
-    if let Some(rate) = rate.filter(|rate| *rate < STANDING_STILL && args.from.is_some()) {
+    if let Some(rate) = rate.filter(|rate| *rate < MIN_ACTOR_LEARNING_RATE && args.from.is_some()) {
         print_note(format_args!(
             "note: the actor will not change, because actor_learning_rate is {rate:e} (--from may have set it); --set \
              actor_learning_rate=0.0004 lets it learn"

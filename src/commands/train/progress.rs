@@ -35,7 +35,7 @@ impl Progress {
     pub fn new(run: &Run, json: bool, seed: Option<u64>) -> Self {
         let learner = run.learner();
         let plan = learner.plan();
-        let bar = if seed.is_none() && printing::is_watched() && !learner.is_finished() {
+        let bar = if seed.is_none() && printing::is_stderr_terminal() && !learner.is_finished() {
             ProgressBar::new(plan.shots)
         } else {
             ProgressBar::hidden()
@@ -71,7 +71,7 @@ impl Progress {
 }
 
 /// Formats a measurement as a line; `None` if the record has none.
-pub fn line(record: &Record) -> Option<String> {
+pub fn format_record(record: &Record) -> Option<String> {
     let Record { seconds, shots, .. } = record;
     let speed = *shots as f64 / seconds.max(1e-9);
     summary(record).map(|summary| format!("{seconds:.0} s, {shots} shots, {speed:.0} shots/s, {summary}"))
@@ -83,7 +83,7 @@ fn summary(record: &Record) -> Option<String> {
 }
 
 impl Watcher for Progress {
-    fn line(&mut self, record: &Record) {
+    fn on_record(&mut self, record: &Record) {
         if self.json
             && let Ok(line) = printing::json_text(&Line { seed: self.seed, record })
         {
@@ -93,13 +93,13 @@ impl Watcher for Progress {
         self.bar.set_position(record.shots);
         let Some(summary) = summary(record) else { return };
         self.bar.set_message(summary);
-        if let Some(line) = line(record).filter(|_| self.bar.is_hidden()) {
+        if let Some(line) = format_record(record).filter(|_| self.bar.is_hidden()) {
             let whose = self.seed.map(|seed| format!(", seed {seed}")).unwrap_or_default();
             print_note(format_args!("{line}{whose}"));
         }
     }
 
-    fn warn(&mut self, sentence: &str) {
+    fn on_warning(&mut self, sentence: &str) {
         let whose = self.seed.map(|seed| format!("seed {seed}: ")).unwrap_or_default();
         self.bar.suspend(|| print_note(format_args!("warning: {whose}{sentence}")));
     }

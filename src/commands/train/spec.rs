@@ -11,22 +11,22 @@ use super::{Args, failure};
 use crate::{
     commands::{
         Failure,
-        input::table_named,
-        lookup::{Source, weights_named},
+        input::table_by_name,
+        lookup::{Source, weights_by_name},
         output::print_note,
     },
     game::Reward,
     learning::{
-        learner::{AgentKind, TrainingPlan, lay_over},
+        learner::{AgentKind, TrainingPlan, merge_settings},
         run::{
             Config, Provenance, RunError, Schedule, config_of,
             origin::Weights,
             run_name,
-            seeds::{GroupFile, TrainingSpec, described, is_group},
+            seeds::{GroupFile, TrainingSpec, is_group, read_description},
         },
     },
     printing::timestamp,
-    storage::{self, Places, toml_flaw},
+    storage::{self, DataPaths, describe_toml_error},
     table::Table,
 };
 
@@ -68,10 +68,10 @@ pub fn read(args: &Args) -> Result<TrainingRequest, Failure> {
         print_note(format_args!("warning: {notice}"));
     }
     let base = weights.as_ref().map(|weights| base_of(weights, args)).transpose()?;
-    let spec = specified(args, base)?;
+    let spec = build_spec(args, base)?;
     let folder = args.run.clone().unwrap_or_else(|| {
         let name = run_name(&timestamp(), &spec.agent, &spec.table.name, spec.plan.reward, args.seed);
-        Places::of_this_user().runs.join(name)
+        DataPaths::of_this_user().runs.join(name)
     });
     Ok(TrainingRequest { spec, weights, folder, is_named: args.run.is_some() })
 }
@@ -79,8 +79,8 @@ pub fn read(args: &Args) -> Result<TrainingRequest, Failure> {
 /// Returns the source that `--from` names, if it is given.
 fn source(args: &Args) -> Result<Option<Source>, Failure> {
     let Some(name) = &args.from else { return Ok(None) };
-    let table = table_named(args.table.as_deref().unwrap_or("match"))?;
-    weights_named(name, &table, args.reward.unwrap_or_default().rule().unwrap_or_default()).map(Some)
+    let table = table_by_name(args.table.as_deref().unwrap_or("match"))?;
+    weights_by_name(name, &table, args.reward.unwrap_or_default().rule().unwrap_or_default()).map(Some)
 }
 
 /// Loads the weights of a source.
@@ -103,9 +103,9 @@ struct Base {
 fn base_of(weights: &Weights, args: &Args) -> Result<Base, Failure> {
     let Weights { start: Provenance { agent, reward, table, .. }, settings, .. } = weights.clone();
     let table = match (&args.table, &weights.table) {
-        (Some(name), _) => table_named(name)?,
+        (Some(name), _) => table_by_name(name)?,
         (None, Some(table)) => table.clone(),
-        (None, None) => table_named(&table)?,
+        (None, None) => table_by_name(&table)?,
     };
     let mut settings = settings;
     if let (Value::Object(settings), Ok(kind)) = (&mut settings, AgentKind::named(&agent)) {
@@ -115,14 +115,14 @@ fn base_of(weights: &Weights, args: &Args) -> Result<Base, Failure> {
 }
 
 /// Returns the specification in the command line; missing values come from `base` or the defaults.
-fn specified(args: &Args, base: Option<Base>) -> Result<TrainingSpec, Failure> {
+fn build_spec(args: &Args, base: Option<Base>) -> Result<TrainingSpec, Failure> {
     let agent = args.agent.clone().or_else(|| base.as_ref().map(|base| base.agent.clone()));
     let agent = agent.unwrap_or_else(|| "ddpg".to_owned());
     let reward = args.reward.or_else(|| base.as_ref().map(|base| base.reward)).unwrap_or_default();
     let table = match (&args.table, &base) {
-        (Some(name), _) => table_named(name)?,
+        (Some(name), _) => table_by_name(name)?,
         (None, Some(base)) => base.table.clone(),
-        (None, None) => table_named("match")?,
+        (None, None) => table_by_name("match")?,
     };
     // Settings of another agent are meaningless here. That its weights cannot be used either is reported when they are loaded.
     let known = base.filter(|base| base.agent == agent).map(|base| base.settings);
@@ -138,7 +138,7 @@ fn specified(args: &Args, base: Option<Base>) -> Result<TrainingSpec, Failure> {
 
 /// Refuses to resume the run, or the group of seeds, in `folder` if it was started with other settings. The weights it started from may be
 /// missing or changed by now; then values that the command omits count as equal to those of the run.
-pub fn same_spec(args: &Args, folder: &Path) -> Result<(), Failure> {
+pub fn check_same_spec(args: &Args, folder: &Path) -> Result<(), Failure> {
     // A folder that cannot be read is reported by the code that resumes it.
     let Some((theirs, start, their_seeds)) = stored_spec(folder) else { return Ok(()) };
     let as_before = source(args).ok().flatten().and_then(|source| weights_of(source)?.ok());
@@ -154,7 +154,7 @@ pub fn same_spec(args: &Args, folder: &Path) -> Result<(), Failure> {
             settings: theirs.settings.clone(),
         })
     });
-    let ours = specified(args, base)?;
+    let ours = build_spec(args, base)?;
     let options = |TrainingSpec { agent, plan, schedule, table, .. }: &TrainingSpec| {
         [
             ("agent", agent.clone()),
@@ -229,7 +229,7 @@ fn is_same_source(theirs: &str, args: &Args) -> bool {
 /// Returns how the run or the group in the folder was started: its specification, the origin of its weights, and the number of seeds.
 fn stored_spec(folder: &Path) -> Option<(TrainingSpec, Option<Provenance>, Option<u64>)> {
     if is_group(folder) {
-        let GroupFile { spec, seeds, from } = described(folder).ok()?;
+        let GroupFile { spec, seeds, from } = read_description(folder).ok()?;
         return Some((spec, from, Some(seeds)));
     }
     let Config { agent, plan, settings, schedule, table, from, .. } = config_of(folder)?;
@@ -242,7 +242,7 @@ fn settings(path: Option<&Path>, set: &[String], known: Option<Value>, defaults:
     let mut settings = known.unwrap_or_else(|| serde_json::json!({}));
     if let Some(path) = path {
         let shown = format!("the settings in {}", path.display());
-        let text = storage::read_text(path, storage::SMALL)
+        let text = storage::read_text(path, storage::MAX_SMALL_FILE)
             .map_err(|error| Failure::failed(format_args!("{shown} cannot be read: {error}")))?;
         replace(&mut settings, &text, &shown, defaults)?;
     }
@@ -258,11 +258,14 @@ fn settings(path: Option<&Path>, set: &[String], known: Option<Value>, defaults:
     Ok(settings)
 }
 
-/// Overrides the settings of the same names by the values of a TOML text ([`lay_over`]).
+/// Overrides the settings of the same names by the values of a TOML text ([`merge_settings`]).
 fn replace(settings: &mut Value, text: &str, origin: &str, defaults: &Value) -> Result<(), Failure> {
     let refuse = |reason: &str| Failure::wrong_input(format_args!("{origin}: {reason}"));
     let read: toml::Table = toml::from_str(text).map_err(|error| {
-        refuse(&format!("{}; accepted are lines like heads = 8, with words in quotes", toml_flaw(text, &error)))
+        refuse(&format!(
+            "{}; accepted are lines like heads = 8, with words in quotes",
+            describe_toml_error(text, &error)
+        ))
     })?;
     for (name, value) in read {
         // JSON has no dates, and no setting is one: as text it is refused by the type of the setting.
@@ -272,7 +275,7 @@ fn replace(settings: &mut Value, text: &str, origin: &str, defaults: &Value) -> 
         if value.is_null() {
             return Err(refuse(&format!("{name} is not a finite number")));
         }
-        lay_over(settings, &serde_json::json!({ name: value }), defaults);
+        merge_settings(settings, &serde_json::json!({ name: value }), defaults);
     }
     Ok(())
 }
@@ -282,7 +285,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_folder_that_nobody_has_named_gets_a_number_where_it_is_taken() {
+    fn automatic_folder_names_get_a_number_if_taken() {
         let taken = |folder: &Path| match folder.display().to_string() {
             name if name == "runs/a-1" => Err(RunError::Occupied(name)),
             name if name == "runs/a-1-2" => Err(RunError::Busy(name)),

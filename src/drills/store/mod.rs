@@ -24,7 +24,7 @@ use super::{
     Attempt, Category, Exercise, ExerciseError, Library, LibraryFile, LibraryFileError, Session,
     marked::{self, MarkError},
 };
-use crate::storage::{self, Lock, Places, create_atomic, is_name, remove_abandoned_files, write_atomic};
+use crate::storage::{self, DataPaths, Lock, create_atomic, is_name, remove_abandoned_files, write_atomic};
 
 /// The format's name in session files.
 const SESSION: &str = "carom-session";
@@ -51,8 +51,8 @@ pub struct Store {
 
 impl Store {
     /// Creates a store for these places. Folders and files are created when something is first saved.
-    pub fn new(places: &Places) -> Self {
-        let Places { sessions, positions, player, .. } = places.clone();
+    pub fn new(places: &DataPaths) -> Self {
+        let DataPaths { sessions, positions, player, .. } = places.clone();
         Self { sessions, positions, player }
     }
 
@@ -130,7 +130,7 @@ impl Store {
     /// # Errors
     /// Fails if another program holds it for too long, or on a file system error.
     pub fn lock(&self) -> Result<Lock, StoreError> {
-        Lock::wait(&self.sessions).map_err(|error| StoreError::unwritten(&self.sessions, error))
+        Lock::acquire(&self.sessions).map_err(|error| StoreError::unwritten(&self.sessions, error))
     }
 
     /// Reads the player's own positions, by name.
@@ -212,7 +212,7 @@ struct StoredSession {
 }
 
 fn read_marked<T: DeserializeOwned>(path: &Path) -> Result<T, StoreError> {
-    let text = storage::read(path, storage::PRACTICE).map_err(|error| StoreError::file(path, error))?;
+    let text = storage::read(path, storage::MAX_PRACTICE_FILE).map_err(|error| StoreError::file(path, error))?;
     marked::read(SESSION, &text).map_err(|error| StoreError::Mark { path: path.into(), error })
 }
 
@@ -228,7 +228,7 @@ fn validate(session: &Session) -> Result<(), StoreError> {
 }
 
 fn read_position(path: &Path) -> Result<Exercise, StoreError> {
-    let text = storage::read_text(path, storage::PRACTICE).map_err(|error| StoreError::file(path, error))?;
+    let text = storage::read_text(path, storage::MAX_PRACTICE_FILE).map_err(|error| StoreError::file(path, error))?;
     let library = LibraryFile::parse(&text).map_err(|error| StoreError::Library { path: path.into(), error })?;
     let [exercise] = <[Exercise; 1]>::try_from(library.exercises)
         .map_err(|found| StoreError::Many { path: path.into(), found: found.len() })?;

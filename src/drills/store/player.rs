@@ -29,7 +29,7 @@ impl Store {
     /// # Errors
     /// Fails if the file cannot be read.
     pub fn own_skill(&self) -> Result<Option<OwnSkill>, StoreError> {
-        let text = storage::read_if_there(&self.player, storage::SMALL);
+        let text = storage::read_if_exists(&self.player, storage::MAX_SMALL_FILE);
         let Some(text) = text.map_err(|error| StoreError::file(&self.player, error))? else { return Ok(None) };
         let refuse = |error| StoreError::Mark { path: self.player.clone(), error };
         marked::read(PLAYER, &text).map(Some).map_err(refuse)

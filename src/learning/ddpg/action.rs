@@ -60,18 +60,18 @@ const ELEVATIONS: [f64; 2] = [0.0, 20.0 * std::f64::consts::PI / 180.0];
 const TIP_SHARE: f64 = 0.98;
 
 /// Returns the first action for an `offset`.
-pub fn aim_at(offset: f64) -> f32 {
+pub fn action_for_offset(offset: f64) -> f32 {
     (2.0 * (offset - OFFSETS[0]) / (OFFSETS[1] - OFFSETS[0]) - 1.0) as f32
 }
 
 /// Returns the second action for a cue speed, m/s.
-pub fn speed_of(speed: f64) -> f32 {
+pub fn action_for_speed(speed: f64) -> f32 {
     (2.0 * (speed - SPEEDS[0]) / (SPEEDS[1] - SPEEDS[0]) - 1.0) as f32
 }
 
 /// The physical meaning of an action on a table, with its slopes along the action's numbers.
 #[derive(Clone, Copy, Debug)]
-pub struct Meaning {
+pub struct DecodedAction {
     /// Ball diameters between the cue ball's course and the first ball's centre.
     pub offset: Dual,
     /// Cue speed, m/s.
@@ -82,7 +82,7 @@ pub struct Meaning {
     pub theta: Dual,
 }
 
-impl Meaning {
+impl DecodedAction {
     /// Returns the meaning of `action`. NaN becomes the middle of the range, so that a broken network still yields cue inputs.
     pub fn of(table: &Table, action: Action) -> Self {
         let input = |index: usize| {
@@ -128,18 +128,18 @@ mod tests {
     #[test]
     fn offsets_and_actions_are_inverse() {
         for value in [-0.1, 0.0, 0.5, 1.0] {
-            let action = [aim_at(value), 0.0, 0.0, 0.0, 0.0];
-            assert!((Meaning::of(&Table::default(), action).offset.value - value).abs() < 1e-7);
+            let action = [action_for_offset(value), 0.0, 0.0, 0.0, 0.0];
+            assert!((DecodedAction::of(&Table::default(), action).offset.value - value).abs() < 1e-7);
         }
     }
 
     #[test]
-    fn on_tables_with_flight_a_raised_stroke_becomes_a_level_one_of_equal_speed_roll_and_side() {
+    fn raised_strokes_are_levelled_on_tables_with_flight() {
         let frozen = Table { flight: None, ..Table::default() };
         let table = Table::default();
         for action in [[0.2, 0.3, 0.4, 0.5, 0.3], [0.2, -0.3, -0.6, 0.2, 1.0], [0.2, 0.9, 0.0, 0.0, 0.0]] {
             let [raised, level] = [&frozen, &table].map(|table| {
-                let Meaning { speed, tip: [a, b], theta, .. } = Meaning::of(table, action);
+                let DecodedAction { speed, tip: [a, b], theta, .. } = DecodedAction::of(table, action);
                 let cue = CueInputs { a: a.value, b: b.value, theta: theta.value, phi: 0.0, speed: speed.value };
                 cue.validate_tip(table.miscue_limit).unwrap();
                 (cue.theta, strike(table, &cue))
@@ -153,7 +153,7 @@ mod tests {
             assert!((rolls[0] - rolls[1]).abs() < 1e-9 && (raised.1.spin.z - level.1.spin.z).abs() < 1e-9, "{rolls:?}");
         }
         // For a low stroke raised by 20 degrees, the level tip would be below the miscue limit.
-        let low = Meaning::of(&table, [0.2, 0.3, 0.0, -1.0, 1.0]);
+        let low = DecodedAction::of(&table, [0.2, 0.3, 0.0, -1.0, 1.0]);
         assert!((low.tip[1].value + 0.98 * table.miscue_limit.sqrt()).abs() < 1e-12, "{low:?}");
     }
 }

@@ -97,7 +97,7 @@ fn scaled_constants(table: &Table) -> [f64; CONSTANTS] {
 
 /// Whether networks with a context are trained for tables like this one: it differs from `match` or `textbook` only in what the context
 /// describes, and by no more than in training.
-pub fn knows(table: &Table) -> bool {
+pub fn is_known_table(table: &Table) -> bool {
     let is_near = scaled_constants(table)
         .into_iter()
         .chain((table.tilt / TILT_UNIT).to_array())
@@ -140,25 +140,28 @@ mod tests {
     use crate::table::{TableDoubt, TableSampler};
 
     #[test]
-    fn presets_and_drawn_tables_are_known_and_other_sizes_and_laws_are_not() {
+    fn only_presets_and_similar_tables_are_known() {
         let table = Table::default();
-        assert!(knows(&table) && knows(&Table::preset("textbook").unwrap()));
-        assert!(!knows(&Table::preset("thesis").unwrap()));
+        assert!(is_known_table(&table) && is_known_table(&Table::preset("textbook").unwrap()));
+        assert!(!is_known_table(&Table::preset("thesis").unwrap()));
         let mine = Table { name: "mine".into(), doubt: None, ..table.clone() };
         let sampler = TableSampler::new(&mine, &TableDoubt::of(&mine), 1.0).unwrap();
         for step in 0..20 {
             // Every constant is off by up to two standard deviations at the same time.
             let drawn = sampler.draw(|| 0.2 * f64::from(step) - 2.0);
-            assert!(knows(&drawn), "{drawn:?}");
+            assert!(is_known_table(&drawn), "{drawn:?}");
         }
-        assert!(knows(&Table { flight: None, ..mine.clone() }), "a table that was saved before balls could fly");
-        assert!(!knows(&Table { length: 2.54, width: 1.27, ..mine.clone() }));
-        assert!(!knows(&Table { rail_restitution: 0.6, ..mine.clone() }));
-        assert!(!knows(&Table { rail: Rails { model: RailModel::Nose, ..mine.rail }, ..mine }));
+        assert!(
+            is_known_table(&Table { flight: None, ..mine.clone() }),
+            "a table that was saved before balls could fly"
+        );
+        assert!(!is_known_table(&Table { length: 2.54, width: 1.27, ..mine.clone() }));
+        assert!(!is_known_table(&Table { rail_restitution: 0.6, ..mine.clone() }));
+        assert!(!is_known_table(&Table { rail: Rails { model: RailModel::Nose, ..mine.rail }, ..mine }));
     }
 
     #[test]
-    fn the_context_of_match_is_zero_and_a_tilt_is_mirrored() {
+    fn the_match_context_is_zero_and_tilts_are_mirrored() {
         let numbers = |table: &Table, mirror, errors| {
             let mut out = Vec::new();
             push_context(table, mirror, errors, &mut out);

@@ -6,7 +6,7 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
-    action::{ACTIONS, Action, aim_at, speed_of},
+    action::{ACTIONS, Action, action_for_offset, action_for_speed},
     agent::Transition,
     context::Inputs,
     networks::Networks,
@@ -208,8 +208,8 @@ impl Expert<'_> {
     fn random_stroke(&self, rng: &mut (impl Rng + ?Sized)) -> Action {
         let [offset, log_speed] = normal_pair(rng);
         let all = [
-            aim_at(OFFSET[0] + OFFSET[1] * offset).clamp(-1.0, 1.0),
-            speed_of((LOG_SPEED[0] + LOG_SPEED[1] * log_speed).exp()).clamp(-1.0, 1.0),
+            action_for_offset(OFFSET[0] + OFFSET[1] * offset).clamp(-1.0, 1.0),
+            action_for_speed((LOG_SPEED[0] + LOG_SPEED[1] * log_speed).exp()).clamp(-1.0, 1.0),
             rng.random_range(-1.0..=1.0),
             rng.random_range(LOWEST_TIP..=1.0),
             -1.0,
@@ -244,7 +244,7 @@ mod tests {
     use std::sync::Arc;
 
     #[test]
-    fn the_expert_finds_strokes_that_succeed_more_often_than_the_proposals() {
+    fn the_search_improves_on_the_proposals() {
         let (table, mut rng) = (Arc::new(Table::default()), Xoshiro256PlusPlus::seed_from_u64(41));
         let hyper = Hyperparameters { actions: ActionSpace::Full, context: true, ..Hyperparameters::default() };
         let (inputs, networks) = (hyper.inputs(), &Networks::random(&hyper, &mut rng).unwrap());
@@ -272,7 +272,7 @@ mod tests {
     #[test]
     fn strokes_of_several_observations_stay_among_the_candidates() {
         let (table, mut rng) = (Arc::new(Table::default()), Xoshiro256PlusPlus::seed_from_u64(41));
-        let observations = Observation::every(&table, &Layout::random(&table, &mut rng), true);
+        let observations = Observation::all(&table, &Layout::random(&table, &mut rng), true);
         let halved = |numbers: &[usize], left| {
             let mut candidates: Vec<Candidate> =
                 numbers.iter().map(|&number| Candidate::new(observations[number], [0.0; ACTIONS])).collect();

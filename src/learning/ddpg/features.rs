@@ -5,7 +5,7 @@ use std::{f64::consts::PI, ops::Range};
 use glam::DVec2;
 
 use super::{
-    action::{Action, Meaning},
+    action::{Action, DecodedAction},
     dual::{Dual, DualVector},
     first_contact::{Approach, FirstContact, TYPICAL_SPEED},
     observation::{Line, Observation, free_path},
@@ -72,9 +72,9 @@ pub fn push_state_features(table: &Table, observation: &Observation, out: &mut V
 /// the cue ball.
 pub fn push_action_features(paths: &Paths<'_>, action: Action, slopes: bool, out: &mut Vec<Dual>) {
     let Paths { table, observation, lines, .. } = *paths;
-    let meaning = Meaning::of(table, action);
-    let Approach { contact: stroke, course, by_rail } = paths.approach(&meaning, slopes);
-    let offset = meaning.offset;
+    let decoded = DecodedAction::of(table, action);
+    let Approach { contact: stroke, course, by_rail } = paths.approach(&decoded, slopes);
+    let offset = decoded.offset;
     let speed = Dual::action(1, f64::from(action[1]));
     out.extend([offset, offset * offset]);
     for wave in [PI, 2.0 * PI] {
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn features_are_finite_of_order_one_and_as_many_as_promised() {
+    fn features_are_finite_and_of_order_one() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(8);
         for name in crate::table::PRESETS {
             let table = Table::preset(name).unwrap();
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn without_the_closed_form_the_features_of_a_stroke_are_the_same_on_any_table_and_layout() {
+    fn action_only_features_are_independent_of_table_and_layout() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(12);
         let action = random(&mut rng, 0.9);
         let mut chosen = |name, action| {
@@ -229,11 +229,11 @@ mod tests {
     }
 
     #[test]
-    fn balls_that_touch_give_finite_features() {
+    fn touching_balls_give_finite_features() {
         let table = Table::default();
         let diameter = 2.0 * table.radius;
         let layout = Layout::new([DVec2::ZERO, DVec2::new(diameter, 0.0), DVec2::new(0.0, -diameter)]);
-        for observation in Observation::all(&layout) {
+        for observation in Observation::all_straight(&layout) {
             for action in [[-1.0, 0.0, 1.0, 1.0, 1.0], [1.0; ACTIONS], [0.0, 1.0, -1.0, 0.0, -1.0]] {
                 let features = features(&table, &observation, action);
                 assert!(features.iter().all(|f| f.value.is_finite() && f.slope.iter().all(|s| s.is_finite())));

@@ -1,7 +1,7 @@
 //! The cue ball's state on arrival at the first ball on a straight path, in closed form and with slopes.
 
 use super::{
-    action::Meaning,
+    action::DecodedAction,
     dual::{Dual, DualVector},
 };
 use crate::table::Table;
@@ -48,8 +48,8 @@ pub struct Approach {
 impl FirstContact {
     /// Computes the arrival after the stroke of an action over `distance`, m. The travel time is that at the initial speed, and the
     /// friction keeps the direction of the initial slip: accurate to a few percent for the shots that matter.
-    pub fn of(table: &Table, action: &Meaning, distance: f64) -> Self {
-        let Meaning { speed, tip: [a, b], theta, .. } = *action;
+    pub fn of(table: &Table, action: &DecodedAction, distance: f64) -> Self {
+        let DecodedAction { speed, tip: [a, b], theta, .. } = *action;
         // Thesis equations 9, 15 and 16, as in `physics::strike`.
         let c = (-(a * a) - b * b + 1.0).at_least(1e-6).sqrt();
         let (sin, cos) = theta.sin_cos();
@@ -108,8 +108,8 @@ mod tests {
         let observation = Observation::new(&Layout::new([cue_ball, first, DVec2::new(-1.0, -0.5)]), 2 * (case % 2));
         let mut action: [f32; 5] = std::array::from_fn(|_| rng.random_range(-0.7..0.7));
         action[1] = rng.random_range(0.0..1.0);
-        let meaning = Meaning::of(table, action);
-        let stroke = FirstContact::of(table, &meaning, first.distance(cue_ball));
+        let decoded = DecodedAction::of(table, action);
+        let stroke = FirstContact::of(table, &decoded, first.distance(cue_ball));
         let cue = cue_inputs(table, &observation, action);
         assert!((strike(table, &cue).velocity.length() - stroke.speed.value).abs() < 1e-9);
 
@@ -126,14 +126,14 @@ mod tests {
         let aim = DVec2::from_angle(cue.phi);
         let roll = table.radius * (aim.x * ball.spin.y - aim.y * ball.spin.x) / speed;
         Some([
-            (passed - meaning.offset.value).abs(),
+            (passed - decoded.offset.value).abs(),
             (speed / stroke.speed_on_arrival.value - 1.0).abs(),
             (roll - stroke.roll_on_arrival.value).abs(),
         ])
     }
 
     #[test]
-    fn the_cue_ball_arrives_as_the_simulator_says() {
+    fn the_predicted_arrival_matches_the_simulator() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
         for name in crate::table::PRESETS {
             let table = Table::preset(name).unwrap();

@@ -27,7 +27,7 @@ use crate::{
 };
 
 /// Learning rate of the actor below which it practically does not learn.
-pub const STANDING_STILL: f64 = 1e-6;
+pub const MIN_ACTOR_LEARNING_RATE: f64 = 1e-6;
 
 /// Indices of the networks in [`Hyperparameters::sizes`].
 const ACTOR: usize = 0;
@@ -53,10 +53,10 @@ fn hyperparameters(settings: &Value) -> Result<Hyperparameters, StartError> {
         return Err(StartError::settings("searches need players with errors: use searched with context = true"));
     }
     let Hyperparameters { imitation, actor_learning_rate, .. } = hyperparameters;
-    if imitation > 0.0 && actor_learning_rate < STANDING_STILL {
+    if imitation > 0.0 && actor_learning_rate < MIN_ACTOR_LEARNING_RATE {
         let reason = format!(
             "imitation = {imitation} has no effect with an actor_learning_rate of {actor_learning_rate:e} (perhaps set by --from): \
-             accepted is {STANDING_STILL:e} and more, or imitation = 0"
+             accepted is {MIN_ACTOR_LEARNING_RATE:e} and more, or imitation = 0"
         );
         return Err(StartError::settings(reason));
     }
@@ -89,7 +89,7 @@ impl Learner for Trainer {
             updates: self.updates,
             learning_rate: self.lr_factor() * self.task.hyperparameters.critic_learning_rate,
             exploration: self.task.hyperparameters.exploration.uniform,
-            replay_fill: Some(self.replay.fill()),
+            replay_fill: Some(self.replay.fill_fraction()),
         }
     }
 
@@ -113,7 +113,7 @@ impl Learner for Trainer {
         Ok(self.policy(0.0, "")?.score(&self.table, self.task.plan.reward, layouts))
     }
 
-    fn shots_on(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>> {
+    fn choose_shots(&self, layouts: &[Layout]) -> candle_core::Result<Vec<CueInputs>> {
         let policy = self.policy(0.0, "")?;
         Ok(layouts.iter().map(|layout| policy.propose(&self.table, layout, &Skill::PERFECT)).collect())
     }
@@ -183,7 +183,7 @@ mod tests {
     };
 
     #[test]
-    fn weights_are_taken_from_checkpoints_and_policies() {
+    fn weights_load_from_checkpoints_and_policies() {
         let mut teacher = Trainer::new(small_task(), Table::default()).unwrap();
         teacher.iterate().unwrap();
         let mut writer = Writer::default();
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn an_agent_with_a_context_can_start_from_weights_without_one() {
+    fn context_agents_start_from_weights_without_context() {
         let table = Table::default();
         let old = Policy::bundled(&table, Rule::OneCushion).unwrap().unwrap();
         let file = Learner::policy(&old_trainer(&old), 0.5, "2026-11-22", &mut || true).unwrap().unwrap();
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn an_agent_with_paths_by_cushions_can_start_from_weights_without_them() {
+    fn cushion_path_agents_start_from_weights_without_them() {
         let (table, skill) = (Table::default(), Skill::CLUB);
         let mut with_context = Policy::bundled_for(&table, Rule::StraightRail, true).unwrap().unwrap();
         // The runs below are not finished, so they are not calibrated.

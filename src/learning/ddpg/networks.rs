@@ -6,7 +6,7 @@ use candle_core::{Device, Result, Tensor};
 use rand::Rng;
 
 use super::{
-    action::{Action, aim_at, speed_of},
+    action::{Action, action_for_offset, action_for_speed},
     context::Inputs,
     hyperparameters::Hyperparameters,
     observation::Observation,
@@ -44,7 +44,7 @@ impl Networks {
         let (numbers, outputs) = (hyper.actions.actions(), actor.sizes().last().copied().unwrap_or(0));
         let (mut half, mut middle) = (vec![1.0_f32; outputs], vec![0.0_f32; outputs]);
         for (head, speeds) in (0..outputs / numbers).zip(hyper.head_speeds.iter().cycle()) {
-            let [low, high] = speeds.map(speed_of);
+            let [low, high] = speeds.map(action_for_speed);
             half[head * numbers + SPEED] = 0.5 * (high - low);
             middle[head * numbers + SPEED] = 0.5 * (high + low);
         }
@@ -61,7 +61,7 @@ impl Networks {
         for head in 0..hyper.heads {
             let offset = (head as f64 + 0.5) / hyper.heads as f64;
             let tip = TIP_STEPS.map(|step| ((0.5 + step * head as f64).fract() - 0.5) as f32);
-            start.extend_from_slice(&[aim_at(offset).atanh(), 0.0, tip[0], tip[1], 0.0][..outputs]);
+            start.extend_from_slice(&[action_for_offset(offset).atanh(), 0.0, tip[0], tip[1], 0.0][..outputs]);
         }
         let [actor, critic] = hyper.sizes();
         let actor = Mlp::random(&actor, rng)?.with_output_bias(&start)?;
@@ -82,8 +82,8 @@ impl Networks {
     }
 
     #[must_use]
-    pub fn with(self, operations: Operations) -> Self {
-        Self { actor: self.actor.with(operations), critic: self.critic.with(operations), ..self }
+    pub fn with_operations(self, operations: Operations) -> Self {
+        Self { actor: self.actor.with_operations(operations), critic: self.critic.with_operations(operations), ..self }
     }
 
     /// Returns the heads' actions, observation by observation.
@@ -92,7 +92,7 @@ impl Networks {
     }
 
     /// Returns the heads' actions, observation by observation, and the critic's logit of success for each.
-    pub fn judge(&self, observed: &ObservationBatch) -> Result<(Vec<Action>, Vec<f32>)> {
+    pub fn propose_with_logits(&self, observed: &ObservationBatch) -> Result<(Vec<Action>, Vec<f32>)> {
         let actions = self.propose(observed)?;
         let logits = self.critic.forward_frozen(&observed.with_actions(&actions)?)?;
         Ok((actions_in(observed.space(), &actions)?, logits.flatten_all()?.to_vec1()?))
@@ -110,11 +110,11 @@ impl Networks {
             return Ok(Vec::new());
         }
         let situations = scenes.flat_map(|(table, layout, errors)| {
-            let all = Observation::every(table, layout, inputs.rails_first).into_iter();
+            let all = Observation::all(table, layout, inputs.rails_first).into_iter();
             all.map(move |observation| Situation { observation, table: Arc::clone(table), errors })
         });
         let observed = ObservationBatch::new(inputs, situations.collect())?;
-        let (actions, logits) = self.judge(&observed)?;
+        let (actions, logits) = self.propose_with_logits(&observed)?;
         let (heads, each) = (actions.len() / observed.situations.len(), actions.len() / layouts);
         let all = actions.into_iter().zip(logits).enumerate();
         let all = all.map(|(row, (action, logit))| (observed.situations[row / heads].observation, action, logit));
@@ -140,12 +140,12 @@ impl Networks {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::ddpg::action::{ActionSpace, Meaning};
+    use crate::learning::ddpg::action::{ActionSpace, DecodedAction};
     use rand::SeedableRng;
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
-    fn each_head_keeps_to_its_speeds_and_all_else_is_free() {
+    fn each_head_covers_only_its_speed_range() {
         let hyper =
             Hyperparameters { heads: 3, head_speeds: vec![[0.3, 2.0], [1.5, 6.0]], ..Hyperparameters::default() };
         let space = ActionSpace::Full;
@@ -156,7 +156,8 @@ mod tests {
             let actions = actions_in(space, &networks.squash(&outputs).unwrap()).unwrap();
             assert!(actions.iter().all(|action| (action[0] - output.tanh()).abs() < 1e-6), "{actions:?}");
             // With a level cue, the action's speed is that of the stroke.
-            let level = |action: &[f32; 5]| Meaning::of(&Table::default(), [action[0], action[1], 0.0, 0.0, -1.0]);
+            let level =
+                |action: &[f32; 5]| DecodedAction::of(&Table::default(), [action[0], action[1], 0.0, 0.0, -1.0]);
             actions.iter().map(|action| level(action).speed.value).collect::<Vec<_>>()
         };
         for (output, expected) in [(-20.0, [0.3, 1.5, 0.3]), (20.0, [2.0, 6.0, 2.0]), (0.0, [1.15, 3.75, 1.15])] {

@@ -43,13 +43,13 @@ impl Observation {
     }
 
     /// Returns all observations of a layout with a straight path to the first ball.
-    pub fn all(layout: &Layout) -> [Self; OBSERVATIONS] {
+    pub fn all_straight(layout: &Layout) -> [Self; OBSERVATIONS] {
         std::array::from_fn(|index| Self::new(layout, index))
     }
 
     /// Returns all observations of a layout, including those by a cushion if `rails_first`.
-    pub fn every(table: &Table, layout: &Layout, rails_first: bool) -> Vec<Self> {
-        let straight = Self::all(layout);
+    pub fn all(table: &Table, layout: &Layout, rails_first: bool) -> Vec<Self> {
+        let straight = Self::all_straight(layout);
         let by_rail = straight.iter().filter(|_| rails_first).flat_map(|view| view.by_nearest_rails(table));
         straight.into_iter().chain(by_rail).collect()
     }
@@ -141,12 +141,12 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
-    fn the_cue_ball_always_lies_on_the_right_and_distances_stay() {
+    fn observations_are_mirrored_and_keep_distances() {
         let table = Table::default();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
         for _ in 0..100 {
             let layout = Layout::random(&table, &mut rng);
-            for observation in Observation::all(&layout) {
+            for observation in Observation::all_straight(&layout) {
                 assert!(observation.cue.x >= 0.0);
                 assert!(
                     (observation.first.distance(observation.second) - layout.balls[1].distance(layout.balls[2])).abs()
@@ -162,11 +162,11 @@ mod tests {
         let layout = Layout::random(&table, &mut Xoshiro256PlusPlus::seed_from_u64(4));
         for mirror in [DVec2::new(-1.0, 1.0), DVec2::new(1.0, -1.0), DVec2::new(-1.0, -1.0)] {
             let mirrored = Layout::new(layout.balls.map(|ball| mirror * ball));
-            for observation in Observation::all(&layout) {
+            for observation in Observation::all_straight(&layout) {
                 let same = |other: &Observation| {
                     (other.cue, other.first, other.second) == (observation.cue, observation.first, observation.second)
                 };
-                assert!(Observation::all(&mirrored).iter().any(same));
+                assert!(Observation::all_straight(&mirrored).iter().any(same));
             }
         }
     }

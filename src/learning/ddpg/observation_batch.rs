@@ -182,12 +182,13 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
-    fn each_observation_is_paired_with_its_own_actions_and_gradients_reach_them() {
+    fn observations_are_joined_with_their_own_actions() {
         let table = Arc::new(Table::default());
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(10);
         let layout = crate::table::Layout::random(&table, &mut rng);
         for space in [ActionSpace::PhiV, ActionSpace::Full] {
-            let observed = ObservationBatch::on(&table, space, Observation::all(&layout)[..2].to_vec()).unwrap();
+            let observed =
+                ObservationBatch::on(&table, space, Observation::all_straight(&layout)[..2].to_vec()).unwrap();
             let values: Vec<Action> =
                 (1..5).map(|row| padded(&[0.1 * row as f32; ACTIONS][..space.actions()])).collect();
             let actions = Var::from_tensor(&action_rows(space, &values).unwrap()).unwrap();

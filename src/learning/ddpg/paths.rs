@@ -3,11 +3,11 @@
 use glam::DVec2;
 
 use super::{
-    action::{Action, Meaning},
+    action::{Action, DecodedAction},
     dual::{Dual, DualVector},
     first_contact::{Approach, FirstContact, RAIL_FEATURES},
     observation::{Lines, Observation},
-    rail_first::ByRail,
+    rail_first::RailFirstPaths,
 };
 use crate::{
     physics::{CueInputs, NoRoom, squirt, with_room},
@@ -21,17 +21,17 @@ pub struct Paths<'a> {
     pub observation: &'a Observation,
     /// The observation's lines from ball to ball.
     pub lines: Lines,
-    by_rail: Option<ByRail<'a>>,
+    by_rail: Option<RailFirstPaths<'a>>,
 }
 
 impl<'a> Paths<'a> {
     pub fn of(table: &'a Table, observation: &'a Observation) -> Self {
-        Self { table, observation, lines: observation.lines(table), by_rail: ByRail::of(table, observation) }
+        Self { table, observation, lines: observation.lines(table), by_rail: RailFirstPaths::of(table, observation) }
     }
 
     /// Computes the cue ball's arrival after the stroke of an action; slopes of a path by a cushion only if `slopes`. If no path by the
     /// cushion is found, the cushion counts as a mirror.
-    pub fn approach(&self, action: &Meaning, slopes: bool) -> Approach {
+    pub fn approach(&self, action: &DecodedAction, slopes: bool) -> Approach {
         if let Some(approach) = self.by_rail.as_ref().and_then(|paths| paths.approach(action, slopes)) {
             return approach;
         }
@@ -45,7 +45,7 @@ impl<'a> Paths<'a> {
     }
 
     /// Returns the direction in which the ball leaves the cue in the stroke of an action, rad on the table.
-    fn direction(&self, action: &Meaning) -> f64 {
+    fn direction(&self, action: &DecodedAction) -> f64 {
         if let Some(paths) = &self.by_rail {
             return paths.direction(action);
         }
@@ -59,16 +59,16 @@ impl<'a> Paths<'a> {
 
 /// Returns the stroke that carries out `action` in `observation`.
 pub fn cue_inputs(table: &Table, observation: &Observation, action: Action) -> CueInputs {
-    let meaning = Meaning::of(table, action);
-    let [left, up] = meaning.tip;
+    let decoded = DecodedAction::of(table, action);
+    let [left, up] = decoded.tip;
     let a = observation.side_on_table(left.value);
     CueInputs {
         // Adding zero turns a negative zero into a positive one, which is easier to read.
         a: a + 0.0,
         b: up.value,
-        theta: meaning.theta.value,
-        phi: Paths::of(table, observation).direction(&meaning) - squirt(table, a),
-        speed: meaning.speed.value,
+        theta: decoded.theta.value,
+        phi: Paths::of(table, observation).direction(&decoded) - squirt(table, a),
+        speed: decoded.speed.value,
     }
 }
 
@@ -93,13 +93,13 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
-    fn the_aiming_line_passes_the_first_ball_at_the_offset_on_the_side_of_the_view() {
+    fn the_aiming_line_passes_the_first_ball_at_the_offset() {
         // Without flight, because the thesis' fixed elevation would make balls hop.
         let table = Table { flight: None, ..Table::default() };
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
         for _ in 0..100 {
             let layout = Layout::random(&table, &mut rng);
-            for (index, observation) in Observation::all(&layout).iter().enumerate() {
+            for (index, observation) in Observation::all_straight(&layout).iter().enumerate() {
                 let action = [rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0), 0.0, 0.0, 0.0];
                 let cue = cue_inputs(&table, observation, action);
                 cue.validate().unwrap();
@@ -108,13 +108,13 @@ mod tests {
                 // Positive if the ball's centre is on the right of the aiming line.
                 let passed = -DVec2::from_angle(cue.phi).perp_dot(to_ball) / (2.0 * table.radius);
                 let side = if index & 2 == 0 { 1.0 } else { -1.0 };
-                assert!((passed * side - Meaning::of(&table, action).offset.value).abs() < 1e-12);
+                assert!((passed * side - DecodedAction::of(&table, action).offset.value).abs() < 1e-12);
             }
         }
     }
 
     #[test]
-    fn no_action_exceeds_the_miscue_limit_and_nan_still_gives_a_stroke() {
+    fn all_actions_give_strokes_within_the_miscue_limit() {
         for name in crate::table::PRESETS {
             let table = Table::preset(name).unwrap();
             let observation = Observation::new(&Layout::opening(&table), 0);
@@ -138,7 +138,7 @@ mod tests {
             let [(one, path), (other, other_path)] = [(layout, 0), (mirrored, 2)].map(|(layout, index)| {
                 let observation = Observation { rail, ..Observation::new(&layout, index) };
                 let paths = Paths::of(&table, &observation);
-                let Approach { contact, course, by_rail } = paths.approach(&Meaning::of(&table, action), false);
+                let Approach { contact, course, by_rail } = paths.approach(&DecodedAction::of(&table, action), false);
                 let numbers = [contact.side, course.x, course.y].into_iter().chain(by_rail);
                 (cue_inputs(&table, &observation, action), numbers.map(|number| number.value).collect::<Vec<_>>())
             });

@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use super::{
-    action::Meaning,
+    action::DecodedAction,
     dual::{Dual, DualVector},
     first_contact::{Approach, FirstContact, RAIL_FEATURES, TYPICAL_SPEED},
     observation::Observation,
@@ -49,7 +49,7 @@ struct RailPath {
 
 /// The paths by a cushion in an observation.
 #[derive(Clone, Debug)]
-pub struct ByRail<'a> {
+pub struct RailFirstPaths<'a> {
     table: &'a Table,
     observation: &'a Observation,
     constants: Constants,
@@ -59,7 +59,7 @@ pub struct ByRail<'a> {
     balls: [DVec2; 2],
 }
 
-impl<'a> ByRail<'a> {
+impl<'a> RailFirstPaths<'a> {
     /// Creates the paths by the cushion of an observation; `None` if its path is straight.
     pub fn of(table: &'a Table, observation: &'a Observation) -> Option<Self> {
         // Returns early, because most observations have no cushion.
@@ -76,14 +76,14 @@ impl<'a> ByRail<'a> {
 
     /// Returns the direction in which the ball must leave the cue, rad on the table, so that its course passes the first ball at the
     /// action's offset. If none is found, returns the direction for a cushion that reflects like a mirror.
-    pub fn direction(&self, action: &Meaning) -> f64 {
-        self.aim(action).map_or_else(|| self.mirrored(), |(parameters, _)| parameters[0])
+    pub fn direction(&self, action: &DecodedAction) -> f64 {
+        self.aim(action).map_or_else(|| self.mirror_direction(), |(parameters, _)| parameters[0])
     }
 
     /// Computes the cue ball's arrival, with slopes only if `slopes`; `None` if no direction is found.
-    pub fn approach(&self, action: &Meaning, slopes: bool) -> Option<Approach> {
+    pub fn approach(&self, action: &DecodedAction, slopes: bool) -> Option<Approach> {
         let (parameters, path) = self.aim(action)?;
-        let Meaning { speed, tip: [left, up], theta, offset } = *action;
+        let DecodedAction { speed, tip: [left, up], theta, offset } = *action;
         let numbers = if slopes {
             let partial = |index: usize| {
                 let mut moved = parameters;
@@ -118,18 +118,18 @@ impl<'a> ByRail<'a> {
     }
 
     /// Returns the direction to the first ball's image in the cushion, rad.
-    fn mirrored(&self) -> f64 {
+    fn mirror_direction(&self) -> f64 {
         let [cue, first] = self.balls;
         (self.rail.image(self.constants.reach, first) - cue).to_angle()
     }
 
     /// Finds the stroke that passes the first ball at the action's offset, and its path, by the secant method from the mirror's direction.
-    fn aim(&self, action: &Meaning) -> Option<(Parameters, RailPath)> {
-        let Meaning { speed, tip: [left, up], theta, offset } = action;
+    fn aim(&self, action: &DecodedAction) -> Option<(Parameters, RailPath)> {
+        let DecodedAction { speed, tip: [left, up], theta, offset } = action;
         let at = |direction| [direction, speed.value, left.value, up.value, theta.value];
         let target = 2.0 * self.table.radius * offset.value;
         let impulse = self.impulse(&at(0.0));
-        let mut direction = self.mirrored();
+        let mut direction = self.mirror_direction();
         let mut last: Option<(f64, f64)> = None;
         for _ in 0..MAX_ITERATIONS {
             let path = self.follow(&impulse, direction)?;
@@ -299,9 +299,9 @@ mod tests {
     fn errors(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Option<[f64; 3]> {
         let layout = Layout::random(table, rng);
         let observation = Observation::random(table, &layout, true, rng);
-        let (paths, action) = (ByRail::of(table, &observation)?, action(rng));
-        let meaning = Meaning::of(table, action);
-        let Approach { contact, course, .. } = paths.approach(&meaning, false)?;
+        let (paths, action) = (RailFirstPaths::of(table, &observation)?, action(rng));
+        let decoded = DecodedAction::of(table, action);
+        let Approach { contact, course, .. } = paths.approach(&decoded, false)?;
         // All other balls are out of the way, so that the cue ball runs on through the first ball's position.
         let [cue_ball, first] = paths.balls;
         let corners = [DVec2::ONE, DVec2::new(-1.0, 1.0)].map(|corner| corner * table.reach());
@@ -327,14 +327,14 @@ mod tests {
         let passed = handed * ball.velocity.normalize().perp_dot(ball.position - first) / (2.0 * table.radius);
         let course = DVec2::new(course.x.value, course.y.value);
         Some([
-            (passed - meaning.offset.value).abs(),
+            (passed - decoded.offset.value).abs(),
             (ball.velocity.length() / contact.speed_on_arrival.value - 1.0).abs(),
             (observation.mirror * course).angle_to(ball.velocity).abs(),
         ])
     }
 
     #[test]
-    fn the_cue_ball_arrives_by_the_cushion_as_the_simulator_says() {
+    fn the_predicted_arrival_by_a_cushion_matches_the_simulator() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(61);
         for name in crate::table::PRESETS {
             let table = Table::preset(name).unwrap();

@@ -46,7 +46,7 @@ pub struct Conditions {
 impl Conditions {
     /// Returns the same conditions on the run's own table.
     #[must_use]
-    pub const fn at_home(self) -> Self {
+    pub const fn on_own_table(self) -> Self {
         Self { table: self.table - self.table % OWN as u32, ..self }
     }
 }
@@ -151,14 +151,14 @@ impl RandomizedTables {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::ddpg::{action::ActionSpace, context::knows};
+    use crate::learning::ddpg::{action::ActionSpace, context::is_known_table};
 
     fn inputs(context: bool) -> Inputs {
         Inputs { space: ActionSpace::Full, context, closed_form: true, rails_first: false }
     }
 
     #[test]
-    fn with_a_context_many_tables_follow_from_the_seed_and_without_there_is_one() {
+    fn only_context_agents_train_on_many_tables() {
         let table = Arc::new(Table::default());
         let alone = RandomizedTables::new(&table, inputs(false), 1);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
@@ -168,7 +168,7 @@ mod tests {
             |tables: &RandomizedTables| tables.0.iter().map(|table| Table::clone(&table.nominal)).collect::<Vec<_>>();
         assert_eq!(nominal(&one), nominal(&same));
         assert_ne!(nominal(&one), nominal(&other));
-        let known = one.0.iter().filter(|table| knows(&table.nominal)).count();
+        let known = one.0.iter().filter(|table| is_known_table(&table.nominal)).count();
         assert!(known > TABLES * 9 / 10, "{known} of {TABLES}");
         assert!(one.0.iter().all(|table| table.actual.len() == ACTUAL));
         let perfect = (0..1000).filter(|_| one.draw(0.35, &mut rng).errors == 0.0).count();

@@ -72,13 +72,16 @@ impl Trainer {
         let tasks: Vec<_> = scenes.into_iter().zip(proposals).map(|task| (task, self.rng.random())).collect();
         let (reward, inputs) = (self.task.plan.reward, self.task.hyperparameters.inputs());
         let (tables, networks) = (&self.tables, &self.agent.target);
-        let found =
-            platform::parallel::try_map(platform::threads(), &tasks, |(((layout, conditions), proposals), seed)| {
+        let found = platform::parallel::try_map(
+            platform::thread_count(),
+            &tasks,
+            |(((layout, conditions), proposals), seed)| {
                 let proposals: Vec<_> =
                     proposals.iter().map(|&(observation, action, _)| (observation, action)).collect();
                 let expert = Expert { tables, reward, inputs, networks, layout, conditions: *conditions };
                 expert.search(&proposals, &mut Xoshiro256PlusPlus::seed_from_u64(*seed))
-            })?;
+            },
+        )?;
         for SearchResult { best, others } in found {
             for stroke in &best {
                 self.searched.push(*stroke);
@@ -173,7 +176,7 @@ impl Trainer {
         let scenes: Vec<Scene> = (0..calibrated)
             .map(|number| {
                 let conditions = self.tables.draw(perfect, &mut rng);
-                let conditions = if number % 2 == 0 { conditions.at_home() } else { conditions };
+                let conditions = if number % 2 == 0 { conditions.on_own_table() } else { conditions };
                 (Layout::random(self.tables.table(conditions), &mut rng), conditions)
             })
             .collect();

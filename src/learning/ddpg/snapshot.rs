@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn a_resumed_run_is_bit_for_bit_the_uninterrupted_run() {
+    fn a_resumed_run_is_identical_to_an_uninterrupted_one() {
         let mut with_context = small_task();
         with_context.hyperparameters.context = true;
         with_context.hyperparameters.ranking = 0.5;
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn another_note_and_missing_arrays_are_refused() {
+    fn wrong_notes_and_missing_arrays_are_refused() {
         let mut writer = Writer::default();
         let note = write(&Trainer::new(small_task(), Table::default()).unwrap(), &mut writer).unwrap();
         let empty = Writer::default().finish(&note).unwrap();
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn settings_of_earlier_versions_are_accepted_if_they_had_no_effect() {
+    fn ineffective_settings_of_earlier_versions_are_accepted() {
         let trainer = Trainer::new(small_task(), Table::default()).unwrap();
         let bytes = bytes(&trainer);
         let reader = Reader::new(&bytes).unwrap();

@@ -138,7 +138,7 @@ pub(in crate::learning) mod tests {
     }
 
     #[test]
-    fn the_learning_rate_falls_from_one_to_nothing() {
+    fn the_learning_rate_factor_falls_from_one_to_zero() {
         let mut trainer = Trainer::new(small_task(), Table::default()).unwrap();
         assert_eq!(trainer.lr_factor(), 1.0);
         while !trainer.is_finished() {

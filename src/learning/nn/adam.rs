@@ -202,7 +202,7 @@ mod tests {
     const CONFIG: AdamConfig = AdamConfig { learning_rate: 0.01, gradient_clip: f64::INFINITY };
 
     #[test]
-    fn a_hundred_steps_agree_with_candles_own_optimiser_without_weight_decay() {
+    fn a_hundred_steps_agree_with_candles_optimiser() {
         let start = [0.5f32, -1.0, 2.0, 0.0, 3.0];
         let (ours, theirs) = (variable(&start), variable(&start));
         let mut adam = Adam::new(vec![ours.clone()], CONFIG).unwrap();
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_gradient_is_shortened_over_all_variables_together() {
+    fn the_gradient_norm_is_clipped_over_all_variables() {
         let (x, y) = (variable(&[3.0]), variable(&[4.0]));
         let mut adam = Adam::new(vec![x.clone(), y.clone()], AdamConfig { gradient_clip: 1.0, ..CONFIG }).unwrap();
         let loss = ((x.sqr().unwrap() + y.sqr().unwrap()).unwrap() * 0.5).unwrap().sum_all().unwrap();
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn a_soft_update_goes_its_fraction_of_the_way() {
+    fn a_soft_update_moves_by_its_rate() {
         let (target, online) = (variable(&[0.0, 1.0]), variable(&[1.0, 1.0]));
         soft_update(&target, &online, 0.25).unwrap();
         assert_eq!(target.to_vec1::<f32>().unwrap(), [0.25, 1.0]);

@@ -72,12 +72,12 @@ impl Mlp {
 
     /// Returns a network with its own copy of the parameters.
     pub fn duplicate(&self) -> Result<Self> {
-        Ok(Self::from_parameters(&self.sizes, self.parameters.to_vec1()?)?.with(self.operations))
+        Ok(Self::from_parameters(&self.sizes, self.parameters.to_vec1()?)?.with_operations(self.operations))
     }
 
     /// Returns this network with other operations.
     #[must_use]
-    pub fn with(self, operations: Operations) -> Self {
+    pub fn with_operations(self, operations: Operations) -> Self {
         Self { operations, ..self }
     }
 
@@ -90,7 +90,7 @@ impl Mlp {
         }
         let start = parameters.len() - outputs;
         parameters[start..].copy_from_slice(bias);
-        Ok(Self::from_parameters(&self.sizes, parameters)?.with(self.operations))
+        Ok(Self::from_parameters(&self.sizes, parameters)?.with_operations(self.operations))
     }
 
     /// Returns this network with `count` more inputs, inserted after the first `after` inputs. Their weights are zero, so the outputs
@@ -104,7 +104,7 @@ impl Mlp {
         let at = after * sizes[1];
         parameters.splice(at..at, std::iter::repeat_n(0.0, count * sizes[1]));
         sizes[0] += count;
-        Ok(Self::from_parameters(&sizes, parameters)?.with(self.operations))
+        Ok(Self::from_parameters(&sizes, parameters)?.with_operations(self.operations))
     }
 
     /// Layer sizes, inputs first.
@@ -177,10 +177,10 @@ mod tests {
     }
 
     #[test]
-    fn outputs_and_gradients_agree_with_candles_own_operations() {
+    fn outputs_and_gradients_agree_with_candle() {
         let (mlp, inputs) = network_and_inputs();
         let fused = mlp.forward(&inputs).unwrap();
-        let plain = mlp.clone().with(Operations::Plain).forward(&inputs).unwrap();
+        let plain = mlp.clone().with_operations(Operations::Plain).forward(&inputs).unwrap();
         assert!(largest_difference(&fused, &plain) < 1e-5);
         let loss = |outputs: &Tensor| outputs.sin().unwrap().sum_all().unwrap().backward().unwrap();
         let (fused, plain) = (loss(&fused), loss(&plain));
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn more_inputs_change_nothing_until_their_weights_are_learnt() {
+    fn added_inputs_start_without_effect() {
         let (mlp, inputs) = network_and_inputs();
         let wide = mlp.duplicate().unwrap().with_more_inputs(2, 4).unwrap();
         assert_eq!(wide.sizes(), [9, 33, 17, 3]);
@@ -202,10 +202,10 @@ mod tests {
     }
 
     #[test]
-    fn a_frozen_network_lets_gradients_through_to_its_inputs_alone() {
+    fn frozen_networks_pass_gradients_only_to_inputs() {
         for operations in [Operations::Fused, Operations::Plain] {
             let (mlp, inputs) = network_and_inputs();
-            let mlp = mlp.with(operations);
+            let mlp = mlp.with_operations(operations);
             let slopes = |outputs: &Tensor| outputs.sum_all().unwrap().backward().unwrap();
             let (frozen, free) =
                 (slopes(&mlp.forward_frozen(&inputs).unwrap()), slopes(&mlp.forward(&inputs).unwrap()));

@@ -50,7 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn error_and_gradient_are_those_of_candle_s_own_operations() {
+    fn error_and_gradient_agree_with_candle() {
         let predicted = Var::new(&[[1.5f32], [-0.25], [3.0]], &Device::Cpu).unwrap();
         let target = Tensor::new(&[[1.0f32], [0.5], [-2.0]], &Device::Cpu).unwrap();
         let [ours, theirs] = [squared_error(&predicted, &target), mse(&predicted, &target)].map(|error| {

@@ -15,11 +15,11 @@ use super::{
 };
 use crate::{
     learning::{
-        checksum::{NO_CHECKSUM, OF_CHECKPOINT, is_whole, write_checksum},
+        checksum::{CHECKPOINT_FIELD, CHECKSUM_PLACEHOLDER, is_intact, write_checksum},
         learner::{AgentKind, Iteration, Learner},
         nn::weights::{Reader, WeightsError, Writer},
     },
-    storage::{self, Staged},
+    storage::{self, StagedFile},
 };
 
 /// File name of the current checkpoint.
@@ -74,13 +74,13 @@ impl Loaded {
 pub struct Checkpoints {
     folder: PathBuf,
     /// Whether the current checkpoint is intact and may become the previous one. A damaged one must not replace an intact one.
-    current_is_whole: bool,
+    current_is_intact: bool,
 }
 
 impl Checkpoints {
     /// Creates the checkpoints of a run that has none yet.
     pub fn new(folder: &Path) -> Self {
-        Self { folder: folder.to_owned(), current_is_whole: false }
+        Self { folder: folder.to_owned(), current_is_intact: false }
     }
 
     /// Opens the checkpoints in `folder` and loads the newest intact one.
@@ -88,13 +88,13 @@ impl Checkpoints {
     /// # Errors
     /// [`RunError::Missing`] or [`RunError::Checkpoints`].
     pub fn open(folder: &Path) -> Result<(Self, Loaded), RunError> {
-        let read = |name: &str| loaded(&folder.join(name), storage::read(&folder.join(name), storage::LARGE));
+        let read = |name: &str| loaded(&folder.join(name), storage::read(&folder.join(name), storage::MAX_LARGE_FILE));
         let is_missing = |damage: &Damage| match &damage.reason {
             DamageReason::File(error) => error.kind() == io::ErrorKind::NotFound,
             _ => false,
         };
         let current = match read(CURRENT) {
-            Ok(loaded) => return Ok((Self { folder: folder.to_owned(), current_is_whole: true }, loaded)),
+            Ok(loaded) => return Ok((Self { folder: folder.to_owned(), current_is_intact: true }, loaded)),
             Err(damage) => damage,
         };
         match read(PREVIOUS) {
@@ -116,13 +116,13 @@ impl Checkpoints {
     /// The errors of the file system. Existing intact checkpoints are kept.
     pub fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         let current = self.folder.join(CURRENT);
-        let staged = Staged::new(&current, bytes)?;
+        let staged = StagedFile::new(&current, bytes)?;
         // If the process is killed between the two renames, the run resumes from the previous one.
-        if std::mem::take(&mut self.current_is_whole) {
+        if std::mem::take(&mut self.current_is_intact) {
             std::fs::rename(&current, self.folder.join(PREVIOUS))?;
         }
         staged.publish()?;
-        self.current_is_whole = true;
+        self.current_is_intact = true;
         Ok(())
     }
 }
@@ -198,7 +198,7 @@ impl Accumulator {
 pub fn bytes(learner: &dyn Learner, state: &State) -> Result<Vec<u8>, WeightsError> {
     let mut writer = Writer::default();
     let note = Header {
-        checksum: NO_CHECKSUM.to_owned(),
+        checksum: CHECKSUM_PLACEHOLDER.to_owned(),
         format: FORMAT,
         agent: learner.agent().to_owned(),
         shots: learner.shots(),
@@ -206,12 +206,12 @@ pub fn bytes(learner: &dyn Learner, state: &State) -> Result<Vec<u8>, WeightsErr
         learner: learner.save(&mut writer)?,
     };
     let mut bytes = writer.finish(&note)?;
-    if write_checksum(OF_CHECKPOINT, &mut bytes) { Ok(bytes) } else { Err(WeightsError::Foreign) }
+    if write_checksum(CHECKPOINT_FIELD, &mut bytes) { Ok(bytes) } else { Err(WeightsError::Foreign) }
 }
 
 /// Restores the learner and the run's state from a checkpoint's bytes.
 fn restore(bytes: &[u8]) -> Result<(Box<dyn Learner>, State), DamageReason> {
-    match is_whole(OF_CHECKPOINT, bytes) {
+    match is_intact(CHECKPOINT_FIELD, bytes) {
         Some(true) => {}
         Some(false) => return Err(DamageReason::Checksum),
         None => return Err(DamageReason::NoChecksum),
@@ -233,7 +233,7 @@ pub fn agent_of_checkpoint(path: &Path) -> Option<String> {
 
 /// Returns the entry `name` in the note of the checkpoint at `path`. The note of a policy has no entry "agent".
 fn note_entry(path: &Path, name: &str) -> Option<Value> {
-    let bytes = storage::read(path, storage::LARGE).ok()?;
+    let bytes = storage::read(path, storage::MAX_LARGE_FILE).ok()?;
     Reader::new(&bytes).ok()?.note::<Value>().ok()?.get(name).cloned()
 }
 
@@ -274,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn the_current_checkpoint_is_used_or_the_previous_one_if_it_is_missing() {
+    fn the_previous_checkpoint_replaces_a_missing_one() {
         let (folder, [before, last]) = folder_of_two();
         assert_eq!(shots_after_opening(folder.path()).unwrap(), (last, false));
         assert_eq!(shots_in(folder.path()), Some(last));
@@ -285,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn a_damaged_checkpoint_does_not_replace_the_intact_previous_one() {
+    fn a_damaged_checkpoint_keeps_the_previous_one() {
         let (folder, [before, _]) = folder_of_two();
         fs::write(folder.path().join(CURRENT), b"damaged").unwrap();
         let (mut checkpoints, loaded) = Checkpoints::open(folder.path()).unwrap();
@@ -301,13 +301,13 @@ mod tests {
         let format = br#"\"format\":2"#;
         let place = bytes.windows(format.len()).position(|window| window == format).unwrap();
         bytes[place + format.len() - 1] = b'9';
-        assert!(write_checksum(OF_CHECKPOINT, &mut bytes));
+        assert!(write_checksum(CHECKPOINT_FIELD, &mut bytes));
         let message = restore(&bytes).unwrap_err().to_string();
         assert!(message.contains("format 9,") && message.contains("format 2"), "{message}");
     }
 
     #[test]
-    fn means_are_over_the_shots_and_updates_since_the_last_line_and_survive_a_file() {
+    fn means_since_the_last_line_survive_a_checkpoint() {
         let iteration = |reward| Iteration { mean_reward: reward, q_value: 0.1, critic_loss: 0.7, actor_loss: None };
         let mut accumulator = Accumulator::default();
         // The second iteration is longer. The first one made no update and must not count in the mean loss.

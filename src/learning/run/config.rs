@@ -9,7 +9,7 @@ use super::{error::RunError, json};
 use crate::{
     game::Reward,
     learning::learner::{Learner, TrainingPlan},
-    printing::{SOURCE, VERSION, now},
+    printing::{COMMIT, VERSION, now},
     storage,
     table::Table,
 };
@@ -30,7 +30,7 @@ pub struct Schedule {
 }
 
 /// Smallest default number of shots between two evaluations: with fewer, a short run would mostly evaluate itself.
-const FEWEST_SHOTS: u64 = 10_000;
+const MIN_SHOTS: u64 = 10_000;
 
 /// Lines of metrics per evaluation: a run of an hour writes one every one or two seconds.
 const LINES: u64 = 50;
@@ -41,7 +41,7 @@ const LAYOUTS: usize = 2_000;
 impl Schedule {
     /// Returns the default schedule of a run of `shots` shots: 50 evaluations, or fewer if the run is short.
     pub fn for_shots(shots: u64) -> Self {
-        Self::new((shots / 50).max(FEWEST_SHOTS), LAYOUTS)
+        Self::new((shots / 50).max(MIN_SHOTS), LAYOUTS)
     }
 
     /// Returns the schedule that evaluates every `evaluate_every` shots on `evaluation_layouts` layouts.
@@ -99,7 +99,7 @@ impl Config {
             plan: learner.plan(),
             started: now(),
             version: VERSION.to_owned(),
-            source: SOURCE.map(str::to_owned),
+            source: COMMIT.map(str::to_owned),
             from,
             schedule,
             settings: learner.settings(),
@@ -112,7 +112,7 @@ impl Config {
     /// # Errors
     /// Fails if the file is missing or is not a configuration.
     pub fn read(folder: &Path) -> std::io::Result<Self> {
-        json::read(&folder.join(FILE), storage::SMALL)
+        json::read(&folder.join(FILE), storage::MAX_SMALL_FILE)
     }
 
     /// Writes the configuration of the run in `folder`.
@@ -129,7 +129,7 @@ impl Config {
     pub fn other_program(&self) -> Option<String> {
         let name =
             |version: &str, source: Option<&str>| format!("carom {version} ({})", source.unwrap_or("no checkout"));
-        let (theirs, ours) = (name(&self.version, self.source.as_deref()), name(VERSION, SOURCE));
+        let (theirs, ours) = (name(&self.version, self.source.as_deref()), name(VERSION, COMMIT));
         (theirs != ours)
             .then(|| format!("the run was started by {theirs}, and this is {ours}: the final weights may differ"))
     }
@@ -141,20 +141,20 @@ impl Config {
 }
 
 /// Largest number of characters of a table's name in a folder's name.
-const LONGEST_TABLE: usize = 40;
+const MAX_TABLE_NAME: usize = 40;
 
 /// Returns the default name of a new run's folder. Names sort by the `moment` of the start, in the format of `timestamp`.
 pub fn run_name(moment: &str, agent: &str, table: &str, reward: Reward, seed: impl Display) -> String {
     let plain = |letter: char| if letter.is_alphanumeric() { letter } else { '_' };
     // A table's name may contain characters that a folder's name must not, such as path separators.
-    let table: String = table.chars().map(plain).take(LONGEST_TABLE).collect();
+    let table: String = table.chars().map(plain).take(MAX_TABLE_NAME).collect();
     format!("{moment}-{agent}-{table}-{reward}-{seed}")
 }
 
 /// Returns the message about a configuration in `folder` that cannot be read for this reason.
-pub fn unreadable(folder: &Path, reason: &std::io::Error) -> String {
+pub fn unreadable_message(folder: &Path, reason: &std::io::Error) -> String {
     let version = || {
-        let config: Value = json::read(&folder.join(FILE), storage::SMALL).ok()?;
+        let config: Value = json::read(&folder.join(FILE), storage::MAX_SMALL_FILE).ok()?;
         let version = config.get("version")?.as_str()?.to_owned();
         (version != VERSION).then_some(version)
     };

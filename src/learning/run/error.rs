@@ -138,7 +138,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_command_that_resumes_a_run_can_be_pasted() {
+    fn the_resume_command_can_be_pasted() {
         let message = RunError::Occupied("d b/my run".to_owned()).to_string();
         assert!(
             message.starts_with("d b/my run already") && message.contains("--resume 'd b/my run', or"),

@@ -13,7 +13,7 @@ use std::{
 use crc::{CRC_32_ISCSI, Crc};
 
 use super::metrics::Record;
-use crate::storage::replace;
+use crate::storage::write_atomic_unsynced;
 
 /// File name; `TensorBoard` finds files by a part of it.
 pub const FILE: &str = "events.out.tfevents.carom";
@@ -30,7 +30,7 @@ impl EventFile {
     pub fn open(folder: &Path, records: &[Record], is_whole: bool) -> io::Result<Self> {
         let path = folder.join(FILE);
         if is_whole || !path.exists() {
-            replace(&path, &Self::content(records))?;
+            write_atomic_unsynced(&path, &Self::content(records))?;
         }
         Ok(Self(OpenOptions::new().append(true).open(path)?))
     }
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_the_metrics_have_lost_stay_in_the_file() {
+    fn lines_missing_in_the_metrics_are_kept() {
         let folder = tempfile::tempdir().unwrap();
         let record = Record { shots: 300, ..Record::default() };
         let length = || std::fs::metadata(folder.path().join(FILE)).unwrap().len();
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_a_version_and_an_event_a_line() {
+    fn a_file_has_a_version_and_one_event_per_line() {
         let folder = tempfile::tempdir().unwrap();
         let record = Record { shots: 300, critic_loss: f64::NAN, rollout_reward: 0.25, ..Record::default() };
         let mut file = EventFile::open(folder.path(), std::slice::from_ref(&record), true).unwrap();

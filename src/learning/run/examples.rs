@@ -8,7 +8,7 @@ use super::json;
 use crate::{
     learning::learner::Learner,
     physics::CueInputs,
-    storage::{self, replace},
+    storage::{self, write_atomic_unsynced},
     table::Layout,
 };
 
@@ -43,18 +43,18 @@ impl Examples {
     pub(crate) fn of(learner: &dyn Learner, layouts: &[Layout]) -> candle_core::Result<Self> {
         let layouts = &layouts[..layouts.len().min(COUNT)];
         let (reward, table) = (learner.plan().reward, learner.table());
-        let shots = learner.shots_on(layouts)?.into_iter().zip(layouts);
+        let shots = learner.choose_shots(layouts)?.into_iter().zip(layouts);
         let shots = shots.map(|(cue, &layout)| Example { layout, cue, reward: reward.of(table, &layout, &cue) });
         Ok(Self { after: learner.shots(), shots: shots.collect() })
     }
 
     /// Writes the examples of the run in `folder`.
     pub(crate) fn write(&self, folder: &Path) -> std::io::Result<()> {
-        replace(&folder.join(FILE), &serde_json::to_vec(self)?)
+        write_atomic_unsynced(&folder.join(FILE), &serde_json::to_vec(self)?)
     }
 
     /// Reads the examples of the run in `folder`.
     pub(crate) fn read(folder: &Path) -> std::io::Result<Self> {
-        json::read(&folder.join(FILE), storage::LARGE)
+        json::read(&folder.join(FILE), storage::MAX_LARGE_FILE)
     }
 }

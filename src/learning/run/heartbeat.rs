@@ -13,7 +13,7 @@ use super::{
 use crate::learning::learner::{Learner, Progress};
 
 /// Time between two beats. A run that misses many of them counts as stalled.
-pub const BEAT: Duration = Duration::from_secs(1);
+pub const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
 
 /// Time between two polls for a request.
 const REQUEST_INTERVAL: Duration = Duration::from_millis(200);
@@ -44,7 +44,7 @@ impl Heartbeat {
 
     /// Writes the status, `seconds` into the training, if a second has passed since the last beat or the phase has changed.
     pub fn beat(&mut self, phase: Phase, learner: &dyn Learner, seconds: f64) {
-        let is_due = self.last_beat.is_none_or(|last| last.elapsed() >= BEAT);
+        let is_due = self.last_beat.is_none_or(|last| last.elapsed() >= HEARTBEAT_INTERVAL);
         if is_due || phase != self.status.phase {
             self.write_status(phase, learner, seconds);
         }
@@ -63,7 +63,7 @@ impl Heartbeat {
             return None;
         }
         self.last_poll = Instant::now();
-        Request::take(&self.folder)
+        Request::receive(&self.folder)
     }
 
     fn write_status(&mut self, phase: Phase, learner: &dyn Learner, seconds: f64) {

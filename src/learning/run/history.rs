@@ -168,7 +168,7 @@ mod tests {
     const ALL: RangeInclusive<f64> = f64::NEG_INFINITY..=f64::INFINITY;
 
     #[test]
-    fn each_line_is_a_point_and_a_part_has_one_more_beyond_either_end() {
+    fn a_range_includes_one_point_beyond_each_end() {
         let history = history_of((1..=4000).map(|n| record(100 * n, n as f64, (n % 50 == 0).then_some(0.5))));
         let all = history.points(Quantity::HeldOut, ALL);
         assert_eq!((all.len(), all[0].shots), (80, (5000, 5000)));
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn many_lines_are_drawn_as_few_points_that_keep_a_peak_of_one_line() {
+    fn reduced_points_keep_single_line_peaks() {
         let reward = |n: u64| match n {
             123_456 => 9.0,
             7 => f64::NAN,
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mean_of_the_largest_numbers_is_one_of_them() {
+    fn means_of_the_largest_numbers_stay_finite() {
         let span = |values: &[f64]| {
             let lines: Vec<Line> = (0..).zip(values.iter().copied()).collect();
             Point::of(&lines).finite
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_resumed_from_an_earlier_checkpoint_restarts_its_history() {
+    fn an_earlier_checkpoint_restarts_the_history() {
         let history = history_of([100, 200, 300, 200, 250].map(|shots| record(shots, f64::NAN, Some(shots as f64))));
         assert_eq!((history.best(), history.non_finite(Quantity::Reward).nan), (Some(250.0), 2));
         let shots: Vec<_> = history.points(Quantity::Reward, ALL).iter().map(|point| point.shots.0).collect();
@@ -227,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn quantities_are_numbered_in_the_order_of_their_list() {
+    fn quantity_numbers_match_their_list() {
         for (n, quantity) in Quantity::ALL.into_iter().enumerate() {
             assert_eq!(quantity as usize, n);
         }

@@ -11,7 +11,7 @@ use crate::storage::{self, write_atomic};
 pub fn read<T: DeserializeOwned>(path: &Path, largest: u64) -> io::Result<T> {
     let bytes = storage::read(path, largest)?;
     serde_json::from_slice(&bytes)
-        .map_err(|error| io::Error::new(io::ErrorKind::InvalidData, storage::json_flaw(&error)))
+        .map_err(|error| io::Error::new(io::ErrorKind::InvalidData, storage::describe_json_error(&error)))
 }
 
 /// Replaces the file at `path`; the text is indented, because people read it, too.

@@ -13,10 +13,11 @@ use super::{
     METRICS,
     checkpoint::shots_in,
     config::{self, Config},
+    contains_run,
     follow::{Condition, Followed, Follower},
-    holds_checkpoints, status,
+    status,
 };
-use crate::{game::Reward, printing::moment};
+use crate::{game::Reward, printing::format_utc};
 
 /// Summary of a run, for one line of a list.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -55,7 +56,7 @@ pub struct Summary {
 /// # Errors
 /// The errors of the file system for the folder.
 pub fn runs_in(folder: &Path) -> io::Result<Listing> {
-    RunsFolder::new(folder).look()
+    RunsFolder::new(folder).poll()
 }
 
 /// The runs in a folder.
@@ -81,14 +82,16 @@ impl RunsFolder {
     }
 
     /// Lists the runs once.
-    pub fn look(&mut self) -> io::Result<Listing> {
+    pub fn poll(&mut self) -> io::Result<Listing> {
         let mut listing = Listing::default();
         let folders = run_folders(&self.folder)?;
         self.known.retain(|known, _| folders.iter().any(|(_, folder)| folder == known));
         for (name, folder) in folders {
             match Config::read(&folder) {
                 Ok(config) => listing.runs.push(self.summary(&folder, name, config)),
-                Err(error) => listing.unreadable.push(format!("{name}: {}", config::unreadable(&folder, &error))),
+                Err(error) => {
+                    listing.unreadable.push(format!("{name}: {}", config::unreadable_message(&folder, &error)));
+                }
             }
         }
         Ok(listing)
@@ -98,7 +101,7 @@ impl RunsFolder {
         let Config { agent, plan, started, table, .. } = config;
         let new = || (Follower::new(folder), Followed::new(folder));
         let (follower, run) = self.known.entry(folder.to_owned()).or_insert_with(new);
-        if let Some(update) = follower.look() {
+        if let Some(update) = follower.poll() {
             run.apply(update);
         }
         let shots = match run.shots() {
@@ -115,7 +118,7 @@ impl RunsFolder {
             planned_shots: plan.shots,
             best_reward: run.best(),
             last_reward: run.held_out(),
-            changed: last_written(folder).map_or_else(|| started.clone(), moment),
+            changed: last_written(folder).map_or_else(|| started.clone(), format_utc),
             started,
             state: match follower.condition_after(shots, plan.shots) {
                 Condition::Stalled(_) => Condition::Stalled(Duration::ZERO),
@@ -140,16 +143,16 @@ fn last_written(folder: &Path) -> Option<SystemTime> {
 /// Returns the names relative to `folder` and the paths of its runs, in order, including groups of seeds; only `folder` if it is a run
 /// itself.
 fn run_folders(folder: &Path) -> io::Result<Vec<(String, PathBuf)>> {
-    if holds_checkpoints(folder) {
+    if contains_run(folder) {
         return Ok(vec![(name_of(folder), folder.to_owned())]);
     }
     let mut runs = Vec::new();
     for path in folders_in(folder)? {
         let name = name_of(&path);
-        if holds_checkpoints(&path) {
+        if contains_run(&path) {
             runs.push((name, path));
         } else {
-            let members = folders_in(&path).unwrap_or_default().into_iter().filter(|path| holds_checkpoints(path));
+            let members = folders_in(&path).unwrap_or_default().into_iter().filter(|path| contains_run(path));
             runs.extend(members.map(|member| (format!("{name}/{}", name_of(&member)), member)));
         }
     }

@@ -70,7 +70,7 @@ pub fn read(path: &Path) -> io::Result<Vec<Record>> {
 }
 
 fn records(bytes: &[u8]) -> impl Iterator<Item = Record> {
-    whole_lines(bytes).filter_map(|line| serde_json::from_slice(line).ok())
+    complete_lines(bytes).filter_map(|line| serde_json::from_slice(line).ok())
 }
 
 /// Returns warnings about the file of a run that resumes after `shots` shots: if it ends within a line, or if lines are missing (one is due
@@ -85,7 +85,7 @@ pub(super) fn notices(path: &Path, shots: u64, log_every: u64) -> Vec<String> {
             None if !path.exists() => {
                 format!("{METRICS} is missing: there is no line of the {shots} shots played")
             }
-            last => cut_off(last.unwrap_or(0), shots),
+            last => cut_off_notice(last.unwrap_or(0), shots),
         };
         format!("{problem}; those lines are lost, which does not affect the training")
     });
@@ -100,7 +100,7 @@ pub(super) fn lacks_lines(last: Option<u64>, shots: u64, log_every: u64) -> bool
 }
 
 /// Returns the message about a file with missing lines, whose last line is of `last` of the `shots` shots played.
-pub(super) fn cut_off(last: u64, shots: u64) -> String {
+pub(super) fn cut_off_notice(last: u64, shots: u64) -> String {
     format!("{METRICS} has been emptied or cut off: it ends after {last} of the {shots} shots played")
 }
 
@@ -120,7 +120,7 @@ impl MetricsFile {
     pub fn open(path: &Path, shots: u64) -> io::Result<(Self, Vec<Record>)> {
         let bytes = content(path)?;
         let (mut length, mut left) = (0, Vec::new());
-        for line in whole_lines(&bytes) {
+        for line in complete_lines(&bytes) {
             match serde_json::from_slice::<Record>(line) {
                 Ok(record) if record.shots > shots => break,
                 Ok(record) => left.push(record),
@@ -158,7 +158,7 @@ impl MetricsFile {
             if length < self.length {
                 // The file was emptied or cut off from outside. It must not be filled up with zeros, and no line may be added to an
                 // incomplete one.
-                let whole: usize = whole_lines(&content(&self.path)?).map(<[u8]>::len).sum();
+                let whole: usize = complete_lines(&content(&self.path)?).map(<[u8]>::len).sum();
                 self.length = self.length.min(whole as u64);
             }
             file.set_len(self.length)?;
@@ -176,11 +176,11 @@ impl MetricsFile {
 }
 
 fn content(path: &Path) -> io::Result<Vec<u8>> {
-    Ok(storage::read_if_there(path, storage::LARGE)?.unwrap_or_default())
+    Ok(storage::read_if_exists(path, storage::MAX_LARGE_FILE)?.unwrap_or_default())
 }
 
 /// Iterates over the complete lines, each with its newline.
-fn whole_lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
+fn complete_lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     bytes.split_inclusive(|byte| *byte == b'\n').filter(|line| line.ends_with(b"\n"))
 }
 
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_resumed_run_drops_later_lines_and_an_incomplete_one() {
+    fn resuming_drops_later_and_incomplete_lines() {
         let (_folder, path, mut file) = opened(5);
         for shots in [1, 2, 3] {
             file.push(&record(shots));
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_are_missing_before_a_checkpoint_are_reported() {
+    fn lines_missing_before_a_checkpoint_are_reported() {
         let (_folder, path, mut file) = opened(0);
         assert!(notices(&path, 99, 100).is_empty(), "no line is due yet");
         assert!(notices(&path, 640, 100)[0].contains("is missing: there is no line of the 640 shots"));
@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_was_cut_off_meanwhile_continues_after_its_last_complete_line() {
+    fn a_truncated_file_continues_after_its_last_line() {
         let (_folder, path, mut file) = opened(0);
         for shots in [1, 2] {
             file.push(&record(shots));
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_cannot_be_written_are_written_later() {
+    fn unwritten_lines_are_written_later() {
         let (_folder, path, mut file) = opened(0);
         fs::create_dir(&path).unwrap();
         for shots in [1, 2] {

@@ -109,7 +109,7 @@ impl Run {
     ) -> Result<Self, RunError> {
         make_folder(folder)?;
         let lock = lock(folder)?;
-        refuse_taken(folder, None)?;
+        check_unoccupied(folder, None)?;
         let config = Config::of(learner.as_ref(), schedule, from.clone());
         let state = State { schedule, from, accumulator: Accumulator::default() };
         let checkpoints = Checkpoints::new(folder);
@@ -126,7 +126,7 @@ impl Run {
     /// # Errors
     /// Fails if there is no intact checkpoint, or if another process works in the folder.
     pub fn resume(folder: &Path) -> Result<(Self, Vec<String>), RunError> {
-        if !holds_checkpoints(folder) {
+        if !contains_run(folder) {
             return Err(RunError::Missing(folder.display().to_string()));
         }
         let lock = lock(folder)?;
@@ -141,7 +141,7 @@ impl Run {
                 config.write(folder)?;
             } else {
                 // The file is kept, because a user may still find in it when and by which version the run was started.
-                let unreadable = config::unreadable(folder, &error);
+                let unreadable = config::unreadable_message(folder, &error);
                 notices
                     .push(format!("{unreadable} and stays as it is; the run goes on without it, from its checkpoint"));
             }
@@ -158,7 +158,7 @@ impl Run {
 
     /// Returns the result of a finished run; `None` if it is not finished or its result cannot be read.
     pub fn result(&self) -> Option<Score> {
-        let result: serde_json::Value = json::read(&self.folder.join(RESULT), storage::SMALL).ok()?;
+        let result: serde_json::Value = json::read(&self.folder.join(RESULT), storage::MAX_SMALL_FILE).ok()?;
         let number = |name: &str| result.get(name)?.as_f64();
         let score = Score { mean_reward: number(REWARD)?, best_of_k: number(BEST_OF_K)? };
         self.learner.is_finished().then_some(score)
@@ -209,7 +209,7 @@ impl Run {
 }
 
 /// Whether `folder` contains a run, that is, a checkpoint to resume from.
-pub fn holds_checkpoints(folder: &Path) -> bool {
+pub fn contains_run(folder: &Path) -> bool {
     [checkpoint::CURRENT, checkpoint::PREVIOUS].iter().any(|name| folder.join(name).exists())
 }
 
@@ -218,7 +218,7 @@ pub fn holds_checkpoints(folder: &Path) -> bool {
 /// # Errors
 /// [`RunError::Missing`], [`RunError::Busy`], or the errors of the file system.
 pub fn discard(folder: &Path) -> Result<(), RunError> {
-    if !holds_checkpoints(folder) {
+    if !contains_run(folder) {
         return Err(RunError::Missing(folder.display().to_string()));
     }
     let _lock = lock(folder)?;
@@ -243,7 +243,7 @@ fn make_folder(folder: &Path) -> Result<(), RunError> {
 }
 
 /// Refuses a folder that contains a run or any file other than `own`, because a new run could overwrite files.
-fn refuse_taken(folder: &Path, own: Option<&str>) -> Result<(), RunError> {
+fn check_unoccupied(folder: &Path, own: Option<&str>) -> Result<(), RunError> {
     let name = || folder.display().to_string();
     let holds = |file: &&str| folder.join(file).exists();
     if [config::FILE, checkpoint::CURRENT, checkpoint::PREVIOUS].iter().any(holds) || seeds::is_group(folder) {
@@ -261,7 +261,7 @@ fn refuse_taken(folder: &Path, own: Option<&str>) -> Result<(), RunError> {
 /// Locks a folder, and removes partially written files of a previous process that was killed.
 fn lock(folder: &Path) -> Result<Lock, RunError> {
     let busy = || RunError::Busy(folder.display().to_string());
-    let lock = Lock::take(folder).map_err(file(&folder.join("lock")))?.ok_or_else(busy)?;
+    let lock = Lock::try_acquire(folder).map_err(file(&folder.join("lock")))?.ok_or_else(busy)?;
     remove_partial_files(folder).map_err(file(folder))?;
     Ok(lock)
 }

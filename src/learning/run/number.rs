@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn whole_numbers_and_null_are_read_and_other_words_refused() {
+    fn integers_and_null_are_read_and_other_words_refused() {
         let read = |text: &str| serde_json::from_str::<Pair>(text);
         assert_eq!(read("{\"one\": -2}").unwrap().one, -2.0);
         let none = read("{\"one\": null, \"other\": null}").unwrap();

@@ -12,7 +12,7 @@ use super::{
 use crate::{
     learning::{
         Policy,
-        checksum::{OF_CHECKPOINT, is_whole},
+        checksum::{CHECKPOINT_FIELD, is_intact},
         learner::{AgentKind, Learner, note_of},
         nn::weights::{Reader, WeightsError},
         policy::bundled_bytes,
@@ -40,9 +40,9 @@ impl Weights {
         if path.is_dir() {
             return Ok(Self::of_checkpoint(path, Checkpoints::open(path)?.1));
         }
-        let bytes = storage::read(path, storage::LARGE).map_err(file(path))?;
+        let bytes = storage::read(path, storage::MAX_LARGE_FILE).map_err(file(path))?;
         // A file with a checkpoint's checksum, right or wrong, is treated as a checkpoint.
-        if is_whole(OF_CHECKPOINT, &bytes).is_some() {
+        if is_intact(CHECKPOINT_FIELD, &bytes).is_some() {
             return Ok(Self::of_checkpoint(path, checkpoint::load(path, bytes)?));
         }
         // Parses the same bytes, because a run may replace the file at any moment.
@@ -90,7 +90,7 @@ impl Weights {
     ///
     /// # Errors
     /// [`RunError::Origin`] if the agents, the meaning of the networks' inputs and outputs, or the sizes differ.
-    pub fn give_to(&self, learner: &mut dyn Learner) -> Result<(), RunError> {
+    pub fn load_into(&self, learner: &mut dyn Learner) -> Result<(), RunError> {
         let refuse = |reason| RunError::Origin { path: self.start.path.clone(), reason };
         let (found, expected) = (&self.start.agent, learner.agent());
         if found != expected {

@@ -11,8 +11,9 @@ use serde_json::Value;
 use super::{
     METRICS, Run, RunError,
     config::{Provenance, Schedule},
+    contains_run,
     error::file,
-    holds_checkpoints, json, metrics,
+    json, metrics,
     origin::Weights,
 };
 use crate::{
@@ -59,7 +60,7 @@ impl TrainingSpec {
         let agent = AgentKind::named(&self.agent)?;
         let mut learner = (agent.start)(TrainingPlan { seed, ..self.plan }, self.table.clone(), &self.settings)?;
         if let Some(weights) = weights {
-            weights.give_to(learner.as_mut())?;
+            weights.load_into(learner.as_mut())?;
         }
         Ok(learner)
     }
@@ -75,9 +76,9 @@ pub struct GroupFile {
 }
 
 /// Reads the description of the group in `folder`.
-pub fn described(folder: &Path) -> Result<GroupFile, RunError> {
+pub fn read_description(folder: &Path) -> Result<GroupFile, RunError> {
     let path = folder.join(FILE);
-    json::read(&path, storage::SMALL).map_err(file(&path))
+    json::read(&path, storage::MAX_SMALL_FILE).map_err(file(&path))
 }
 
 /// A group of runs that differ only in their seed, in subfolders of one folder.
@@ -99,7 +100,7 @@ impl Group {
         super::make_folder(folder)?;
         let lock = super::lock(folder)?;
         // Accepts an existing weights file: the same command was killed after writing it and is repeated now.
-        super::refuse_taken(folder, weights.map(|_| WEIGHTS))?;
+        super::check_unoccupied(folder, weights.map(|_| WEIGHTS))?;
         if let Some(weights) = weights {
             weights.write(&folder.join(WEIGHTS))?;
         }
@@ -110,7 +111,7 @@ impl Group {
 
     /// Resumes the group in `folder`.
     pub fn resume(folder: &Path) -> Result<Self, RunError> {
-        Ok(Self { folder: folder.to_owned(), file: described(folder)?, _lock: super::lock(folder)? })
+        Ok(Self { folder: folder.to_owned(), file: read_description(folder)?, _lock: super::lock(folder)? })
     }
 
     pub fn folder(&self) -> &Path {
@@ -126,7 +127,7 @@ impl Group {
     /// Creates the run with this seed, or resumes it if it exists, with the warnings of [`Run::resume`].
     pub fn run(&self, seed: u64) -> Result<(Run, Vec<String>), RunError> {
         let folder = self.member(seed);
-        if holds_checkpoints(&folder) {
+        if contains_run(&folder) {
             return Run::resume(&folder);
         }
         // Loads the weights only for a new run; a resumed one does not need them.
@@ -201,7 +202,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_spread_is_that_of_a_sample() {
+    fn the_spread_uses_the_sample_formula() {
         let spread = Spread::of(10, &[0.1, 0.2, 0.6]);
         assert!((spread.mean - 0.3).abs() < 1e-15 && (spread.sd.unwrap() - 0.07f64.sqrt()).abs() < 1e-15);
         assert_eq!((spread.seeds, spread.min, spread.max), (3, 0.1, 0.6));

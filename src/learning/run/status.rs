@@ -7,7 +7,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::json;
-use crate::storage::{self, replace};
+use crate::storage::{self, write_atomic_unsynced};
 
 /// File name of the status.
 pub const FILE: &str = "state.json";
@@ -92,7 +92,7 @@ impl RunStatus {
     /// # Errors
     /// The errors of the file system.
     pub fn write(&self, folder: &Path) -> std::io::Result<()> {
-        replace(&folder.join(FILE), &serde_json::to_vec(self)?)
+        write_atomic_unsynced(&folder.join(FILE), &serde_json::to_vec(self)?)
     }
 
     /// Reads the status of the run in `folder`.
@@ -100,6 +100,6 @@ impl RunStatus {
     /// # Errors
     /// Fails if the file is missing or is not a status.
     pub fn read(folder: &Path) -> std::io::Result<Self> {
-        json::read(&folder.join(FILE), storage::SMALL)
+        json::read(&folder.join(FILE), storage::MAX_SMALL_FILE)
     }
 }

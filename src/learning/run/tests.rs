@@ -30,11 +30,11 @@ struct Reports {
 }
 
 impl Watcher for Reports {
-    fn line(&mut self, record: &Record) {
+    fn on_record(&mut self, record: &Record) {
         self.lines.push(record.clone());
     }
 
-    fn warn(&mut self, sentence: &str) {
+    fn on_warning(&mut self, sentence: &str) {
         self.warnings.push(sentence.to_owned());
     }
 }
@@ -96,7 +96,7 @@ fn files_of(start: &dyn Fn(&Path) -> Run, stops: &[u32]) -> Files {
 }
 
 #[test]
-fn a_run_that_is_stopped_at_any_iteration_ends_with_the_same_files() {
+fn a_run_stopped_anywhere_ends_with_the_same_files() {
     let whole = files_of(&small_run, &[]);
     assert_eq!(whole.2.len(), 5);
     for stops in [[0, 0, 1], [1, 2, 3], [3, 1, 5], [4, 4, 1]] {
@@ -130,7 +130,7 @@ fn a_stopped_run_is_saved_before_its_evaluation() {
 }
 
 #[test]
-fn a_finished_run_is_saved_before_its_calibration_which_can_be_stopped() {
+fn a_finished_run_is_saved_before_its_calibration() {
     let (folder, whole) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let mut run = small_run(folder.path());
     // Stops after ten iterations, at the second call of the calibration's `go_on`.
@@ -167,9 +167,9 @@ fn resuming_a_finished_run_returns_its_stored_result() {
 struct Witness(PathBuf, Vec<(String, Vec<u8>)>);
 
 impl Watcher for Witness {
-    fn line(&mut self, _: &Record) {}
+    fn on_record(&mut self, _: &Record) {}
 
-    fn warn(&mut self, sentence: &str) {
+    fn on_warning(&mut self, sentence: &str) {
         self.1.push((sentence.to_owned(), fs::read(&self.0).unwrap()));
     }
 }
@@ -200,7 +200,7 @@ fn a_folder_belongs_to_one_run_at_a_time() {
 }
 
 #[test]
-fn a_configuration_that_cannot_be_read_is_kept_and_reported() {
+fn an_unreadable_configuration_is_kept_and_reported() {
     let folder = tempfile::tempdir().unwrap();
     drop(small_run(folder.path()));
     let path = folder.path().join(config::FILE);
@@ -215,7 +215,7 @@ fn a_configuration_that_cannot_be_read_is_kept_and_reported() {
 }
 
 #[test]
-fn a_failed_run_reports_its_numbers_and_resumes_from_its_last_checkpoint() {
+fn a_failed_run_resumes_from_its_last_checkpoint() {
     let folder = tempfile::tempdir().unwrap();
     let mut run = small_run(folder.path());
     let odd = Iteration { critic_loss: f64::NAN, actor_loss: Some(f64::NEG_INFINITY), ..Iteration::default() };
@@ -261,7 +261,7 @@ fn asked(run: &mut Run, requests: &[(Phase, Request)]) -> Ending {
 }
 
 #[test]
-fn requests_pause_resume_and_stop_a_run_without_changing_its_end() {
+fn requests_do_not_change_the_result_of_a_run() {
     let folder = tempfile::tempdir().unwrap();
     let mut run = small_run(folder.path());
     // A request to an earlier process is not carried out.
@@ -271,8 +271,8 @@ fn requests_pause_resume_and_stop_a_run_without_changing_its_end() {
     assert_eq!(RunStatus::read(folder.path()).unwrap().phase, Phase::Stopped);
     drop(run);
     let mut run = Run::resume(folder.path()).unwrap().0;
-    assert!(is_finished(asked(&mut run, &[(Phase::Training, Request::Pause), (Phase::Paused, Request::GoOn)])));
-    assert_eq!(Request::take(folder.path()), None);
+    assert!(is_finished(asked(&mut run, &[(Phase::Training, Request::Pause), (Phase::Paused, Request::Resume)])));
+    assert_eq!(Request::receive(folder.path()), None);
     let other = tempfile::tempdir().unwrap();
     finish(&mut small_run(other.path()));
     let [own, whole] = [&folder, &other].map(|folder| fs::read(folder.path().join(checkpoint::CURRENT)).unwrap());
@@ -280,7 +280,7 @@ fn requests_pause_resume_and_stop_a_run_without_changing_its_end() {
 }
 
 #[test]
-fn an_abandoned_run_leaves_only_files_that_are_not_its_own() {
+fn an_abandoned_run_leaves_only_foreign_files() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
     let mut run = small_run(path);
@@ -297,17 +297,17 @@ fn an_abandoned_run_leaves_only_files_that_are_not_its_own() {
 struct GivesUp<'a>(&'a Path);
 
 impl Watcher for GivesUp<'_> {
-    fn line(&mut self, record: &Record) {
+    fn on_record(&mut self, record: &Record) {
         if record.shots == 160 {
             Request::Abandon.send(self.0).unwrap();
         }
     }
 
-    fn warn(&mut self, _: &str) {}
+    fn on_warning(&mut self, _: &str) {}
 }
 
 #[test]
-fn a_run_that_is_abandoned_during_its_last_evaluation_does_not_finish() {
+fn a_run_abandoned_during_its_last_evaluation_is_unfinished() {
     let folder = tempfile::tempdir().unwrap();
     let ending = small_run(folder.path()).train(&FOREVER, &mut GivesUp(folder.path())).unwrap();
     assert_eq!(ending, Ending::Abandoned);
@@ -320,9 +320,9 @@ fn a_follower_sees_a_run_start_report_and_end() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run");
     let (mut follower, mut followed) = (Follower::new(&path), Followed::new(&path));
-    followed.apply(follower.look().unwrap());
+    followed.apply(follower.poll().unwrap());
     assert_eq!(followed.condition, Condition::Missing);
-    assert!(follower.look().is_none(), "nothing has changed");
+    assert!(follower.poll().is_none(), "nothing has changed");
     let mut run = small_run(&path);
     finish(&mut run);
     let status = RunStatus::read(&path).unwrap();
@@ -334,13 +334,13 @@ fn a_follower_sees_a_run_start_report_and_end() {
     assert!(shots.iter().all(|shot| shot.reward == reward.of(table, &shot.layout, &shot.cue)));
     drop(run);
     let mut follower = Follower::new(&path);
-    let update = follower.look().unwrap();
+    let update = follower.poll().unwrap();
     assert_eq!(update.records.len(), 5);
     followed.apply(update);
-    assert_eq!(followed.condition, Condition::Is(Phase::Finished));
+    assert_eq!(followed.condition, Condition::InPhase(Phase::Finished));
     assert_eq!(followed.config.as_ref().unwrap().plan.shots, 160);
     assert!(followed.examples.is_some() && followed.notices.is_empty());
     fs::remove_file(path.join("metrics.jsonl")).unwrap();
-    followed.apply(follower.look().unwrap());
+    followed.apply(follower.poll().unwrap());
     assert!(followed.notices[0].contains("metrics.jsonl has been removed"), "{:?}", followed.notices);
 }

@@ -37,10 +37,10 @@ const PAUSE_POLL_INTERVAL: Duration = Duration::from_millis(100);
 /// Receives the events of a run in its own process. Other processes follow its folder ([`super::follow`]).
 pub trait Watcher {
     /// Receives a line of metrics.
-    fn line(&mut self, record: &Record);
+    fn on_record(&mut self, record: &Record);
 
     /// Receives a warning about a problem that does not stop the training.
-    fn warn(&mut self, sentence: &str);
+    fn on_warning(&mut self, sentence: &str);
 }
 
 /// How a run ended, with its score on the held-out layouts.
@@ -101,7 +101,7 @@ impl Run {
         let mut reporting = Reporting { metrics, events, clock, heartbeat, layouts, watcher };
         let ending = self.iterate_until(limits, &mut reporting).and_then(|ending| {
             // A request to abandon may have arrived during the last evaluation, after which no other poll follows.
-            if Request::take(&self.folder) == Some(Ok(Request::Abandon)) {
+            if Request::receive(&self.folder) == Some(Ok(Request::Abandon)) {
                 return Ok(Ending::Abandoned);
             }
             if let Ending::Finished(score) = ending
@@ -161,7 +161,7 @@ impl Run {
                 },
                 Some(Request::Stop) => stops = true,
                 Some(Request::Abandon) => return Ok(Ending::Abandoned),
-                Some(Request::GoOn) | None => {}
+                Some(Request::Resume) | None => {}
             }
             if stops {
                 // Saved before the evaluation, which may take long: a user who cannot wait may end it by a second signal.
@@ -252,7 +252,7 @@ impl Run {
             if reporting.events.as_mut().is_some_and(|events| events.push(&record).is_err()) {
                 reporting.events = None;
             }
-            reporting.watcher.line(&record);
+            reporting.watcher.on_record(&record);
             // If the disk is full, the line stays pending in memory. No checkpoint is written before it.
             if reporting.metrics.flush().is_ok() {
                 reporting.heartbeat.status.logged = shots;
@@ -275,7 +275,7 @@ impl Reporting<'_> {
     }
 
     fn warn(&mut self, sentence: &str) {
-        self.watcher.warn(sentence);
+        self.watcher.on_warning(sentence);
         self.heartbeat.status.warning = Some(sentence.to_owned());
     }
 

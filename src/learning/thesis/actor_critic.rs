@@ -28,14 +28,14 @@ pub fn sizes(actor: &[usize], critic: &[usize]) -> [Vec<usize>; 2] {
 pub struct Rates {
     pub adam: AdamConfig,
     /// The part k of the target networks that a soft update keeps (equation 59).
-    pub keep: f64,
+    pub target_retention: f64,
 }
 
 /// Terms of the actor's loss in addition to the deterministic policy gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Guidance {
     /// Weight of the policy gradient, the ascent on the critic.
-    pub climbing: f64,
+    pub policy_gradient: f64,
     /// Number of lessons, which are the first rows of a batch: the actor moves towards the actions in these rows.
     pub lessons: usize,
     /// Weight of the lessons (behaviour cloning).
@@ -49,12 +49,12 @@ pub struct Guidance {
 
 impl Guidance {
     /// The policy gradient alone.
-    pub const NONE: Self = Self { climbing: 1.0, lessons: 0, cloning: 0.0, width: [1.0; 2], pull: 0.0 };
+    pub const NONE: Self = Self { policy_gradient: 1.0, lessons: 0, cloning: 0.0, width: [1.0; 2], pull: 0.0 };
 
     /// Returns the actor's loss, from the sum of the critic's values of its `actions`.
     fn loss(&self, values: &Tensor, actions: &Tensor, batch: &Batch) -> Result<Tensor> {
         let rows = actions.dim(0)? as f64;
-        let mut loss = (values * (-self.climbing / rows))?;
+        let mut loss = (values * (-self.policy_gradient / rows))?;
         if self.lessons > 0 {
             // Ascent on a bell around each lesson is ascent on the success of an action with noise of that width.
             let [own, demonstrated] = [actions, &batch.actions].map(|actions| actions.narrow(0, 0, self.lessons));
@@ -110,13 +110,14 @@ impl ActorCritic {
     }
 
     /// Restarts learning with the online networks: the target networks become copies of them, the optimisers new.
-    pub fn begun_anew(self) -> Result<Self> {
+    pub fn restarted(self) -> Result<Self> {
         Self::starting_from(self.online, self.rates)
     }
 
     #[must_use]
-    pub fn with(self, operations: Operations) -> Self {
-        let [online, target] = [self.online, self.target].map(|pair| pair.map(|network| network.with(operations)));
+    pub fn with_operations(self, operations: Operations) -> Self {
+        let [online, target] =
+            [self.online, self.target].map(|pair| pair.map(|network| network.with_operations(operations)));
         Self { online, target, ..self }
     }
 
@@ -140,7 +141,7 @@ impl ActorCritic {
     }
 
     /// Sets the learning rate of both optimisers to `share` of the configured one.
-    pub fn set_rate_share(&mut self, share: f64) {
+    pub fn scale_learning_rates(&mut self, share: f64) {
         for optimiser in &mut self.optimisers {
             optimiser.set_learning_rate(share * self.rates.adam.learning_rate);
         }
@@ -168,7 +169,7 @@ impl ActorCritic {
         actor_optimiser.backward_step(&guidance.loss(&values, &actions, batch)?)?;
 
         for (target, online) in self.target.iter().zip(&self.online) {
-            soft_update(target.parameters(), online.parameters(), 1.0 - self.rates.keep)?;
+            soft_update(target.parameters(), online.parameters(), 1.0 - self.rates.target_retention)?;
         }
         Ok(UpdateStats { loss: number(&loss)?, value: number(&values)? / actions.dim(0)? as f64 })
     }
@@ -199,9 +200,10 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 
-    const RATES: Rates = Rates { adam: AdamConfig { learning_rate: 1e-3, gradient_clip: 1.0 }, keep: 0.999 };
+    const RATES: Rates =
+        Rates { adam: AdamConfig { learning_rate: 1e-3, gradient_clip: 1.0 }, target_retention: 0.999 };
 
-    fn random_batch(rows: usize, goes_on: impl Fn(usize) -> bool, seed: u64) -> Batch {
+    fn random_batch(rows: usize, continues: impl Fn(usize) -> bool, seed: u64) -> Batch {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let drawn: Vec<StoredTransition> = (0..rows)
             .map(|row| {
@@ -211,7 +213,7 @@ mod tests {
                     action: std::array::from_fn(|_| number()),
                     index: 0,
                     reward: number(),
-                    goes_on: goes_on(row),
+                    continues: continues(row),
                     next: std::array::from_fn(|_| number()),
                 }
             })
@@ -220,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_step_goes_down_the_finite_differences_of_both_losses() {
+    fn the_first_step_descends_both_losses() {
         // After one step Adam's average of the gradient is 0.1 times the gradient, so the test can read it.
         let adam = AdamConfig { learning_rate: 1e-12, gradient_clip: f64::INFINITY };
         let (sizes, rates) = (sizes(&[5, 4], &[6, 5]), Rates { adam, ..RATES });
@@ -255,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn the_actor_goes_to_the_nearest_lesson_and_back_into_its_range() {
+    fn the_actor_follows_the_nearest_lesson() {
         let sizes = sizes(&[16; 3], &[32; 3]);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
         let mut agent = ActorCritic::random(&sizes, RATES, &mut rng).unwrap();
@@ -265,14 +267,14 @@ mod tests {
             action: [direction, 0.5],
             index: 0,
             reward: 1.0,
-            goes_on: false,
+            continues: false,
             next: state,
         };
         let states = Tensor::from_slice(&state, (1, STATES), &Device::Cpu).unwrap();
         let act = |agent: &ActorCritic| agent.act(&states).unwrap().flatten_all().unwrap().to_vec1::<f32>().unwrap();
         let own = act(&agent)[0];
         let (near, far) = (own + 0.25, own - 0.6);
-        let guidance = Guidance { climbing: 0.0, lessons: 4, cloning: 1.0, width: [0.2, 0.5], pull: 0.0 };
+        let guidance = Guidance { policy_gradient: 0.0, lessons: 4, cloning: 1.0, width: [0.2, 0.5], pull: 0.0 };
         // The mean of the lessons is on the other side of the actor's own action.
         let batch = Batch::new(&[lesson(near), lesson(far), lesson(near), lesson(far)], 0.0).unwrap();
         for _ in 0..400 {
@@ -292,7 +294,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_that_are_not_finite_are_refused_before_any_weight_changes() {
+    fn non_finite_numbers_are_refused_before_any_change() {
         let sizes = sizes(&[4], &[4]);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(6);
         let mut agent = ActorCritic::random(&sizes, RATES, &mut rng).unwrap();

@@ -50,7 +50,7 @@ pub struct Transition {
     /// Reward of the shot.
     pub reward: f64,
     /// Whether the episode continues after the shot.
-    pub goes_on: bool,
+    pub continues: bool,
     /// Observation after the shot.
     pub after: Observation,
 }
@@ -61,7 +61,7 @@ pub trait Settings: Clone + std::fmt::Debug + Default + Serialize + DeserializeO
     fn episode(&self) -> Episode;
 
     /// Whether the settings use points, so that they are of no use with a reward that is not about points.
-    fn are_about_points(&self) -> bool {
+    fn use_points(&self) -> bool {
         false
     }
 
@@ -101,7 +101,7 @@ pub trait Agent: std::fmt::Debug + Send + Sized {
     fn best(&self, seen: &Observation) -> Result<Choice, Error>;
 
     /// Looks for lessons before a shot is played. The default does nothing, because only some agents use lessons.
-    fn study(
+    fn collect_lessons(
         &mut self,
         _environment: &impl Environment,
         _seen: &Observation,
@@ -147,11 +147,11 @@ impl EpisodeState {
         }
         let before = environment.observe();
         let choice = agent.explore(&before, rng)?;
-        agent.study(environment, &before, choice.action, rng);
+        agent.collect_lessons(environment, &before, choice.action, rng);
         let outcome = environment.act(choice.action);
-        let (reward, goes_on, after) = (outcome.reward, !outcome.over, environment.observe());
-        self.running = goes_on;
-        Ok((reward, agent.learn(&Transition { before, choice, reward, goes_on, after }, rng)?))
+        let (reward, continues, after) = (outcome.reward, !outcome.over, environment.observe());
+        self.running = continues;
+        Ok((reward, agent.learn(&Transition { before, choice, reward, continues, after }, rng)?))
     }
 }
 
@@ -168,7 +168,7 @@ pub(crate) const fn kind_of<A: Agent + 'static>() -> AgentKind {
         },
         start: |plan, table, settings| {
             let settings = settings_from(settings, A::Settings::validate)?;
-            if settings.are_about_points() && plan.reward.rule().is_none() {
+            if settings.use_points() && plan.reward.rule().is_none() {
                 return Err(StartError::settings(
                     "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion",
                 ));
@@ -272,7 +272,7 @@ impl<A: Agent> Learner for TrainingLoop<A> {
         Ok(Score::of(&layouts.iter().map(play).collect::<Result<Vec<_>, Error>>()?))
     }
 
-    fn shots_on(&self, layouts: &[Layout]) -> Result<Vec<CueInputs>, Error> {
+    fn choose_shots(&self, layouts: &[Layout]) -> Result<Vec<CueInputs>, Error> {
         let shot =
             |layout| self.agent.best(&self.state.game.observation(layout)).map(|choice| cue_inputs(choice.action));
         layouts.iter().map(shot).collect()

@@ -84,11 +84,11 @@ impl Carom {
 }
 
 impl Environment for Carom {
-    fn would_earn(&self, action: Action) -> f64 {
+    fn reward_for(&self, action: Action) -> f64 {
         self.reward.within(&self.table, &self.layout, &cue_inputs(action), CONTACT_STEPS)
     }
 
-    fn in_hindsight(&self, action: Action, rng: &mut Xoshiro256PlusPlus) -> Vec<State> {
+    fn hindsight_states(&self, action: Action, rng: &mut Xoshiro256PlusPlus) -> Vec<State> {
         let moved = hindsight::layouts(&self.table, self.reward, &self.layout, &cue_inputs(action), rng);
         moved.iter().map(|layout| self.observation(layout).state).collect()
     }
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn squares_number_the_373_248_states_of_the_thesis() {
+    fn cells_number_the_373_248_states_of_the_thesis() {
         let game = Carom::new(thesis(), Reward::R1, Episode::OneShot);
         let reach = game.table.reach();
         assert_eq!(game.observation(&Layout::new([-reach; 3])).cell, 0);
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn a_game_continues_from_the_final_positions_until_the_episode_ends() {
+    fn a_game_continues_until_the_episode_ends() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
         let mut game = Carom::new(thesis(), Reward::R1, Episode::Shots(2));
         game.layout = Layout::opening(&game.table);
@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn one_shot_by_itself_earns_what_it_earns_in_a_game() {
+    fn a_single_shot_earns_the_reward_of_a_game() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
         for reward in Reward::ALL {
             let mut alone = Carom::new(thesis(), reward, Episode::OneShot);

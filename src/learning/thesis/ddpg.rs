@@ -127,7 +127,7 @@ impl Settings for PlainDdpgSettings {
         self.episode
     }
 
-    fn are_about_points(&self) -> bool {
+    fn use_points(&self) -> bool {
         self.hindsight > 0.0 || self.demonstrations > 0.0
     }
 
@@ -174,7 +174,7 @@ impl PlainDdpgSettings {
 
     const fn rates(&self) -> Rates {
         let Self { learning_rate, keep, gradient_clip, .. } = *self;
-        Rates { adam: AdamConfig { learning_rate, gradient_clip }, keep }
+        Rates { adam: AdamConfig { learning_rate, gradient_clip }, target_retention: keep }
     }
 
     /// Reads the networks of an agent with these settings after `updates` updates.
@@ -192,7 +192,7 @@ impl PlainDdpgSettings {
         let width = first * self.decayed(last / first, shots);
         let speed = (SPEED_WIDTH * width).min(WIDEST);
         let Self { climbing, cloning, range_pull: pull, .. } = *self;
-        Guidance { climbing, lessons, cloning, width: [width, speed], pull }
+        Guidance { policy_gradient: climbing, lessons, cloning, width: [width, speed], pull }
     }
 
     /// Returns the view in which the agent sees states; `None` for table coordinates.
@@ -241,7 +241,7 @@ struct PlainDdpgState {
 impl PlainDdpg {
     fn update(&mut self, rng: &mut Xoshiro256PlusPlus) -> Result<UpdateStats, Error> {
         let settings = &self.settings;
-        self.networks.set_rate_share(settings.decayed(settings.learning_rate_falls_to, self.shots));
+        self.networks.scale_learning_rates(settings.decayed(settings.learning_rate_falls_to, self.shots));
         let mut drawn = self.lessons.sample(settings.lesson_rows(), rng);
         let lessons = drawn.len();
         drawn.extend(self.replay.sample(settings.batch.saturating_sub(lessons), rng));
@@ -281,7 +281,7 @@ impl Agent for PlainDdpg {
             updates: u64::from(self.networks.updates()),
             learning_rate: rate * settings.learning_rate,
             exploration: noise * settings.noise.deviation(settings.noise_restarts),
-            replay_fill: Some(self.replay.fill()),
+            replay_fill: Some(self.replay.fill_fraction()),
         }
     }
 
@@ -302,19 +302,19 @@ impl Agent for PlainDdpg {
         Ok(Choice { action: view.on_table(std::array::from_fn(|index| action[index])), index: 0 })
     }
 
-    fn study(
+    fn collect_lessons(
         &mut self,
         environment: &impl Environment,
         seen: &Observation,
         action: Action,
         rng: &mut Xoshiro256PlusPlus,
     ) {
-        self.lessons.seek(&self.settings, environment, seen, action, rng);
+        self.lessons.collect(&self.settings, environment, seen, action, rng);
     }
 
     fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {
         self.replay.push(StoredTransition::of(transition));
-        if self.settings.noise_restarts && !transition.goes_on {
+        if self.settings.noise_restarts && !transition.continues {
             self.noise = Action::default();
         }
         self.shots += 1;
@@ -325,7 +325,7 @@ impl Agent for PlainDdpg {
         let values = self.networks.values()?;
         writer.add("networks", &[values.len()], &values);
         let Self { shots, noise, .. } = *self;
-        let lessons = self.settings.are_about_points().then(|| self.lessons.save(writer));
+        let lessons = self.settings.use_points().then(|| self.lessons.save(writer));
         let (updates, next) = (self.networks.updates(), replay::save(&self.replay, MEMORY, writer));
         note_of(&PlainDdpgState { shots, updates, next, noise, lessons })
     }
@@ -343,7 +343,7 @@ impl Agent for PlainDdpg {
 
     /// The online networks of the file become the online and the target networks; the optimisers restart.
     fn load_weights(&mut self, reader: &Reader<'_>) -> Result<(), WeightsError> {
-        self.networks = self.settings.networks(reader, 0)?.begun_anew()?;
+        self.networks = self.settings.networks(reader, 0)?.restarted()?;
         Ok(())
     }
 }

@@ -155,7 +155,7 @@ impl Agent for Dqn {
             updates: u64::from(self.optimiser.steps()),
             learning_rate: self.settings.learning_rate,
             exploration: self.settings.epsilon.after(self.shots),
-            replay_fill: Some(self.replay.fill()),
+            replay_fill: Some(self.replay.fill_fraction()),
         }
     }
 

@@ -72,12 +72,12 @@ pub trait Environment {
     fn act(&mut self, action: Action) -> Outcome;
 
     /// Returns the reward that an action would earn now, without carrying it out; 0 if the environment does not support this.
-    fn would_earn(&self, _action: Action) -> f64 {
+    fn reward_for(&self, _action: Action) -> f64 {
         0.0
     }
 
     /// Returns states similar to the present one in which an action would succeed; none if the environment does not support this.
-    fn in_hindsight(&self, _action: Action, _rng: &mut Xoshiro256PlusPlus) -> Vec<State> {
+    fn hindsight_states(&self, _action: Action, _rng: &mut Xoshiro256PlusPlus) -> Vec<State> {
         Vec::new()
     }
 }
@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn actions_out_of_range_are_the_nearest_in_range() {
+    fn actions_out_of_range_are_clamped() {
         assert_eq!(direction_and_speed([3.0, -9.0]), [PI, 0.5]);
         assert_eq!(direction_and_speed([f32::NAN, 1.0]), [0.0, 6.0]);
     }

@@ -64,13 +64,13 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
-    fn epsilon_falls_in_a_straight_line_and_stays_low() {
+    fn epsilon_falls_linearly_and_stays_low() {
         let epsilon = Epsilon { first: 1.0, last: 0.2, over: 100 };
         assert_eq!([0, 50, 100, 999].map(|shots| (epsilon.after(shots) * 1e3).round()), [1e3, 600.0, 200.0, 200.0]);
     }
 
     #[test]
-    fn the_process_has_the_spread_and_the_memory_of_its_formula() {
+    fn the_process_matches_its_variance_and_correlation() {
         let process = OrnsteinUhlenbeck { theta: 0.15, sigma: 0.3, dt: 1.0 };
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
         let (mut now, mut square, mut product, count) = ([0.0; 2], 0.0, 0.0, 200_000);

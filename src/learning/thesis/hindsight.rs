@@ -111,7 +111,7 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
-    fn a_shot_makes_the_point_once_the_ball_that_it_missed_is_moved() {
+    fn moving_the_missed_ball_makes_the_point() {
         let (table, mut rng) = (Table::preset("thesis").unwrap(), Xoshiro256PlusPlus::seed_from_u64(31));
         let mut found = 0;
         for _ in 0..300 {
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn positions_are_distributed_as_in_random_layouts_in_which_the_shot_succeeds() {
+    fn positions_are_distributed_like_successful_random_layouts() {
         // One fixed shot at a ball, and the third ball anywhere. The test compares its distance from the cue ball when the point is made.
         let (table, mut rng) = (Table::preset("thesis").unwrap(), Xoshiro256PlusPlus::seed_from_u64(32));
         let cue = cue_inputs([0.0, 0.2]);

@@ -41,7 +41,7 @@ impl Lessons {
 
     /// Looks for lessons before `action` is played: states in which `action` makes the point (hindsight), and random actions that make
     /// it in the present state (demonstrations).
-    pub fn seek(
+    pub fn collect(
         &mut self,
         settings: &PlainDdpgSettings,
         environment: &impl Environment,
@@ -51,7 +51,7 @@ impl Lessons {
     ) {
         let [hindsight, demonstrations] = &mut self.buffers;
         if settings.hindsight > 0.0 {
-            for state in environment.in_hindsight(action, rng) {
+            for state in environment.hindsight_states(action, rng) {
                 hindsight.push(lesson(state, action));
             }
         }
@@ -59,7 +59,7 @@ impl Lessons {
             self.layouts += 1;
             for _ in 0..settings.demonstration_tries {
                 let tried: Action = std::array::from_fn(|_| rng.random_range(-1.0..=1.0));
-                if environment.would_earn(tried) >= 1.0 {
+                if environment.reward_for(tried) >= 1.0 {
                     demonstrations.push(lesson(seen.state, tried));
                 }
             }
@@ -87,5 +87,5 @@ impl Lessons {
 /// Returns a lesson: a shot that makes the point. The game clamps actions to their range, so the lesson contains the clamped action.
 fn lesson(state: State, action: Action) -> StoredTransition {
     let action = action.map(|value| value.clamp(-1.0, 1.0));
-    StoredTransition { state, action, index: 0, reward: 1.0, goes_on: false, next: state }
+    StoredTransition { state, action, index: 0, reward: 1.0, continues: false, next: state }
 }

@@ -141,7 +141,7 @@ impl Agent for QLearning {
     fn learn(&mut self, transition: &Transition, _rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {
         let highest = |cell| self.best_known(cell).map_or(0.0, |(_, value)| f64::from(value));
         let value = highest(transition.before.cell);
-        let next = if transition.goes_on { highest(transition.after.cell) } else { 0.0 };
+        let next = if transition.continues { highest(transition.after.cell) } else { 0.0 };
         let target = transition.reward + self.settings.discount * next;
         let rate = self.settings.learning_rate;
         let known = self.value_mut(transition.before.cell, transition.choice.index);

@@ -19,7 +19,7 @@ pub struct StoredTransition {
     /// Index of the action, for agents with discrete actions.
     pub index: u32,
     pub reward: f32,
-    pub goes_on: bool,
+    pub continues: bool,
     pub next: State,
 }
 
@@ -32,23 +32,23 @@ const NUMBERS: usize = 2 * STATES + ACTIONS + 3;
 impl StoredTransition {
     /// Converts a transition to its stored form.
     pub fn of(transition: &Transition) -> Self {
-        let Transition { before, choice, reward, goes_on, after } = *transition;
+        let Transition { before, choice, reward, continues, after } = *transition;
         let (state, next, reward) = (before.state, after.state, reward as f32);
-        Self { state, action: choice.action, index: choice.index, reward, goes_on, next }
+        Self { state, action: choice.action, index: choice.index, reward, continues, next }
     }
 
     fn numbers(&self) -> [f32; NUMBERS] {
         let [a, b, c, d, e, f] = self.state;
         let [g, h, i, j, k, l] = self.next;
-        let goes_on = f32::from(u8::from(self.goes_on));
+        let continues = f32::from(u8::from(self.continues));
         // An action's index is below 2^24, so `f32` represents it exactly.
-        [a, b, c, d, e, f, g, h, i, j, k, l, self.action[0], self.action[1], self.index as f32, self.reward, goes_on]
+        [a, b, c, d, e, f, g, h, i, j, k, l, self.action[0], self.action[1], self.index as f32, self.reward, continues]
     }
 
     fn from_numbers(numbers: &[f32; NUMBERS]) -> Self {
-        let &[a, b, c, d, e, f, g, h, i, j, k, l, phi, speed, index, reward, goes_on] = numbers;
+        let &[a, b, c, d, e, f, g, h, i, j, k, l, phi, speed, index, reward, continues] = numbers;
         let (state, next) = ([a, b, c, d, e, f], [g, h, i, j, k, l]);
-        Self { state, next, action: [phi, speed], index: index as u32, reward, goes_on: goes_on != 0.0 }
+        Self { state, next, action: [phi, speed], index: index as u32, reward, continues: continues != 0.0 }
     }
 }
 
@@ -90,7 +90,7 @@ pub struct Batch {
     /// Factor of the next state's value: `discount` if the episode continued, zero if it ended (rows x 1).
     pub discounts: Tensor,
     /// Whether any episode continued. If none did, the values of the next states are not needed.
-    pub any_goes_on: bool,
+    pub any_continues: bool,
     /// The next states (rows x states).
     pub next_states: Tensor,
 }
@@ -99,7 +99,7 @@ impl Batch {
     pub fn new(drawn: &[StoredTransition], discount: f64) -> Result<Self, Error> {
         let rows = drawn.len();
         let matrix = |values: Vec<f32>, columns: usize| Tensor::from_vec(values, (rows, columns), &Device::Cpu);
-        let discounts = drawn.iter().map(|drawn| if drawn.goes_on { discount as f32 } else { 0.0 });
+        let discounts = drawn.iter().map(|drawn| if drawn.continues { discount as f32 } else { 0.0 });
         let indices = drawn.iter().map(|drawn| drawn.index).collect();
         Ok(Self {
             states: matrix(drawn.iter().flat_map(|drawn| drawn.state).collect(), STATES)?,
@@ -107,7 +107,7 @@ impl Batch {
             indices: Tensor::from_vec(indices, (rows, 1), &Device::Cpu)?,
             rewards: matrix(drawn.iter().map(|drawn| drawn.reward).collect(), 1)?,
             discounts: matrix(discounts.collect(), 1)?,
-            any_goes_on: drawn.iter().any(|drawn| drawn.goes_on),
+            any_continues: drawn.iter().any(|drawn| drawn.continues),
             next_states: matrix(drawn.iter().flat_map(|drawn| drawn.next).collect(), STATES)?,
         })
     }
@@ -115,7 +115,7 @@ impl Batch {
     /// Returns the targets of the values (rows x 1): the reward plus, if the episode continued, the discounted value that `next` returns
     /// for the next state (the target of equation 57). `next` is not called if every episode ended.
     pub fn targets(&self, next: impl FnOnce(&Tensor) -> Result<Tensor, Error>) -> Result<Tensor, Error> {
-        if !self.any_goes_on {
+        if !self.any_continues {
             return Ok(self.rewards.clone());
         }
         &self.rewards + (next(&self.next_states)? * &self.discounts)?
@@ -132,7 +132,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_replay_buffer_in_a_file_that_exceeds_the_capacity_is_refused() {
+    fn oversized_replay_buffers_are_refused() {
         let mut replay = ReplayBuffer::new(3);
         (0..3).for_each(|_| replay.push(StoredTransition::default()));
         let mut writer = Writer::default();

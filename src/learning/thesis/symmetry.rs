@@ -143,7 +143,7 @@ mod tests {
             let layout = Layout::random(&table, &mut rng);
             let played = [rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0)];
             let state = game.observation(&layout).state;
-            let shot = StoredTransition { state, action: played, index: 0, reward: 0.0, goes_on: false, next: state };
+            let shot = StoredTransition { state, action: played, index: 0, reward: 0.0, continues: false, next: state };
             let earned = game.reward_of(&layout, played);
             let relative = View::relative(state);
             assert!((relative.on_table(relative.action(played))[0] - played[0]).abs() < 1e-6);

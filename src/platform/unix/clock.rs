@@ -4,10 +4,10 @@ use std::time::Duration;
 
 /// Name of the clock, for reports.
 #[cfg(target_os = "linux")]
-pub const CLOCK: &str = "CPU time of the thread";
+pub const CLOCK_NAME: &str = "CPU time of the thread";
 /// Name of the clock, for reports.
 #[cfg(not(target_os = "linux"))]
-pub const CLOCK: &str = "wall time";
+pub const CLOCK_NAME: &str = "wall time";
 
 /// Returns the CPU time of this thread. Unlike wall time, it does not grow while other programs run.
 #[cfg(target_os = "linux")]

@@ -14,7 +14,7 @@ use rustix::{
     termios::{Action, QueueSelector, tcflow, tcflush},
 };
 
-use crate::platform::Came;
+use crate::platform::TerminalInput;
 
 /// Time that the screen has to end after a signal, before output that the terminal does not accept is discarded.
 const EXIT_GRACE: Duration = Duration::from_millis(300);
@@ -33,22 +33,22 @@ impl Input {
     ///
     /// # Errors
     /// Returns the error of the terminal.
-    pub fn next(&mut self, bytes: &mut [u8], timeout: Option<Duration>) -> io::Result<Came> {
+    pub fn next(&mut self, bytes: &mut [u8], timeout: Option<Duration>) -> io::Result<TerminalInput> {
         let timeout = timeout.and_then(|time| Timespec::try_from(time).ok());
         let mut input = [PollFd::new(&self.0, PollFlags::IN)];
         loop {
             match poll(&mut input, timeout.as_ref()) {
-                Ok(0) => return Ok(Came::Silence),
+                Ok(0) => return Ok(TerminalInput::Timeout),
                 Ok(_) if input[0].revents().intersects(PollFlags::HUP | PollFlags::ERR | PollFlags::NVAL) => {
-                    return Ok(Came::Gone);
+                    return Ok(TerminalInput::Closed);
                 }
                 Ok(_) => {}
                 Err(Errno::INTR) => continue,
                 Err(error) => return Err(error.into()),
             }
             match rustix::io::read(&self.0, &mut *bytes) {
-                Ok(0) => return Ok(Came::Gone),
-                Ok(count) => return Ok(Came::Bytes(count)),
+                Ok(0) => return Ok(TerminalInput::Closed),
+                Ok(count) => return Ok(TerminalInput::Bytes(count)),
                 Err(Errno::INTR | Errno::AGAIN) => {}
                 Err(error) => return Err(error.into()),
             }
@@ -68,7 +68,7 @@ pub fn terminal_output() -> io::Result<File> {
 /// Lets a screen end that is blocked on a terminal which accepts no more output, for example over a stalled link. Discards the pending
 /// output whenever the terminal is full, until the process ends and this thread with it.
 #[expect(clippy::disallowed_methods, reason = "nothing is written")]
-pub fn free_the_screen() -> ! {
+pub fn discard_pending_output() -> ! {
     let output = io::stdout();
     loop {
         thread::sleep(EXIT_GRACE);

@@ -7,11 +7,11 @@ mod processes;
 mod signals;
 
 pub use self::{
-    clock::{CLOCK, thread_time},
+    clock::{CLOCK_NAME, thread_time},
     files::{file_identity, free_space, refuse_large_files, sync_folder, use_umask_permissions},
-    input::{Input, free_the_screen, terminal_output},
-    processes::own_group,
-    signals::{die, listen, suspend},
+    input::{Input, discard_pending_output, terminal_output},
+    processes::in_own_process_group,
+    signals::{exit_by_signal, handle_signals, suspend},
 };
 
 /// Whether the shell can suspend the program and continue it.

@@ -35,7 +35,7 @@ const REAL_TIME: std::ops::RangeInclusive<i32> = 34..=64;
 ///
 /// # Errors
 /// Fails if the system refuses the thread, or a handler for a signal that every system knows.
-pub fn listen(mut on_signal: impl FnMut(Signal) -> bool + Send + 'static) -> io::Result<()> {
+pub fn handle_signals(mut on_signal: impl FnMut(Signal) -> bool + Send + 'static) -> io::Result<()> {
     let mut signals = catch()?;
     let listener = move || {
         for signal in signals.forever() {
@@ -44,7 +44,7 @@ pub fn listen(mut on_signal: impl FnMut(Signal) -> bool + Send + 'static) -> io:
                 let _ = suspend();
                 continue;
             }
-            if !on_signal(meaning(signal)) {
+            if !on_signal(classify(signal)) {
                 break;
             }
         }
@@ -62,7 +62,7 @@ fn catch() -> io::Result<Signals> {
     Ok(signals)
 }
 
-const fn meaning(signal: i32) -> Signal {
+const fn classify(signal: i32) -> Signal {
     match signal {
         SIGWINCH => Signal::Resized,
         SIGCONT => Signal::Continued,
@@ -85,7 +85,7 @@ pub fn suspend() -> io::Result<()> {
 }
 
 /// Ends the process as the uncaught signal would, so that the parent process sees the signal.
-pub fn die(signal: i32) -> ! {
+pub fn exit_by_signal(signal: i32) -> ! {
     // The call returns for signals that it does not know.
     let _ = emulate_default_handler(signal);
     process::exit(128 + signal)
@@ -96,9 +96,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_signal_but_those_of_a_terminal_ends_the_program() {
-        let others = KNOWN.into_iter().filter(|signal| meaning(*signal) != Signal::End(*signal));
+    fn all_signals_except_terminal_signals_end_the_program() {
+        let others = KNOWN.into_iter().filter(|signal| classify(*signal) != Signal::End(*signal));
         assert!(others.eq([SIGCONT, SIGTSTP, SIGTTIN, SIGTTOU, SIGWINCH]));
-        assert_eq!([SIGUSR1, SIGXCPU, 64].map(meaning), [SIGUSR1, SIGXCPU, 64].map(Signal::End));
+        assert_eq!([SIGUSR1, SIGXCPU, 64].map(classify), [SIGUSR1, SIGXCPU, 64].map(Signal::End));
     }
 }

@@ -11,10 +11,10 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::platform::{Came, Signal};
+use crate::platform::{Signal, TerminalInput};
 
 /// Name of the clock, for reports.
-pub const CLOCK: &str = "wall time";
+pub const CLOCK_NAME: &str = "wall time";
 
 /// Whether the shell can suspend the program and continue it.
 pub const CAN_SUSPEND: bool = false;
@@ -64,7 +64,7 @@ pub const fn refuse_large_files() -> io::Result<()> {
 }
 
 /// Starts the process in its own process group, so that Ctrl-C does not reach it.
-pub fn own_group(command: &mut Command) -> &mut Command {
+pub fn in_own_process_group(command: &mut Command) -> &mut Command {
     command.creation_flags(NEW_GROUP)
 }
 
@@ -82,13 +82,13 @@ impl Input {
     ///
     /// # Errors
     /// Returns the error of the console.
-    pub fn next(&mut self, _: &mut [u8], timeout: Option<Duration>) -> io::Result<Came> {
+    pub fn next(&mut self, _: &mut [u8], timeout: Option<Duration>) -> io::Result<TerminalInput> {
         if !io::stdin().is_terminal() {
-            return Ok(Came::Gone);
+            return Ok(TerminalInput::Closed);
         }
         match timeout {
-            Some(time) if !crossterm::event::poll(time)? => Ok(Came::Silence),
-            _ => crossterm::event::read().map(Came::Event),
+            Some(time) if !crossterm::event::poll(time)? => Ok(TerminalInput::Timeout),
+            _ => crossterm::event::read().map(TerminalInput::Event),
         }
     }
 }
@@ -103,7 +103,7 @@ pub fn terminal_output() -> io::Result<File> {
 }
 
 /// Sleeps forever: console output never blocks, so there is nothing to discard.
-pub fn free_the_screen() -> ! {
+pub fn discard_pending_output() -> ! {
     loop {
         thread::park();
     }
@@ -113,7 +113,7 @@ pub fn free_the_screen() -> ! {
 ///
 /// # Errors
 /// Never fails.
-pub fn listen(_: impl FnMut(Signal) -> bool + Send + 'static) -> io::Result<()> {
+pub fn handle_signals(_: impl FnMut(Signal) -> bool + Send + 'static) -> io::Result<()> {
     Ok(())
 }
 
@@ -126,6 +126,6 @@ pub fn suspend() -> io::Result<()> {
 }
 
 /// Ends the process with the exit code that shells report for a program ended by this signal.
-pub fn die(signal: i32) -> ! {
+pub fn exit_by_signal(signal: i32) -> ! {
     process::exit(128 + signal)
 }

@@ -3,7 +3,7 @@
 use std::{fmt, str::FromStr};
 
 use super::{Growth, Skill};
-use crate::printing::{number, typed_number};
+use crate::printing::{number, parse_number};
 
 /// Why a skill is rejected.
 #[derive(Debug, thiserror::Error, PartialEq)]
@@ -90,7 +90,7 @@ impl FromStr for Skill {
         if let Some((_, skill)) = Self::NAMED.iter().find(|(name, _)| *name == text) {
             return Ok(*skill);
         }
-        if let Some(average) = typed_number(text.strip_prefix(AVERAGE).unwrap_or(text)) {
+        if let Some(average) = parse_number(text.strip_prefix(AVERAGE).unwrap_or(text)) {
             return Self::of_average(average).ok_or(SkillError::Average(average));
         }
         let unknown = || SkillError::Unknown(text.to_owned());

@@ -10,7 +10,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Figures, Finding, Limits, Shot, Trace, Violation, examine};
 use crate::{
-    platform::{parallel, threads},
+    platform::{parallel, thread_count},
     table::Table,
 };
 
@@ -88,7 +88,7 @@ impl Sweep {
     pub fn run(&self, watch: impl FnMut(Progress) + Send) -> Swept {
         let chunks: Vec<u64> = (0..self.shots.div_ceil(CHUNK)).collect();
         let watched = Mutex::new((Progress { done: 0, of: self.shots, findings: 0 }, watch));
-        let swept = parallel::map(threads(), &chunks, |chunk| {
+        let swept = parallel::map(thread_count(), &chunks, |chunk| {
             let swept = self.chunk(*chunk);
             let (progress, watch) = &mut *watched.lock().unwrap_or_else(PoisonError::into_inner);
             progress.done += swept.figures.shots;

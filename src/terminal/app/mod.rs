@@ -27,7 +27,7 @@ use ratatui::{
 
 use crate::{
     drills::Session,
-    storage::Places,
+    storage::DataPaths,
     table::{Layout, LayoutError, Table},
     terminal::{
         Action, CalibrationAction, Capabilities, CoachAction, CommandPalette, Complaint, DrillAction, Effect, Glyphs,
@@ -112,10 +112,10 @@ impl App {
         Ok(Self {
             screen: PageId::Coach,
             coach: CoachPage::new(table, layout, seed)?,
-            training: TrainingPage::new(Places::of_this_user()),
-            drills: DrillsPage::new(Places::of_this_user(), seed),
-            settings: SettingsPage::new(Places::of_this_user(), bindings::key_pages()),
-            calibration: CalibrationPage::new(Places::of_this_user()),
+            training: TrainingPage::new(DataPaths::of_this_user()),
+            drills: DrillsPage::new(DataPaths::of_this_user(), seed),
+            settings: SettingsPage::new(DataPaths::of_this_user(), bindings::key_pages()),
+            calibration: CalibrationPage::new(DataPaths::of_this_user()),
             pending_table: None,
             in_force: Settings::default(),
             before: PageId::Coach,
@@ -151,7 +151,7 @@ impl App {
 
     /// Sets where the player's files are.
     #[must_use]
-    pub fn with_places(mut self, places: Places) -> Self {
+    pub fn with_places(mut self, places: DataPaths) -> Self {
         self.training.folder.clone_from(&places.runs);
         self.drills.places = places.clone();
         self.settings.places = places.clone();

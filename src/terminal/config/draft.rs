@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     calibration::Entry,
-    storage::{self, replace},
+    storage::{self, write_atomic_unsynced},
 };
 
 /// The saved form.
@@ -35,13 +35,13 @@ impl StrokeDraft {
     /// # Errors
     /// The message about a file that cannot be read, which is set aside.
     pub fn read_or_put_aside(path: &Path) -> Result<Option<Self>, String> {
-        let read = storage::read_if_there(path, storage::SMALL).map_err(|error| error.to_string());
+        let read = storage::read_if_exists(path, storage::MAX_SMALL_FILE).map_err(|error| error.to_string());
         let draft = read.and_then(|bytes| {
             let draft = bytes.map(|bytes| serde_json::from_slice(&bytes)).transpose();
             draft.map_err(|error| format!("it is damaged: {error}"))
         });
         draft.map_err(|error| {
-            let kept = storage::put_aside(path);
+            let kept = storage::rename_unreadable(path);
             format!("{}: {error}; the stroke that was typed in part cannot be restored, and {kept}", path.display())
         })
     }
@@ -54,7 +54,7 @@ impl StrokeDraft {
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder)?;
         }
-        replace(path, &serde_json::to_vec(self).map_err(io::Error::from)?)
+        write_atomic_unsynced(path, &serde_json::to_vec(self).map_err(io::Error::from)?)
     }
 }
 

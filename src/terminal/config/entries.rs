@@ -10,7 +10,7 @@ use crate::{
         words::{LengthUnit, PlaceUnit, TipUnit},
     },
     game::Rule,
-    storage::may_read,
+    storage::check_read_allowed,
     table::PRESETS,
     terminal::{
         Depth, Glyphs, Settings, ThemeName,
@@ -220,7 +220,7 @@ fn parsed<T: FromStr>(value: &DeValue) -> Option<T> {
 
 /// A bundled table, or the path of an existing file, as far as this process may read it.
 fn table(value: &DeValue) -> Option<String> {
-    let is_there = |path: &Path| may_read(path).is_ok() && path.is_file();
+    let is_there = |path: &Path| check_read_allowed(path).is_ok() && path.is_file();
     value.as_str().filter(|name| PRESETS.contains(name) || is_there(Path::new(name))).map(str::to_owned)
 }
 

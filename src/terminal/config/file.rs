@@ -6,7 +6,7 @@ use std::{
 };
 
 use crate::{
-    storage::{self, Places, write_atomic},
+    storage::{self, DataPaths, write_atomic},
     terminal::{
         Change, Complaint, Settings,
         config::{
@@ -22,7 +22,7 @@ pub struct SettingsTask {
     /// Identifies the report of this task.
     pub number: u64,
     /// Locations of the settings file and of the player's own tables.
-    pub places: Places,
+    pub places: DataPaths,
     /// The change to make; `None` to read the file.
     pub change: Option<Change>,
 }
@@ -93,7 +93,7 @@ impl SettingsFile {
         };
         if text != Some(&new) {
             // A symbolic link stays a link.
-            let target = storage::target_of(path);
+            let target = storage::resolve_symlinks(path);
             let written = write_atomic(&target, new.as_bytes());
             self.has_failed = written.is_err();
             if let Err(error) = written {
@@ -106,7 +106,7 @@ impl SettingsFile {
 
 /// The bytes of the file; `None` if it does not exist.
 fn content(path: &Path) -> io::Result<Option<Vec<u8>>> {
-    match storage::read(path, storage::SMALL) {
+    match storage::read(path, storage::MAX_SMALL_FILE) {
         Ok(bytes) => Ok(Some(bytes)),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error),
@@ -131,7 +131,7 @@ mod tests {
     use crate::terminal::ThemeName;
 
     fn task(path: &Path, change: impl Into<Option<Change>>) -> SettingsTask {
-        let places = Places { settings: path.to_owned(), ..Places::under(path.parent().unwrap()) };
+        let places = DataPaths { settings: path.to_owned(), ..DataPaths::under(path.parent().unwrap()) };
         SettingsTask { number: 1, places, change: change.into() }
     }
 

@@ -16,8 +16,8 @@ use std::{
 use crate::{
     coach::{Doubt, Skill, Units},
     game::Rule,
-    printing::typed_number,
-    storage::{self, Places},
+    printing::parse_number,
+    storage::{self, DataPaths},
     table::{PRESETS, Table},
     terminal::{Depth, Glyphs, Keys, ThemeName, keymap::remap},
 };
@@ -88,12 +88,12 @@ impl Default for Settings {
 impl Settings {
     /// The settings file of this user; if the user has no home directory, a file in the working directory.
     pub fn path() -> PathBuf {
-        Places::of_this_user().settings
+        DataPaths::of_this_user().settings
     }
 
     /// Loads the settings, with the defaults for a missing file and for missing or wrong keys, and the list of mistakes.
     pub fn load(path: &Path) -> (Self, Vec<Complaint>) {
-        match storage::read(path, storage::SMALL) {
+        match storage::read(path, storage::MAX_SMALL_FILE) {
             Ok(bytes) => read::read(&String::from_utf8_lossy(&bytes)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => (Self::default(), Vec::new()),
             Err(error) => (Self::default(), vec![Complaint::of_file(&error)]),
@@ -106,7 +106,7 @@ impl Settings {
     /// A message that names the value and what would be accepted.
     pub fn with(&self, entry: &Entry, typed: &str) -> Result<Self, String> {
         // TOML has no decimal comma.
-        let number = typed_number(typed).filter(|_| typed.contains(',')).map(|number| number.to_string());
+        let number = parse_number(typed).filter(|_| typed.contains(',')).map(|number| number.to_string());
         let number = number.as_deref().unwrap_or(typed);
         for value in [typed, &quoted(typed), number] {
             let mut settings = self.clone();
@@ -128,7 +128,7 @@ impl Settings {
         if PRESETS.contains(&self.table.as_str()) {
             return Table::preset(&self.table).map_err(|error| error.to_string());
         }
-        let text = storage::read_text(self.table.as_ref(), storage::SMALL).map_err(|error| error.to_string());
+        let text = storage::read_text(self.table.as_ref(), storage::MAX_SMALL_FILE).map_err(|error| error.to_string());
         let table =
             text.and_then(|text| Table::from_file(self.table.as_ref(), &text).map_err(|error| error.to_string()));
         table.map_err(|sentence| format!("{}: {sentence}", self.table))

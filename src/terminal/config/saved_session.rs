@@ -8,7 +8,7 @@ use crate::{
     coach::{FirstMet, Skill},
     drills::Session,
     game::Rule,
-    storage::{self, json_flaw, replace},
+    storage::{self, describe_json_error, write_atomic_unsynced},
     table::{CueBall, Layout, Table},
     terminal::Terms,
 };
@@ -85,9 +85,9 @@ impl SavedSession {
     /// # Errors
     /// Why the session cannot be continued: the file cannot be read, is damaged, or has a newer version.
     pub fn load(path: &Path) -> Result<Option<Self>, String> {
-        let bytes = storage::read_if_there(path, storage::PRACTICE).map_err(|error| error.to_string())?;
+        let bytes = storage::read_if_exists(path, storage::MAX_PRACTICE_FILE).map_err(|error| error.to_string())?;
         let Some(bytes) = bytes else { return Ok(None) };
-        let damage = |error| format!("it is damaged: {}", json_flaw(&error));
+        let damage = |error| format!("it is damaged: {}", describe_json_error(&error));
         let header: Header = serde_json::from_slice(&bytes).map_err(damage)?;
         if header.version != VERSION {
             return Err(format!("it is of version {}, but this program reads version {VERSION}", header.version));
@@ -111,7 +111,7 @@ impl SavedSession {
             format!(
                 "{}: {error}; the last session cannot be continued, and {}",
                 path.display(),
-                storage::put_aside(path)
+                storage::rename_unreadable(path)
             )
         })
     }
@@ -139,7 +139,7 @@ impl SavedSession {
             std::fs::create_dir_all(folder)?;
         }
         let bytes = serde_json::to_vec(self).map_err(io::Error::from)?;
-        replace(path, &bytes)
+        write_atomic_unsynced(path, &bytes)
     }
 }
 

@@ -7,7 +7,7 @@ use std::{
 };
 
 use crate::{
-    platform::{self, Came, Input, Signal},
+    platform::{self, Input, Signal, TerminalInput},
     terminal::{host::input::Decoder, tasks::event::Event},
 };
 
@@ -22,10 +22,10 @@ pub fn open() -> io::Result<(Sender<Event>, Receiver<Event>)> {
     let (sender, receiver) = channel();
     // The input thread detects resizes too, but only after its first read; an earlier one would be lost.
     let to_screen = sender.clone();
-    platform::listen(move |signal| {
+    platform::handle_signals(move |signal| {
         let is_heard = to_screen.send(Event::Signal(signal)).is_ok();
         if is_heard && matches!(signal, Signal::End(_)) {
-            platform::free_the_screen();
+            platform::discard_pending_output();
         }
         is_heard
     })?;
@@ -48,10 +48,10 @@ fn read_input(to_screen: &Sender<Event>) -> io::Result<()> {
     let mut bytes = vec![0; READ_SIZE];
     loop {
         match input.next(&mut bytes, decoder.timeout())? {
-            Came::Silence => decoder.on_timeout(&mut events),
-            Came::Gone => return Ok(()),
-            Came::Bytes(count) => decoder.feed(&bytes[..count], &mut events),
-            Came::Event(event) => events.push(event),
+            TerminalInput::Timeout => decoder.on_timeout(&mut events),
+            TerminalInput::Closed => return Ok(()),
+            TerminalInput::Bytes(count) => decoder.feed(&bytes[..count], &mut events),
+            TerminalInput::Event(event) => events.push(event),
         }
         for event in events.drain(..) {
             if to_screen.send(Event::Input(event)).is_err() {

@@ -9,7 +9,7 @@ use std::{
 
 use tracing::Level;
 
-use crate::printing::Shown;
+use crate::printing::EscapingWriter;
 
 /// Size from which the file is rotated, bytes; at most two files of this size are kept.
 const LARGEST: u64 = 1 << 20;
@@ -22,7 +22,7 @@ const LEVEL: Level = Level::INFO;
 /// # Errors
 /// Fails if the file cannot be opened; the program then runs without a log.
 pub fn start(path: &Path, level: Option<&str>) -> io::Result<()> {
-    let file = Mutex::new(Shown::new(LogFile::open(path)?));
+    let file = Mutex::new(EscapingWriter::new(LogFile::open(path)?));
     let level = level.and_then(|name| name.parse().ok()).unwrap_or(LEVEL);
     // Write errors, as on a full disk, are not printed on standard error: that is the screen. If it is closed, printing would panic, the
     // panic would be logged, and so on.

@@ -13,7 +13,7 @@ use tracing::{info, warn};
 use crate::{
     platform::{self, Signal},
     printing::{self, FULL_VERSION, OneLine},
-    storage::Places,
+    storage::DataPaths,
     terminal::{
         App, CoachAnswer, CoachNews, Effect, SavedSession, TrainingReport,
         host::{events, guard::TerminalGuard, log, pace::Pace, showing::TableSharing},
@@ -39,7 +39,7 @@ enum Next {
 ///
 /// # Errors
 /// Any error of the terminal.
-pub fn run(app: App, places: Places) -> io::Result<()> {
+pub fn run(app: App, places: DataPaths) -> io::Result<()> {
     // The program works without a log too.
     let _ = log::start(&places.log, std::env::var("CAROM_LOG").ok().as_deref());
     info!(version = FULL_VERSION, caps = ?app.caps, "the screen opens");
@@ -48,7 +48,7 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     let tasks = Tasks::new(to_screen)?;
     let saved = (None, Instant::now());
     let ticked = Instant::now();
-    let showing = TableSharing::new(places.shown.clone());
+    let showing = TableSharing::new(places.spectator_folder.clone());
     let (has_resumed, has_save_failed, last_logged) = (false, false, String::new());
     let mut runner =
         Runner { app, session, tasks, places, ticked, has_resumed, saved, has_save_failed, last_logged, showing };
@@ -66,7 +66,7 @@ pub fn run(app: App, places: Places) -> io::Result<()> {
     }
     match end? {
         // The parent process must see that a signal ended the program, even if the terminal is already gone.
-        Some(signal) => platform::die(signal),
+        Some(signal) => platform::exit_by_signal(signal),
         None => left,
     }
 }
@@ -84,7 +84,7 @@ struct Runner {
     app: App,
     session: TerminalGuard,
     tasks: Tasks,
-    places: Places,
+    places: DataPaths,
     /// Time of the last tick of the app, or of the return from being suspended.
     ticked: Instant,
     /// Whether the terminal has already been taken over again when the signal for it arrives.
@@ -169,10 +169,10 @@ impl Runner {
             self.saved.1 = Instant::now();
             return;
         }
-        if let Some(Err(error)) = last.as_ref().map(|last| last.save(&self.places.last)) {
+        if let Some(Err(error)) = last.as_ref().map(|last| last.save(&self.places.last_session)) {
             // Report the failure once: repeating it would not help.
             if !std::mem::replace(&mut self.has_save_failed, true) {
-                let path = self.places.last.display();
+                let path = self.places.last_session.display();
                 self.app.failed(format!("{path}: {error}; the next start cannot go on from here"));
             }
         }

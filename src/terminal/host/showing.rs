@@ -80,7 +80,7 @@ impl TableSharing {
             |error: std::io::Error| format!("{}: {error}; others cannot see the table", self.folder.display());
         if self.open.is_none() {
             fs::create_dir_all(&self.folder).map_err(refusal)?;
-            let lock = Lock::take(&self.folder).map_err(refusal)?;
+            let lock = Lock::try_acquire(&self.folder).map_err(refusal)?;
             let lock = lock.ok_or("another session of yours already shows its table")?;
             self.open = Some(Open { _lock: lock, written: None, when: Instant::now() });
         }

@@ -7,7 +7,7 @@ use glam::DVec2;
 use crate::{
     coach::Skill,
     game::Rule,
-    printing::typed_number,
+    printing::parse_number,
     table::{BALL_NAMES, CueBall, Side},
 };
 
@@ -184,7 +184,7 @@ fn step(direction: &str, distance: &str) -> Result<DVec2, String> {
         "down" => DVec2::NEG_Y,
         _ => return Err(format!("\"{direction}\" is not a direction; use left, right, up or down")),
     };
-    let millimetres = typed_number(distance).filter(|distance| (0.0..=10_000.0).contains(distance));
+    let millimetres = parse_number(distance).filter(|distance| (0.0..=10_000.0).contains(distance));
     let millimetres = millimetres.ok_or_else(|| format!("\"{distance}\" is not a distance; use 0 to 10000 mm"))?;
     Ok(unit * (1e-3 * millimetres))
 }

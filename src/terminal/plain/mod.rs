@@ -25,7 +25,7 @@ use crate::{
     physics::CueInputs,
     simulation::Recording,
     statistics::SuccessRate,
-    storage::{LONGEST_LINE, NextLine, next_line},
+    storage::{MAX_LINE_BYTES, NextLine, next_line},
     table::{CueBall, Layout, Side, Table},
     terminal::{
         Settings,
@@ -121,7 +121,7 @@ pub fn converse(
     loop {
         let command = match next_line(&mut input, &mut line)? {
             NextLine::End => break,
-            NextLine::TooLong => Err(format!("That line is too long; accepted are up to {LONGEST_LINE} bytes.")),
+            NextLine::TooLong => Err(format!("That line is too long; accepted are up to {MAX_LINE_BYTES} bytes.")),
             NextLine::Line => String::from_utf8_lossy(line.trim_ascii_end()).parse(),
         };
         let answer = match command {

@@ -7,8 +7,8 @@ use std::{
 
 use crate::{
     calibration::{
-        Calibration, Edit, Entries, Next, Play, Trial, calibrate, edit_entries, kept_entries, prospects,
-        put_aside_unread, save_table,
+        Calibration, Edit, Entries, NextTest, TablePlay, Trial, back_up_unreadable, calibrate, edit_entries,
+        load_entries_or_empty, rank_tests_before_trials, save_table,
     },
     table::{Table, TableDoubt},
 };
@@ -58,9 +58,9 @@ pub struct Judged {
     /// The calibration; `None` if there are no entries yet.
     pub found: Option<Calibration>,
     /// All tests, the most informative first.
-    pub next: Vec<Next>,
+    pub next: Vec<NextTest>,
     /// For a daily check: how the table played before and how it plays now.
-    pub play: Option<[Play; 2]>,
+    pub play: Option<[TablePlay; 2]>,
 }
 
 /// Content of a file of entries.
@@ -90,10 +90,10 @@ impl CalibrationTask {
     pub fn run(self) -> CalibrationReport {
         match self {
             Self::Read(path) => {
-                let kept = kept_entries(&path).map(|entries| Box::new(KeptEntries { entries, back: None }));
+                let kept = load_entries_or_empty(&path).map(|entries| Box::new(KeptEntries { entries, back: None }));
                 CalibrationReport::Entries(path, kept.map_err(|error| error.to_string()))
             }
-            Self::PutAside(path) => match put_aside_unread(&path) {
+            Self::PutAside(path) => match back_up_unreadable(&path) {
                 Ok(()) => Self::Read(path).run(),
                 Err(error) => CalibrationReport::Entries(path, Err(error.to_string())),
             },
@@ -122,11 +122,11 @@ impl Judging {
     fn judge(&self) -> Result<Judged, String> {
         let Self { name, table, doubt, trials, is_daily, .. } = self;
         if trials.is_empty() {
-            let next = prospects(table, doubt).map_err(|error| error.to_string())?;
+            let next = rank_tests_before_trials(table, doubt).map_err(|error| error.to_string())?;
             return Ok(Judged { found: None, next, play: None });
         }
         let found = calibrate(name, table, doubt, trials).map_err(|error| error.to_string())?;
-        let play = is_daily.then(|| [Play::of(table), Play::of(&found.table)]);
+        let play = is_daily.then(|| [TablePlay::of(table), TablePlay::of(&found.table)]);
         Ok(Judged { next: found.next.clone(), found: Some(found), play })
     }
 }

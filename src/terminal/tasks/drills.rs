@@ -8,7 +8,7 @@ use crate::{
     game::Rule,
     physics::CueInputs,
     statistics::SuccessRate,
-    storage::Places,
+    storage::DataPaths,
     study::filmed::FilmedShot,
     table::{Layout, Table},
     terminal::{FilmReplay, Shot},
@@ -18,7 +18,7 @@ use crate::{
 #[derive(Clone, Debug)]
 pub enum DrillTask {
     /// Load the user's records from this location; all later tasks write there.
-    Load(Box<Places>),
+    Load(Box<DataPaths>),
     /// Find the model shot.
     Advise(Box<AdviceTask>),
     /// Play the next attempt of a session and save it.

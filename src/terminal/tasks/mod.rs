@@ -276,7 +276,7 @@ fn restart_if_changed(
 fn list(folder: PathBuf) -> impl FnMut() -> Option<Event> {
     let (mut runs, mut before) = (RunsFolder::new(&folder), None);
     move || {
-        let found = match runs.look() {
+        let found = match runs.poll() {
             // No run was ever started.
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Listing::default()),
             found => found.map_err(|error| format!("{}: {error}", folder.display())),
@@ -302,7 +302,7 @@ fn follow(
     let mut follower = Follower::new(&folder);
     let (mut table, mut examples, mut had_policy) = (None, None, None);
     Ok(move || {
-        let update = follower.look();
+        let update = follower.poll();
         // Reported first, so that a run that has just finished never seems to have no policy.
         if slot == FollowSlot::Main {
             let has_policy = folder.join(POLICY).exists();
@@ -336,7 +336,7 @@ fn recorder(folder: PathBuf, to_screen: Sender<Event>) -> io::Result<Worker<(Exa
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{storage::Places, study::filmed::bundled};
+    use crate::{storage::DataPaths, study::filmed::bundled};
 
     #[test]
     fn what_a_key_has_just_begun_is_done_before_the_program_ends() {
@@ -354,7 +354,7 @@ mod tests {
         let tasks = Tasks::new(to_screen).unwrap();
         let film = || DrillTask::Film(Box::new(bundled().swap_remove(0)));
         let home = tempfile::tempdir().unwrap();
-        tasks.practise(vec![DrillTask::Load(Box::new(Places::under(home.path())))]).unwrap();
+        tasks.practise(vec![DrillTask::Load(Box::new(DataPaths::under(home.path())))]).unwrap();
         tasks.practise((0..40).map(|_| film()).collect()).unwrap();
         tasks.practise(vec![DrillTask::KeepSkill(crate::coach::Skill::CLUB)]).unwrap();
         tasks.finish();

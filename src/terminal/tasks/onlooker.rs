@@ -121,7 +121,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mut onlooker = Onlooker::new(folder.path().to_owned());
         assert!(matches!(onlooker.look(), Some(Seen::Nothing)) && onlooker.look().is_none());
-        let lock = Lock::take(folder.path()).unwrap();
+        let lock = Lock::try_acquire(folder.path()).unwrap();
         let table = Table::default();
         let layout = Layout::opening(&table);
         let cue = CueInputs::parse("0.2,0.3,6,-72,2.5").unwrap();

@@ -30,7 +30,7 @@ pub fn start(arguments: &[OsString]) -> Result<Trainer, TrainerFailure> {
         let mut command = Command::new(program);
         command.args(arguments).stdin(Stdio::null()).stdout(Stdio::null()).stderr(output.try_clone()?);
         // The terminal sends signals to a process group; this process gets its own.
-        Ok((platform::own_group(&mut command).spawn()?, output))
+        Ok((platform::in_own_process_group(&mut command).spawn()?, output))
     };
     start().map_err(|error: std::io::Error| TrainerFailure {
         process: None,

@@ -9,7 +9,7 @@ use std::{
 use crate::{
     learning::{
         Policy,
-        policy::kept::{self, KeepError},
+        policy::library::{self, SavePolicyError},
         run::{POLICY, follow::Update, list::Listing, request::Request},
     },
     terminal::Reel,
@@ -92,9 +92,9 @@ impl Keeping {
         if !self.from.exists() {
             return Err(NO_POLICY.to_owned());
         }
-        match kept::keep(&self.folder, &self.from, &self.name, self.replace) {
+        match library::save(&self.folder, &self.from, &self.name, self.replace) {
             Ok(_) => Ok(true),
-            Err(KeepError::Taken(_)) => Ok(false),
+            Err(SavePolicyError::Exists(_)) => Ok(false),
             Err(error) => Err(error.to_string()),
         }
     }

@@ -1,6 +1,6 @@
 //! Messages to the player: news, answers, refusals and failures.
 
-use crate::storage::without_numbers;
+use crate::storage::without_error_numbers;
 
 /// Tone of a message, which sets its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,7 +42,7 @@ impl Message {
 
     /// Creates a message of a refusal or a failure.
     pub fn warning(text: impl Into<String>) -> Self {
-        Self { tone: Tone::Warning, text: without_numbers(text.into()) }
+        Self { tone: Tone::Warning, text: without_error_numbers(text.into()) }
     }
 
     /// Puts `words` and a colon before the text.

@@ -111,7 +111,7 @@ pub fn spell(text: &str, caps: Capabilities) -> String {
     if caps.unicode {
         return text.to_owned();
     }
-    printing::spelt(text).replace('\u{e9}', "e")
+    printing::to_ascii(text).replace('\u{e9}', "e")
 }
 
 /// The end of `text` that fits into `room` columns, after an ellipsis: names often differ only at their ends.

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use crate::storage::without_numbers;
+use crate::storage::without_error_numbers;
 
 /// Most toasts shown at once; a further one replaces the oldest.
 const SHOWN: usize = 3;
@@ -41,7 +41,7 @@ impl Toasts {
         let Some((first, more)) = sentences.split_first() else { return };
         // The list shows the newest first; adding them in reverse keeps their order.
         for text in more.iter().rev() {
-            let text = without_numbers(text.clone());
+            let text = without_error_numbers(text.clone());
             if !self.past.contains(&text) {
                 self.keep(text);
             }
@@ -52,7 +52,7 @@ impl Toasts {
 
     /// Shows `text`; if it is already visible, restarts its time.
     pub fn push(&mut self, text: String, is_answer: bool) {
-        let text = without_numbers(text);
+        let text = without_error_numbers(text);
         let (answer, news) = LOOKING;
         let left = text.chars().count() as f64 / READING + if is_answer { answer } else { news };
         if let Some(known) = self.shown.iter_mut().find(|toast| toast.text == text) {

@@ -12,7 +12,7 @@ use carom::{
             list::runs_in,
         },
     },
-    storage::Places,
+    storage::DataPaths,
     terminal::Settings,
 };
 use proptest::prelude::*;
@@ -92,7 +92,7 @@ proptest! {
             fs::create_dir(folder.path().join(kind)).unwrap();
             fs::write(folder.path().join(kind).join(only(&format!("carom/{kind}")).0), bytes).unwrap();
         }
-        let store = Store::new(&Places::under(folder.path()));
+        let store = Store::new(&DataPaths::under(folder.path()));
         let found = store.sessions();
         prop_assert_eq!(found.items.len() + found.notes.len(), 1, "it is read or told of");
         for session in &found.items {
@@ -131,7 +131,7 @@ proptest! {
             }
             // Files that rarely change are read once a second, but at once by a new follower.
             for follower in [&mut follower, &mut Follower::new(&run)] {
-                if let Some(update) = follower.look() {
+                if let Some(update) = follower.poll() {
                     followed.apply(update);
                 }
                 prop_assert!(!followed.sentence().is_empty());

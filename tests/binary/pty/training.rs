@@ -30,7 +30,8 @@ fn a_run_that_was_started_in_the_program_goes_on_when_the_program_has_ended() {
     let start = Instant::now();
     loop {
         let runs = runs_in(&data.path().join("carom/runs")).unwrap_or_default().runs;
-        if runs.first().is_some_and(|run| run.state == Condition::Is(Phase::Finished) && run.best_reward.is_some()) {
+        if runs.first().is_some_and(|run| run.state == Condition::InPhase(Phase::Finished) && run.best_reward.is_some())
+        {
             break;
         }
         assert!(start.elapsed() < 9 * PATIENCE, "it does not finish: {runs:?}");

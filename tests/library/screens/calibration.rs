@@ -73,9 +73,10 @@ fn the_tests_are_shown_with_where_balls_lie_how_to_strike_and_what_they_tell() {
 #[test]
 fn every_mark_of_a_form_has_a_row_while_it_is_asked_for_at_80_columns() {
     for (n, test) in PROTOCOL.iter().enumerate() {
-        let rows: Vec<String> = test.asked().zip('a'..).map(|(name, letter)| format!("{letter} {name:<7} -")).collect();
+        let rows: Vec<String> =
+            test.field_names().zip('a'..).map(|(name, letter)| format!("{letter} {name:<7} -")).collect();
         let mut form = new().press(&"Down ".repeat(n)).press("Enter");
-        for name in test.asked() {
+        for name in test.field_names() {
             let text = form.text(80, 24);
             assert!(text.contains(&format!(" {name}: ")), "{name} of {}: {text}", test.name);
             assert!(rows.iter().all(|row| text.contains(row)), "{}: {text}", test.name);
@@ -133,7 +134,7 @@ fn a_stroke_is_kept_at_once_and_its_values_are_shown_with_how_sure_they_are() {
     let values = player.press("Tab");
     values.shows(&["mu_r", "well", "no better", "all marks agree with each other", "helps most"]);
     let again = enter(values, &["9.3", "5.1 ~ 0.2", "2", ""]);
-    assert_eq!(kept(&again).trials[1].typed("stop"), "5.1 ~ 0.2");
+    assert_eq!(kept(&again).trials[1].field_text("stop"), "5.1 ~ 0.2");
     // Both strokes are entered: the next test is selected.
     again.shows(&["2/2", "Strokes of slow-back"]);
     let rolled = again.press("Home");
@@ -148,7 +149,7 @@ fn odd_marks_are_named_and_what_is_typed_stays() {
     assert_eq!(player.app.place(), KeyContext::Calibration(CalibrationContext::Marks));
     assert!(kept(&player).trials.is_empty());
     let player = player.press("Backspace Backspace").type_in("5.4").press("Enter Enter Enter");
-    assert_eq!(kept(&player).trials[0].typed("stop"), "5.4");
+    assert_eq!(kept(&player).trials[0].field_text("stop"), "5.4");
     for (marks, says) in [
         (["240", "", "", ""], "was the stopwatch left running?"),
         (["abc", "", "", ""], "time = \"abc\" is no time; accepted is a number of"),
@@ -160,7 +161,7 @@ fn odd_marks_are_named_and_what_is_typed_stays() {
     let taped = new().press("Enter Down").type_in("5.4").press("C-t");
     taped.says("by tape, right to 5 mm");
     let taped = taped.press("Enter Enter Enter");
-    assert_eq!(kept(&taped).trials[0].typed("stop"), "5.4 ~ 5 mm");
+    assert_eq!(kept(&taped).trials[0].field_text("stop"), "5.4 ~ 5 mm");
     let left = new().press("Enter").type_in("9").press("Esc");
     assert_eq!(
         (left.app.place(), kept(&left)),
@@ -183,13 +184,13 @@ fn a_stroke_may_be_said_to_have_been_played_from_the_far_end() {
 fn strokes_are_edited_deleted_and_come_back() {
     let player = measured().press("Home");
     let edited = player.press("e Down Backspace").type_in("5").press("Enter Enter Enter");
-    assert_eq!(kept(&edited).trials[0].typed("stop"), "5.5");
+    assert_eq!(kept(&edited).trials[0].field_text("stop"), "5.5");
     let out = edited.press("Home Delete");
     assert_eq!(kept(&out).trials.len(), 1);
     let back = out.press("u");
-    assert_eq!(kept(&back).trials[0].typed("stop"), "5.5");
+    assert_eq!(kept(&back).trials[0].field_text("stop"), "5.5");
     let back = back.press("u");
-    assert_eq!(kept(&back).trials[0].typed("stop"), "5.4");
+    assert_eq!(kept(&back).trials[0].field_text("stop"), "5.4");
     let none = back.press("u u");
     assert!(kept(&none).trials.is_empty());
     none.press("u").warns("nothing to undo yet");
@@ -226,7 +227,7 @@ fn the_command_and_the_page_share_the_file_and_what_cannot_be_read_is_not_writte
     let player = enter(new(), &ROLL);
     let path = player.path("calibration.toml");
     let mut other = Entry { test: "lag".into(), ..Entry::default() };
-    other.take("lap", "4.4").unwrap();
+    other.set_field("lap", "4.4").unwrap();
     edit_entries(&path, &Edit::Add(other.clone())).unwrap();
     let player = enter(player, &ROLL);
     assert_eq!((kept(&player).trials.len(), &kept(&player).trials[1]), (3, &other));

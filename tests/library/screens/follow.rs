@@ -24,7 +24,7 @@ fn anna() -> Player {
 /// Returns what a spectator sees.
 fn seen(shown: &ShownTable) -> Seen {
     let folder = tempfile::tempdir().unwrap();
-    let _lock = Lock::take(folder.path()).unwrap();
+    let _lock = Lock::try_acquire(folder.path()).unwrap();
     shown.write(folder.path()).unwrap();
     Onlooker::new(folder.path().to_owned()).look().unwrap()
 }

@@ -14,7 +14,7 @@ use carom::{
     },
     physics::CueInputs,
     statistics::SuccessRate,
-    storage::Places,
+    storage::DataPaths,
     table::{Layout, Table},
     terminal::{
         Advice, AdviceTask, App, Capabilities, CoachAnswer, CoachJob, CoachNews, CoachWorker, DrillReport, DrillTask,
@@ -62,8 +62,8 @@ pub struct Player {
 }
 
 /// Returns the player's folders; tests report the runs themselves.
-pub fn places(folder: &Path) -> Places {
-    Places { runs: RUNS.into(), policies: "/policies".into(), ..Places::under(folder) }
+pub fn places(folder: &Path) -> DataPaths {
+    DataPaths { runs: RUNS.into(), policies: "/policies".into(), ..DataPaths::under(folder) }
 }
 
 /// Returns a proposal whose shot succeeds in `made` of 1000 attempts.
@@ -105,7 +105,7 @@ impl Player {
         let file = folder.path().join("config.toml");
         let (settings, complaints) = Settings::load(&file);
         let app = App::new(table.clone(), Layout::opening(table), caps, 7).unwrap();
-        let told = Places { settings: "/home/player/.config/carom/config.toml".into(), ..places(folder.path()) };
+        let told = DataPaths { settings: "/home/player/.config/carom/config.toml".into(), ..places(folder.path()) };
         Self {
             app: app.with_places(told).with_settings(&settings).with_complaints(&file, &complaints),
             asked: None,
@@ -314,7 +314,7 @@ impl Player {
     }
 
     pub fn condition(self, condition: Condition, reason: Option<&str>) -> Self {
-        let phase = if let Condition::Is(phase) = condition { phase } else { Phase::Training };
+        let phase = if let Condition::InPhase(phase) = condition { phase } else { Phase::Training };
         let status = RunStatus { phase, reason: reason.map(str::to_owned), ..status() };
         let update = Update { condition: Some(condition), status: Some(status), ..Update::default() };
         self.update(FollowSlot::Main, NAME, update)

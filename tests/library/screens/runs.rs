@@ -42,9 +42,9 @@ pub fn summary(name: &str, shots: u64, best: Option<f64>, state: Condition) -> S
 
 pub fn listing() -> Listing {
     let runs = vec![
-        summary(OTHER, 5_000_000, Some(0.931), Condition::Is(Phase::Finished)),
-        summary(NAME, 1_200_000, Some(0.874), Condition::Is(Phase::Training)),
-        summary("20261118-three-cushions/seed-1", 40_000, None, Condition::Is(Phase::Stopped)),
+        summary(OTHER, 5_000_000, Some(0.931), Condition::InPhase(Phase::Finished)),
+        summary(NAME, 1_200_000, Some(0.874), Condition::InPhase(Phase::Training)),
+        summary("20261118-three-cushions/seed-1", 40_000, None, Condition::InPhase(Phase::Stopped)),
     ];
     Listing { runs, ..Listing::default() }
 }
@@ -109,7 +109,7 @@ pub fn known() -> Update {
         config: Some(Box::new(config("r3"))),
         records: (1..=60).map(record).collect(),
         status: Some(status()),
-        condition: Some(Condition::Is(Phase::Training)),
+        condition: Some(Condition::InPhase(Phase::Training)),
         examples: Some(examples(1_200_000)),
         ..Update::default()
     }

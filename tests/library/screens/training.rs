@@ -45,7 +45,7 @@ fn the_list_of_runs() {
         "1 run is training",
     ]);
     let mut more = listing();
-    more.runs.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Condition::Is(Phase::Paused)));
+    more.runs.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Condition::InPhase(Phase::Paused)));
     Player::listing(TRUE_COLOUR).report(TrainingReport::Runs(Ok(more))).shows(&["1 run is training; 1 is paused"]);
     let effects = down.press("r").effects;
     let folder = Path::new(RUNS).join("20261118-three-cushions/seed-1");
@@ -56,7 +56,7 @@ fn the_list_of_runs() {
 fn the_newest_run_comes_first_and_the_mark_stays_at_its_run() {
     let player = Player::listing(TRUE_COLOUR).press("Down");
     let mut more = listing();
-    more.runs.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Condition::Is(Phase::Training)));
+    more.runs.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Condition::InPhase(Phase::Training)));
     let player = player.report(TrainingReport::Runs(Ok(more))).press("Enter");
     assert_eq!(player.app.subscriptions().followed[0].as_deref(), Some(Path::new(RUNS).join(OTHER).as_path()));
 }
@@ -132,14 +132,14 @@ fn a_run_that_trains() {
 fn every_condition_says_what_it_is_and_what_to_do() {
     let watching = || Player::watching(TRUE_COLOUR);
     for (condition, parts) in [
-        (Condition::Is(Phase::Paused), ["paused ", "paused and saved; p lets it go on", "p go on"]),
+        (Condition::InPhase(Phase::Paused), ["paused ", "paused and saved; p lets it go on", "p go on"]),
         (
             Condition::Stalled(Duration::from_secs(40)),
             ["stalled for 40 s", "the process is still there and may be suspended", "p pause"],
         ),
         (Condition::Died, ["died ", "r go on", "w use"]),
         (
-            Condition::Is(Phase::Finished),
+            Condition::InPhase(Phase::Finished),
             ["finished ", "w uses these networks in the coach", "k keeps them under a name"],
         ),
     ] {
@@ -147,10 +147,10 @@ fn every_condition_says_what_it_is_and_what_to_do() {
     }
     let reason =
         "training stopped after 1200000 shots: the loss is not a finite number any more; try a lower learning rate";
-    check("watch_failed", &watching().condition(Condition::Is(Phase::Failed), Some(reason)));
-    watching().condition(Condition::Is(Phase::Measuring), None).says("measuring");
+    check("watch_failed", &watching().condition(Condition::InPhase(Phase::Failed), Some(reason)));
+    watching().condition(Condition::InPhase(Phase::Measuring), None).says("measuring");
     watching()
-        .condition(Condition::Is(Phase::Stopped), None)
+        .condition(Condition::InPhase(Phase::Stopped), None)
         .says("carom train --resume 20261120-091500-ddpg-match-r3-1");
     watching().condition(Condition::Removed, None).says("the folder of the run has been removed");
 }
@@ -213,7 +213,7 @@ fn a_run_is_steered_by_requests() {
     let player = Player::watching(TRUE_COLOUR).press("p");
     let paused = player.report(TrainingReport::Sent(Request::Pause, Ok(())));
     paused.says("the run is asked to pause");
-    let paused = paused.condition(Condition::Is(Phase::Paused), None);
+    let paused = paused.condition(Condition::InPhase(Phase::Paused), None);
     paused.says("paused and saved; p lets it go on");
     let sent: Vec<_> = paused
         .press("p S n S y A y")
@@ -224,7 +224,7 @@ fn a_run_is_steered_by_requests() {
             other => panic!("{other:?}"),
         })
         .collect();
-    assert_eq!(sent, [Request::Pause, Request::GoOn, Request::Stop, Request::Abandon]);
+    assert_eq!(sent, [Request::Pause, Request::Resume, Request::Stop, Request::Abandon]);
     let refused =
         Player::watching(TRUE_COLOUR).report(TrainingReport::Sent(Request::Stop, Err("read-only file system".into())));
     refused.says("the run cannot be asked: read-only file system");
@@ -236,15 +236,17 @@ fn a_run_is_steered_by_requests() {
 
 #[test]
 fn a_question_ends_with_what_it_is_about() {
-    for (keys, condition) in [("A", Condition::Is(Phase::Stopped)), ("S", Condition::Died), ("k", Condition::Removed)] {
+    for (keys, condition) in
+        [("A", Condition::InPhase(Phase::Stopped)), ("S", Condition::Died), ("k", Condition::Removed)]
+    {
         let player = Player::watching(TRUE_COLOUR).press(keys).condition(condition, None);
         assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Watch), "{keys}");
         let player = player.press("y Enter");
         assert!(player.effects.is_empty(), "{keys}: {:?}", player.effects);
     }
-    let stopped = Player::watching(TRUE_COLOUR).press("A").condition(Condition::Is(Phase::Stopped), None);
+    let stopped = Player::watching(TRUE_COLOUR).press("A").condition(Condition::InPhase(Phase::Stopped), None);
     stopped.says("the run is not training");
-    let paused = Player::watching(TRUE_COLOUR).press("A").condition(Condition::Is(Phase::Paused), None);
+    let paused = Player::watching(TRUE_COLOUR).press("A").condition(Condition::InPhase(Phase::Paused), None);
     assert!(matches!(&paused.press("y").effects[..], [Effect::Send(Request::Abandon, _)]));
 }
 
@@ -254,10 +256,11 @@ fn a_run_is_started_once_however_long_the_key_is_held() {
     let player = died().press("r r r");
     assert_eq!(player.effects.len(), 1);
     player.says("the run is being started");
-    let listed = Listing { runs: vec![summary(NAME, 9, None, Condition::Is(Phase::Stopped))], ..Listing::default() };
+    let listed =
+        Listing { runs: vec![summary(NAME, 9, None, Condition::InPhase(Phase::Stopped))], ..Listing::default() };
     let player = player.press("Esc").report(TrainingReport::Runs(Ok(listed)));
     assert_eq!(player.press("r r").effects.len(), 1, "nor from the list");
-    let again = died().press("r").condition(Condition::Is(Phase::Training), None).condition(Condition::Died, None);
+    let again = died().press("r").condition(Condition::InPhase(Phase::Training), None).condition(Condition::Died, None);
     assert_eq!(again.press("r").effects.len(), 2, "it has come and gone");
     let folder = Path::new(RUNS).join(NAME);
     let failed = died().press("r").report(TrainingReport::TrainerFailed(folder, failure(Some(7), "the disk is full")));
@@ -280,7 +283,7 @@ fn a_second_process_that_is_refused_is_no_news_of_the_run() {
 
 #[test]
 fn weights_that_are_not_there_are_not_offered() {
-    let finished = || Player::watching(TRUE_COLOUR).condition(Condition::Is(Phase::Finished), None);
+    let finished = || Player::watching(TRUE_COLOUR).condition(Condition::InPhase(Phase::Finished), None);
     finished().says("w uses these networks in the coach");
     let without = finished().has_policy(false);
     without.says("finished; it has left no networks for the coach");
@@ -297,14 +300,14 @@ fn weights_that_are_not_there_are_not_offered() {
 fn shots_that_were_seen_do_not_play_again_when_one_comes_back_to_them() {
     // A follower reads the whole run again; a stopped run has measured itself after its last line.
     for after in [1_200_000, 1_210_000] {
-        let news = || Update { begins: true, examples: Some(examples(after)), ..known() };
+        let news = || Update { replaces_records: true, examples: Some(examples(after)), ..known() };
         let seen = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, NAME, news()).quiet().press("F2 F4");
         let again = seen.update(FollowSlot::Main, NAME, news());
         assert_eq!(again.app.frame_interval(), None, "{after}");
         // A run that was resumed from an earlier checkpoint reaches the same number with other shots.
         let mut other = examples(1_100_000);
         other.shots.pop();
-        let fresh = Update { begins: true, examples: Some(other), ..known() };
+        let fresh = Update { replaces_records: true, examples: Some(other), ..known() };
         assert!(again.update(FollowSlot::Main, NAME, fresh).app.frame_interval().is_some(), "{after}");
     }
 }
@@ -481,7 +484,7 @@ proptest! {
                 2 => player.update(FollowSlot::Main, NAME, known()),
                 3 => player.update(FollowSlot::Compared, OTHER, known()),
                 4 => player.condition(Condition::Died, None),
-                5 => player.condition(Condition::Is(Phase::Finished), None),
+                5 => player.condition(Condition::InPhase(Phase::Finished), None),
                 6 => player.report(TrainingReport::TrainerFailed(Path::new(RUNS).join(NAME), failure(None, "it failed"))),
                 7 => player.has_policy(true),
                 _ => player,

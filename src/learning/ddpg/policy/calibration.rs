@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_changes_without_trials_or_if_the_fit_reverses_the_order() {
+    fn unusable_fits_leave_the_probabilities_unchanged() {
         let turned: Vec<Trial> = trials(1.0, |logit| logistic(-logit)).collect();
         for calibration in [Calibration::default(), Calibration::of(&[]), Calibration::of(&turned)] {
             for errors in [0.0, 1.0, 9.0] {
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fit_in_which_every_stroke_succeeds_still_gives_a_probability() {
+    fn a_fit_to_successes_alone_gives_a_probability() {
         let certain = Calibration::of(&trials(0.0, |_| 1.0).collect::<Vec<_>>());
         assert!((0.9..=1.0).contains(&certain.probability(2.0, 0.0)), "{certain:?}");
     }

@@ -8,8 +8,8 @@ use super::{Policy, calibration::Calibration};
 use crate::{
     game::{Reward, Rule},
     learning::{
-        checksum::{NO_CHECKSUM, OF_POLICY, checksum, is_whole, write_checksum},
-        ddpg::{context::knows, hyperparameters::Hyperparameters, networks::Networks},
+        checksum::{CHECKSUM_PLACEHOLDER, POLICY_FIELD, checksum, is_intact, write_checksum},
+        ddpg::{context::is_known_table, hyperparameters::Hyperparameters, networks::Networks},
         nn::weights::{Reader, WeightsError, Writer},
     },
     storage,
@@ -144,12 +144,12 @@ impl Policy {
     pub fn bundled_for(table: &Table, rule: Rule, errs: bool) -> Option<Result<Self, PolicyError>> {
         let own = || Self::bundled(table, rule);
         let read = |bytes| Self::from_bytes(bytes, &format!("the bundled policy for {rule} on tables like \"match\""));
-        let with_context = || bundled_file("context", rule).filter(|_| knows(table)).map(read);
+        let with_context = || bundled_file("context", rule).filter(|_| is_known_table(table)).map(read);
         if errs {
             return with_context().or_else(own);
         }
         let of_match = || {
-            let policy = Self::bundled(&Table::default(), rule).filter(|_| knows(table))?;
+            let policy = Self::bundled(&Table::default(), rule).filter(|_| is_known_table(table))?;
             policy.as_ref().map_or(true, Self::has_context).then_some(policy)
         };
         own().or_else(of_match).or_else(with_context)
@@ -159,7 +159,7 @@ impl Policy {
     ///
     /// # Errors
     /// The same as [`Policy::bundled`].
-    pub fn bundled_called(name: &str) -> Option<Result<Self, PolicyError>> {
+    pub fn bundled_by_name(name: &str) -> Option<Result<Self, PolicyError>> {
         bundled_bytes(name).map(|bytes| Self::from_bytes(bytes, name))
     }
 
@@ -190,15 +190,15 @@ impl Policy {
     /// Loads a policy and returns the file's bytes, too: a run may replace the file before the caller could read it again.
     pub(super) fn load_with_bytes(path: &Path) -> Result<(Self, Vec<u8>), PolicyError> {
         let origin = path.display().to_string();
-        let bytes =
-            storage::read(path, storage::LARGE).map_err(|reason| PolicyError::Read { path: origin.clone(), reason })?;
+        let bytes = storage::read(path, storage::MAX_LARGE_FILE)
+            .map_err(|reason| PolicyError::Read { path: origin.clone(), reason })?;
         Ok((Self::of_file(&bytes, &origin)?, bytes))
     }
 
     /// Parses a policy file after checking its checksum: nothing else would reveal a changed weight. Files of earlier versions have no
     /// checksum.
     pub(in crate::learning) fn of_file(bytes: &[u8], name: &str) -> Result<Self, PolicyError> {
-        if is_whole(OF_POLICY, bytes) == Some(false) {
+        if is_intact(POLICY_FIELD, bytes) == Some(false) {
             return Err(PolicyError::Damaged { origin: name.to_owned() });
         }
         Self::from_bytes(bytes, name)
@@ -226,8 +226,8 @@ impl Policy {
         for (name, network) in [("actor", &self.networks.actor), ("critic", &self.networks.critic)] {
             writer.add_network_half(name, network)?;
         }
-        let mut bytes = writer.finish(&Note { policy_checksum: NO_CHECKSUM, origin: &self.origin })?;
-        if write_checksum(OF_POLICY, &mut bytes) { Ok(bytes) } else { Err(WeightsError::Foreign) }
+        let mut bytes = writer.finish(&Note { policy_checksum: CHECKSUM_PLACEHOLDER, origin: &self.origin })?;
+        if write_checksum(POLICY_FIELD, &mut bytes) { Ok(bytes) } else { Err(WeightsError::Foreign) }
     }
 }
 
@@ -265,7 +265,7 @@ mod tests {
                 let policy = Policy::bundled_for(table, rule, errs).unwrap().unwrap();
                 // The policy for three cushions on `match` has a context, too.
                 assert_eq!(policy.has_context(), has_context || rule == Rule::ThreeCushion);
-                assert!(policy.knows(table));
+                assert!(policy.is_trained_for(table));
                 assert_eq!(policy.origin().reward, Reward::for_rule(rule));
             }
         }
@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn any_changed_byte_is_detected_and_files_of_earlier_versions_are_read() {
+    fn changed_bytes_are_detected_and_earlier_versions_are_read() {
         let policy = bundled();
         let bytes = policy.to_bytes().unwrap();
         let read = |bytes: &[u8]| Policy::of_file(bytes, "it");
@@ -319,7 +319,7 @@ mod tests {
         let message = read(&damaged).unwrap_err().to_string();
         assert!(message.starts_with("it is damaged"), "{message}");
         let earlier = bundled_file("match", Rule::StraightRail).unwrap();
-        assert_eq!(is_whole(OF_POLICY, earlier), None);
+        assert_eq!(is_intact(POLICY_FIELD, earlier), None);
         assert!(read(earlier).is_ok());
     }
 

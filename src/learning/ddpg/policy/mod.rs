@@ -2,7 +2,7 @@
 
 pub mod calibration;
 pub mod file;
-pub mod kept;
+pub mod library;
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::{
     learning::{
         ddpg::{
             action::Action,
-            context::knows,
+            context::is_known_table,
             networks::Networks,
             observation::Observation,
             paths::{cue_inputs, playable},
@@ -57,13 +57,13 @@ impl Policy {
     }
 
     /// Whether its probabilities are valid for a player with this skill: the skill is an input, and training included such players.
-    pub fn speaks_of(&self, skill: &Skill) -> bool {
+    pub fn is_valid_for(&self, skill: &Skill) -> bool {
         self.has_context() && (self.origin.hyperparameters.perfect < 1.0 || skill.scale() == 0.0)
     }
 
     /// Whether it was trained on tables like this one.
-    pub fn knows(&self, table: &Table) -> bool {
-        self.origin.table == table.name || (self.has_context() && knows(table))
+    pub fn is_trained_for(&self, table: &Table) -> bool {
+        self.origin.table == table.name || (self.has_context() && is_known_table(table))
     }
 
     /// Returns the stroke with the highest probability of success for a player of this skill. Only a policy with a context uses the skill.
@@ -120,7 +120,7 @@ impl Policy {
         for layouts in layouts.chunks(64) {
             for (layout, proposals) in layouts.iter().zip(self.proposals_for(table, layouts, &Skill::PERFECT)) {
                 let first = reward.with_room(table, layout, &proposals[0].cue, u32::MAX);
-                played.push((first, any_earns(table, reward, layout, first, &proposals[1..])));
+                played.push((first, any_scores(table, reward, layout, first, &proposals[1..])));
             }
         }
         Score::of(&played)
@@ -128,7 +128,7 @@ impl Policy {
 }
 
 /// Whether any proposal earns a reward of 1 or more: the first, whose reward is `first`, or one of the `others`.
-pub fn any_earns(table: &Table, reward: Reward, layout: &Layout, first: f64, others: &[Proposal]) -> bool {
+pub fn any_scores(table: &Table, reward: Reward, layout: &Layout, first: f64, others: &[Proposal]) -> bool {
     // With a limit on contact steps: on the `thesis` table a few proposals would take all the time, and hardly any of them earns anything.
     first >= 1.0 || others.iter().any(|proposal| reward.with_room(table, layout, &proposal.cue, CONTACT_STEPS) >= 1.0)
 }
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn a_proposal_for_which_the_cue_has_no_room_counts_as_missed() {
+    fn proposals_without_cue_room_count_as_missed() {
         let (table, reward) = (Table::default(), Reward::ThreeCushion);
         let policy = Policy::bundled(&table, Rule::ThreeCushion).unwrap().unwrap();
         // On this held-out layout only a stroke without room would make the point.
@@ -181,12 +181,12 @@ mod tests {
     }
 
     #[test]
-    fn a_policy_knows_the_table_that_it_was_trained_on() {
+    fn a_policy_recognises_its_training_table() {
         let (table, thesis) = (Table::default(), Table::preset("thesis").unwrap());
         let mut policy = Policy::bundled_for(&table, Rule::ThreeCushion, true).unwrap().unwrap();
-        assert!(policy.has_context() && policy.knows(&table) && !policy.knows(&thesis));
+        assert!(policy.has_context() && policy.is_trained_for(&table) && !policy.is_trained_for(&thesis));
         policy.origin.table = "thesis".to_owned();
-        assert!(policy.knows(&thesis));
+        assert!(policy.is_trained_for(&thesis));
     }
 
     #[test]

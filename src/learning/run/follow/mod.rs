@@ -46,7 +46,7 @@ pub struct Update {
     /// The configuration.
     pub config: Option<Box<Config>>,
     /// Whether `records` are all lines of the run, because the file was read from its beginning (again).
-    pub begins: bool,
+    pub replaces_records: bool,
     /// New lines of metrics.
     pub records: Vec<Record>,
     /// The run's own status.
@@ -98,11 +98,11 @@ impl Followed {
         match self.condition {
             Condition::Unknown => format!("looking at {folder}"),
             Condition::Missing => format!("{folder} contains no run yet"),
-            Condition::Is(Phase::Failed) => {
+            Condition::InPhase(Phase::Failed) => {
                 let reason = self.status.as_ref().and_then(|status| status.reason.as_deref());
                 format!("the run has failed{after}: {}", reason.unwrap_or("no reason was given"))
             }
-            Condition::Is(Phase::Stopped) => {
+            Condition::InPhase(Phase::Stopped) => {
                 // The evaluation at a stop has no line of metrics, because the lines must not depend on where a run was stopped.
                 // After a second signal, the status contains the reward of the evaluation before.
                 let status = self.status.as_ref().filter(|status| status.phase == Phase::Stopped);
@@ -110,7 +110,7 @@ impl Followed {
                 let reward = reward.map_or_else(String::new, |reward| format!(", held-out reward {reward:.4}"));
                 format!("the run was stopped{after}{reward}; {go_on}")
             }
-            Condition::Is(phase) => format!("the run is {}{after}", phase.name()),
+            Condition::InPhase(phase) => format!("the run is {}{after}", phase.name()),
             Condition::Stalled(time) => format!(
                 "the run is stalled{after}: its process exists but has written nothing for {} s; it may have been \
                  suspended, or its disk may be slow",
@@ -126,11 +126,11 @@ impl Followed {
 
     /// Applies an update.
     pub fn apply(&mut self, update: Update) {
-        let Update { config, begins, records, status, condition, examples, notices } = update;
+        let Update { config, replaces_records, records, status, condition, examples, notices } = update;
         if let Some(config) = config {
             self.config = Some(*config);
         }
-        if begins {
+        if replaces_records {
             self.history = History::default();
         }
         for record in &records {

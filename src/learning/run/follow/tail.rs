@@ -37,13 +37,13 @@ impl Tail {
     }
 
     /// Whether the file ends in the middle of a line.
-    pub fn is_torn(&self) -> bool {
+    pub fn ends_mid_line(&self) -> bool {
         self.stamp.is_some_and(|stamp| self.offset < stamp.length)
     }
 
     /// Adds new records to `records`, including those before a read error. Returns `false` if there is no file. If the file was cut off or
-    /// replaced, sets `is_afresh` and adds all its records; those read earlier are then obsolete.
-    pub fn look(&mut self, is_afresh: &mut bool, records: &mut Vec<Record>) -> io::Result<bool> {
+    /// replaced, sets `is_restarted` and adds all its records; those read earlier are then obsolete.
+    pub fn poll(&mut self, is_restarted: &mut bool, records: &mut Vec<Record>) -> io::Result<bool> {
         let stamp = Stamp::of(&self.path);
         if stamp == self.stamp {
             return Ok(stamp.is_some());
@@ -59,7 +59,7 @@ impl Tail {
         let stamp = Stamp::from(&file.metadata()?);
         if !self.is_the_same(&mut file, stamp.length)? {
             *self = Self::new(&self.path);
-            *is_afresh = true;
+            *is_restarted = true;
         }
         self.read(&mut file, records)?;
         // Set only after a successful read, so that a failed one is repeated.
@@ -131,9 +131,9 @@ mod tests {
 
     /// Whether the file was read from its beginning again, and its new lines; `None` if there is no file.
     fn look(tail: &mut Tail) -> Option<(bool, Vec<u64>)> {
-        let (mut is_afresh, mut records) = (false, Vec::new());
-        let is_there = tail.look(&mut is_afresh, &mut records).unwrap();
-        is_there.then(|| (is_afresh, records.iter().map(|record| record.shots).collect()))
+        let (mut is_restarted, mut records) = (false, Vec::new());
+        let is_there = tail.poll(&mut is_restarted, &mut records).unwrap();
+        is_there.then(|| (is_restarted, records.iter().map(|record| record.shots).collect()))
     }
 
     #[test]
@@ -144,15 +144,15 @@ mod tests {
         let (half, rest) = second.split_at(30);
         fs::write(&path, first.clone() + half).unwrap();
         assert_eq!(look(&mut tail), Some((false, vec![1])));
-        assert!(tail.is_torn());
+        assert!(tail.ends_mid_line());
         assert_eq!(look(&mut tail), Some((false, vec![])));
         fs::write(&path, first + half + rest + "no line of ours\n\n" + &line(3)).unwrap();
         assert_eq!(look(&mut tail), Some((false, vec![2, 3])));
-        assert_eq!((tail.is_torn(), tail.unreadable), (false, 1));
+        assert_eq!((tail.ends_mid_line(), tail.unreadable), (false, 1));
     }
 
     #[test]
-    fn a_file_that_was_cut_off_or_removed_is_read_from_its_beginning() {
+    fn truncated_or_replaced_files_are_read_again() {
         let (_folder, path, mut tail) = fresh();
         fs::write(&path, line(1) + &line(2) + &line(3)).unwrap();
         assert_eq!(look(&mut tail), Some((false, vec![1, 2, 3])));
@@ -176,16 +176,16 @@ mod tests {
         let (_folder, path, mut tail) = fresh();
         std::fs::create_dir(&path).unwrap();
         for _ in 0..2 {
-            assert!(tail.look(&mut false, &mut Vec::new()).is_err());
+            assert!(tail.poll(&mut false, &mut Vec::new()).is_err());
         }
-        assert!(!tail.is_torn());
+        assert!(!tail.ends_mid_line());
         std::fs::remove_dir(&path).unwrap();
         fs::write(&path, line(1)).unwrap();
         assert_eq!(look(&mut tail), Some((false, vec![1])));
     }
 
     #[test]
-    fn files_longer_than_a_chunk_and_lines_without_end_are_read() {
+    fn long_files_and_endless_lines_are_read() {
         let (_folder, path, mut tail) = fresh();
         let many: String = (1..=10_000).map(line).collect();
         assert!(many.len() > CHUNK + CHUNK / 2);

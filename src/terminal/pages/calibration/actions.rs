@@ -71,7 +71,7 @@ impl CalibrationPage {
             }
             Action::TakeOut => {
                 let (place, entry) = self.sheet().marked_stroke()?;
-                let edit = Edit::TakeOut(place, entry.clone());
+                let edit = Edit::Remove(place, entry.clone());
                 self.message = Some(Message::plain(format!("a stroke of {} is deleted; u takes it back", entry.test)));
                 return Some(self.edit(edit, false));
             }
@@ -84,10 +84,10 @@ impl CalibrationPage {
                     }
                 };
                 let text = match &edit {
-                    Edit::TakeOut(_, entry) => format!("the stroke of {} is deleted again", entry.test),
+                    Edit::Remove(_, entry) => format!("the stroke of {} is deleted again", entry.test),
                     Edit::Add(entry) | Edit::Insert(_, entry) => format!("the stroke of {} is back", entry.test),
-                    Edit::Amend(.., entry) => format!("the stroke of {} is as it was before", entry.test),
-                    Edit::Anew(_) => "what was entered before is back".to_owned(),
+                    Edit::Replace(.., entry) => format!("the stroke of {} is as it was before", entry.test),
+                    Edit::ReplaceAll(_) => "what was entered before is back".to_owned(),
                 };
                 self.message = Some(Message::plain(text));
                 return Some(self.edit(edit, true));
@@ -165,7 +165,7 @@ impl CalibrationPage {
                 let strokes = if count == 1 { "1 stroke is".to_owned() } else { format!("{count} strokes are") };
                 let text = format!("{strokes} kept as {}; u takes this back", self.backup_file().display());
                 self.message = Some(Message::plain(text));
-                Some(self.edit(Edit::Anew(Entries::default()), false))
+                Some(self.edit(Edit::ReplaceAll(Entries::default()), false))
             }
         }
     }
@@ -183,7 +183,7 @@ impl CalibrationPage {
                 Ok(entry) => {
                     form.is_sent = true;
                     edit = Some(match &form.amends {
-                        Some((place, before)) => Edit::Amend(*place, before.clone(), entry),
+                        Some((place, before)) => Edit::Replace(*place, before.clone(), entry),
                         None => Edit::Add(entry),
                     });
                 }

@@ -1,7 +1,7 @@
 //! The form for entering a stroke: one field for each mark, and the interpretation of the typed values.
 
 use crate::{
-    calibration::{Entry, RAILS, TAPED, Test, Unit, Written},
+    calibration::{Entry, MarkValue, RAILS, TAPE_ERROR_TEXT, Test, Unit},
     table::Table,
     terminal::{StrokeDraft, pages::wrapping_index, ui::TextField},
 };
@@ -29,7 +29,7 @@ pub struct Form {
 impl Form {
     /// Creates an empty form.
     pub fn new(test: &'static Test) -> Self {
-        let fields = test.asked().map(|name| (name, TextField::new(LONGEST))).collect();
+        let fields = test.field_names().map(|name| (name, TextField::new(LONGEST))).collect();
         Self { test, fields, field: 0, amends: None, far_end: false, is_sent: false }
     }
 
@@ -37,7 +37,7 @@ impl Form {
     pub fn of(test: &'static Test, place: usize, entry: &Entry) -> Self {
         let mut form = Self::new(test);
         for (name, field) in &mut form.fields {
-            *field = TextField::new(LONGEST).with(&entry.typed(name));
+            *field = TextField::new(LONGEST).with(&entry.field_text(name));
         }
         Self { amends: Some((place, entry.clone())), far_end: entry.far_end, ..form }
     }
@@ -98,7 +98,7 @@ impl Form {
     pub fn entry(&self, table: &Table) -> Result<Entry, String> {
         let mut entry = Entry { test: self.test.name.to_owned(), far_end: self.far_end, ..Entry::default() };
         for (name, field) in &self.fields {
-            entry.take(name, field.text())?;
+            entry.set_field(name, field.text())?;
         }
         let (_, odd) = entry.readings(table);
         if odd.is_empty() { Ok(entry) } else { Err(odd.join("; ")) }
@@ -108,7 +108,7 @@ impl Form {
     pub fn oddity(&self, table: &Table) -> Option<String> {
         let (name, field) = &self.fields[self.field];
         let mut entry = Entry { test: self.test.name.to_owned(), ..Entry::default() };
-        if let Err(sentence) = entry.take(name, field.text()) {
+        if let Err(sentence) = entry.set_field(name, field.text()) {
             return Some(sentence);
         }
         if entry.marks.is_empty() {
@@ -134,8 +134,8 @@ impl Form {
         if value.is_empty() {
             return Err(format!("type the position first: {name} is empty"));
         }
-        let was_taped = field.text().ends_with(TAPED);
-        let text = if was_taped { value } else { format!("{value} ~ {TAPED}") };
+        let was_taped = field.text().ends_with(TAPE_ERROR_TEXT);
+        let text = if was_taped { value } else { format!("{value} ~ {TAPE_ERROR_TEXT}") };
         *field = TextField::new(LONGEST).with(&text);
         Ok(())
     }
@@ -160,15 +160,16 @@ impl Form {
     fn accuracy_words(&self, table: &Table) -> Option<String> {
         let (name, field) = &self.fields[self.field];
         let mut entry = Entry { test: self.test.name.to_owned(), rails: Some(0), ..Entry::default() };
-        entry.take(name, field.text()).ok()?;
+        entry.set_field(name, field.text()).ok()?;
         let (readings, _) = entry.readings(table);
         let reading = readings.first()?;
-        let is_own = entry.sure.get(*name).is_some_and(|sure| *sure != Written::Text(TAPED.to_owned()));
+        let is_own =
+            entry.standard_errors.get(*name).is_some_and(|sure| *sure != MarkValue::Text(TAPE_ERROR_TEXT.to_owned()));
         Some(match self.test.marks[reading.mark].unit() {
-            Unit::Seconds => format!("right to {} s", rounded(reading.sure)),
-            Unit::Diamonds if is_own => format!("right to {} diamonds", rounded(reading.sure)),
-            Unit::Diamonds if reading.sure < 0.02 => "by tape, right to 5 mm".to_owned(),
-            Unit::Diamonds => format!("by eye, right to {} diamonds", rounded(reading.sure)),
+            Unit::Seconds => format!("right to {} s", rounded(reading.standard_error)),
+            Unit::Diamonds if is_own => format!("right to {} diamonds", rounded(reading.standard_error)),
+            Unit::Diamonds if reading.standard_error < 0.02 => "by tape, right to 5 mm".to_owned(),
+            Unit::Diamonds => format!("by eye, right to {} diamonds", rounded(reading.standard_error)),
         })
     }
 }
@@ -212,7 +213,7 @@ mod tests {
         assert!(form.question(&table).contains("by eye, right to 0.1 diamonds"), "{}", form.question(&table));
         form.toggle_tape().unwrap();
         assert!(form.question(&table).contains("by tape, right to 5 mm"), "{}", form.question(&table));
-        assert!(form.entry(&table).unwrap().readings(&table).0[1].sure < 0.02);
+        assert!(form.entry(&table).unwrap().readings(&table).0[1].standard_error < 0.02);
         form.toggle_tape().unwrap();
         assert_eq!(form.typed().text(), "5.4");
         form.step(-2);

@@ -13,9 +13,9 @@ use std::path::PathBuf;
 
 use self::{form::Form, sheet::Sheet};
 use crate::{
-    calibration::beside,
+    calibration::latest_backup_path,
     coach::words::Units,
-    storage::Places,
+    storage::DataPaths,
     table::Table,
     terminal::{
         CalibrationContext, CalibrationReport, CalibrationTask, Effect, KeptEntries, StrokeDraft,
@@ -51,7 +51,7 @@ pub enum Side {
 #[derive(Debug)]
 pub struct CalibrationPage {
     /// The folders of entries and tables.
-    places: Places,
+    places: DataPaths,
     /// The current table.
     pub table: Table,
     /// The units for displayed values.
@@ -79,7 +79,7 @@ pub struct CalibrationPage {
 
 impl CalibrationPage {
     /// Creates the page, closed.
-    pub fn new(places: Places) -> Self {
+    pub fn new(places: DataPaths) -> Self {
         let all = Sheet::new(places.calibration.clone(), false);
         let daily = Sheet::new(places.daily_check.clone(), true);
         Self {
@@ -237,7 +237,7 @@ impl CalibrationPage {
 
     /// The file to which old entries are moved.
     fn backup_file(&self) -> PathBuf {
-        beside(&self.sheet().path)
+        latest_backup_path(&self.sheet().path)
     }
 }
 

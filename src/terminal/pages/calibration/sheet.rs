@@ -4,7 +4,9 @@
 use std::path::PathBuf;
 
 use crate::{
-    calibration::{Calibration, DAILY, Edit, Entries, Entry, Next, Oddity, PROTOCOL, Test, overnight, prior},
+    calibration::{
+        Calibration, DAILY_TESTS, Edit, Entries, Entry, EntryProblem, NextTest, PROTOCOL, Test, next_day_doubt, prior,
+    },
     table::{Table, TableDoubt},
     terminal::{Judged, Judging},
 };
@@ -58,12 +60,12 @@ impl Sheet {
     /// The tests of the sheet, in the recommended order.
     pub fn tests(&self) -> impl Iterator<Item = &'static Test> + use<> {
         let is_daily = self.is_daily;
-        PROTOCOL.iter().filter(move |test| !is_daily || DAILY.contains(&test.name))
+        PROTOCOL.iter().filter(move |test| !is_daily || DAILY_TESTS.contains(&test.name))
     }
 
     /// Recommended number of strokes of a test.
     pub const fn times(&self, test: &Test) -> usize {
-        if self.is_daily { 1 } else { test.times }
+        if self.is_daily { 1 } else { test.repetitions }
     }
 
     /// The marked test.
@@ -152,8 +154,8 @@ impl Sheet {
     }
 
     /// The test whose next stroke gives the most information, among those that are not left out.
-    pub fn best(&self) -> Option<&Next> {
-        let is_wanted = |next: &&Next| {
+    pub fn best(&self) -> Option<&NextTest> {
+        let is_wanted = |next: &&NextTest| {
             self.tests().any(|test| test.name == next.test && !self.is_left_out(test))
                 && (!self.is_daily || self.missing(next.test) > 0)
         };
@@ -175,7 +177,7 @@ impl Sheet {
     /// Replaces the entries, and adds the undo step of the change if there was one. If a stroke was added and its test is complete,
     /// marks the next incomplete test.
     pub fn take(&mut self, entries: Entries, back: Option<(Edit, bool)>) {
-        let is_added = matches!(&back, Some((Edit::TakeOut(..), false)));
+        let is_added = matches!(&back, Some((Edit::Remove(..), false)));
         self.entries = Some(entries);
         self.trouble = None;
         self.stroke = None;
@@ -192,7 +194,7 @@ impl Sheet {
     }
 
     /// The implausible values among the entries, without the tests that are left out. They can occur in a file that was edited by hand.
-    pub fn odd(&self, table: &Table) -> Vec<Oddity> {
+    pub fn odd(&self, table: &Table) -> Vec<EntryProblem> {
         let mut odd = self.entries.as_ref().map_or_else(Vec::new, |entries| entries.trials(table).1);
         odd.retain(|odd| !self.left_out.contains(&odd.test.as_str()));
         odd
@@ -202,7 +204,7 @@ impl Sheet {
     pub fn base(&self, table: &Table) -> (Table, TableDoubt) {
         if self.is_daily {
             let doubt = table.doubt.clone().unwrap_or_default();
-            return (table.clone(), overnight(table, &doubt));
+            return (table.clone(), next_day_doubt(table, &doubt));
         }
         let usual = Table::default();
         let is_as_large = |one: &Table, other: &Table| {
@@ -283,7 +285,7 @@ mod tests {
         let entry = Entry { test: "slow-roll".into(), ..Entry::default() };
         let add = |sheet: &mut Sheet, count: usize| {
             let entries = Entries { name: None, trials: vec![entry.clone(); count] };
-            sheet.take(entries, Some((Edit::TakeOut(count - 1, entry.clone()), false)));
+            sheet.take(entries, Some((Edit::Remove(count - 1, entry.clone()), false)));
         };
         sheet.take(Entries::default(), None);
         assert!(sheet.undo_stack.is_empty());
@@ -295,7 +297,7 @@ mod tests {
         add(&mut sheet, 2);
         assert_eq!(sheet.test().name, "lag", "slow-back is left out");
         assert_eq!(sheet.count(), (2, 19));
-        assert_eq!(sheet.undo_stack.pop(), Some(UndoStep::Edit(Edit::TakeOut(1, entry.clone()))));
+        assert_eq!(sheet.undo_stack.pop(), Some(UndoStep::Edit(Edit::Remove(1, entry.clone()))));
         assert_eq!(sheet.undo_stack.pop(), Some(UndoStep::LeaveOut("slow-back")));
     }
 

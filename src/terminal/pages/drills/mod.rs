@@ -29,7 +29,7 @@ use crate::{
     coach::{Skill, Units},
     drills::{Goal, Library, Session},
     game::Rule,
-    storage::Places,
+    storage::DataPaths,
     table::{CueBall, Layout, PRESETS, Table},
     terminal::{
         DrillContext, DrillTask, Effect, Settings,
@@ -100,7 +100,7 @@ pub struct Balls {
 #[derive(Debug)]
 pub struct DrillsPage {
     /// The folders of sessions and positions.
-    pub places: Places,
+    pub places: DataPaths,
     /// The list of exercises.
     pub catalogue: Catalogue,
     /// The practice record.
@@ -145,7 +145,7 @@ pub struct DrillsPage {
 
 impl DrillsPage {
     /// Creates the page, closed; `seed` seeds the random errors, shifts and exams.
-    pub fn new(places: Places, seed: u64) -> Self {
+    pub fn new(places: DataPaths, seed: u64) -> Self {
         Self {
             places,
             catalogue: Catalogue::new(Library::bundled().clone()),

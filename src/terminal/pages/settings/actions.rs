@@ -3,7 +3,7 @@
 use crossterm::event::KeyEvent;
 
 use crate::{
-    storage::is_called,
+    storage::has_name,
     table::PRESETS,
     terminal::{
         Change, Effect, Settings, SettingsAction as Action, SettingsCondition, SettingsContext as Page,
@@ -104,7 +104,7 @@ impl SettingsPage {
     fn set(&mut self, typed: &str) -> Option<Effect> {
         let entry = self.marked();
         let own =
-            self.tables.iter().find(|path| entry.key == TABLE && !PRESETS.contains(&typed) && is_called(path, typed));
+            self.tables.iter().find(|path| entry.key == TABLE && !PRESETS.contains(&typed) && has_name(path, typed));
         let path = own.map(|path| path.to_string_lossy().into_owned());
         self.give_value(entry, path.as_deref().unwrap_or(typed), Change::Value)
     }

@@ -11,7 +11,7 @@ mod view;
 use std::path::PathBuf;
 
 use crate::{
-    storage::Places,
+    storage::DataPaths,
     terminal::{
         Change, Effect, Settings, SettingsContext, SettingsReport, SettingsTask,
         config::{ENTRIES, Entry, quoted},
@@ -42,7 +42,7 @@ pub enum Question {
 #[derive(Debug)]
 pub struct SettingsPage {
     /// The locations of the player's files, including the settings file.
-    pub places: Places,
+    pub places: DataPaths,
     /// The files of the player's custom tables, as last read.
     pub tables: Vec<PathBuf>,
     /// The current settings.
@@ -70,7 +70,7 @@ pub struct SettingsPage {
 
 impl SettingsPage {
     /// Creates the page, closed.
-    pub fn new(places: Places, pages: Vec<KeyPage>) -> Self {
+    pub fn new(places: DataPaths, pages: Vec<KeyPage>) -> Self {
         Self {
             places,
             tables: Vec::new(),

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use crate::{
     learning::{
-        policy::kept::KeepError,
+        policy::library::SavePolicyError,
         run::{POLICY, follow::Condition as RunCondition, request::Request},
     },
     storage::is_name,
@@ -178,7 +178,7 @@ impl TrainingPage {
                 self.pages.push(TrainingContext::Compare);
             }
             Action::Pause => {
-                let request = if watch.is_paused() { Request::GoOn } else { Request::Pause };
+                let request = if watch.is_paused() { Request::Resume } else { Request::Pause };
                 return Some(Effect::Send(request, watch.folder().to_owned()));
             }
             Action::Stop => *question = Some(Question::Stop),
@@ -210,7 +210,7 @@ impl TrainingPage {
                     return Some(self.keep(name, false));
                 }
                 self.question = Some(Question::Name(typed));
-                self.refuse(KeepError::Name(name))
+                self.refuse(SavePolicyError::Name(name))
             }
         }
     }

@@ -28,7 +28,7 @@ use crate::{
         },
     },
     printing::shell_word,
-    storage::Places,
+    storage::DataPaths,
     table::Table,
     terminal::{
         CoachQuery, FollowSlot, Keeping, Subscriptions, TrainerFailure, TrainingContext, TrainingReport,
@@ -50,7 +50,7 @@ const LAUNCHING: Duration = Duration::from_secs(5);
 #[derive(Debug)]
 pub struct TrainingPage {
     /// The folders of runs and policies.
-    pub places: Places,
+    pub places: DataPaths,
     /// The folder whose runs are listed and in which new ones are started.
     pub folder: PathBuf,
     /// The list of runs.
@@ -75,7 +75,7 @@ pub struct TrainingPage {
 
 impl TrainingPage {
     /// Creates the page, closed.
-    pub fn new(places: Places) -> Self {
+    pub fn new(places: DataPaths) -> Self {
         Self {
             folder: places.runs.clone(),
             places,
@@ -174,7 +174,7 @@ impl TrainingPage {
             TrainingReport::Sent(request, Ok(())) => {
                 self.message = Some(Message::plain(match request {
                     Request::Pause => "the run is asked to pause",
-                    Request::GoOn => "the run is asked to go on",
+                    Request::Resume => "the run is asked to go on",
                     Request::Stop => "the run is asked to stop: it measures itself and saves first",
                     Request::Abandon => "the run is asked to end; its folder will be deleted",
                 }));
@@ -192,7 +192,7 @@ impl TrainingPage {
     fn followed(&mut self, folder: &Path, update: Update) {
         let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) else { return };
         let before = watch.condition();
-        watch.replay.is_outdated |= update.begins;
+        watch.replay.is_outdated |= update.replaces_records;
         watch.own.run.apply(update);
         let has_changed = !watch.condition().is_like(before);
         // The first update may still show the state before the start.

@@ -1,7 +1,7 @@
 //! The questions of the training page.
 
 use crate::{
-    storage::{LONGEST_NAME, is_letter},
+    storage::{MAX_NAME_BYTES, is_letter},
     terminal::{
         TrainingCondition,
         pages::training::watch::Watch,
@@ -65,7 +65,7 @@ impl Question {
 
     /// Creates the question for a name of the policy of the run `run`.
     pub fn name(run: &str) -> Self {
-        Self::Name(TextField::new(LONGEST_NAME).offering(&proposed_name(run)))
+        Self::Name(TextField::new(MAX_NAME_BYTES).offering(&proposed_name(run)))
     }
 
     /// The text field of the answer; `None` if the answer is yes or no.
@@ -81,7 +81,7 @@ fn proposed_name(run: &str) -> String {
         let is_kept = is_letter(letter) && (n > 0 || letter != '.');
         if is_kept { letter } else { '-' }
     });
-    TextField::new(LONGEST_NAME).with(&letters.collect::<String>()).text().to_owned()
+    TextField::new(MAX_NAME_BYTES).with(&letters.collect::<String>()).text().to_owned()
 }
 
 #[cfg(test)]

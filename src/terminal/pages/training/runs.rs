@@ -76,7 +76,7 @@ impl RunList {
         match self.marked().map(|run| run.state) {
             None => Some("there is no run yet; n starts one"),
             Some(state) if state.is_at_work() => Some("this run is training; Enter watches it"),
-            Some(Condition::Is(Phase::Finished)) => {
+            Some(Condition::InPhase(Phase::Finished)) => {
                 Some("this run is finished; n starts a new one, with its networks if you like")
             }
             Some(_) => None,

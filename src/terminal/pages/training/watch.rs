@@ -116,18 +116,18 @@ impl Watch {
 
     /// Whether the run is paused until a request to continue.
     pub fn is_paused(&self) -> bool {
-        self.condition() == Condition::Is(Phase::Paused)
+        self.condition() == Condition::InPhase(Phase::Paused)
     }
 
     /// The reason why the run cannot be resumed; `None` if it can.
     pub const fn refusal_to_go_on(&self) -> Option<&'static str> {
         match self.condition() {
-            Condition::Is(Phase::Stopped | Phase::Failed) | Condition::Died | Condition::Interrupted => None,
-            Condition::Is(Phase::Finished) => {
+            Condition::InPhase(Phase::Stopped | Phase::Failed) | Condition::Died | Condition::Interrupted => None,
+            Condition::InPhase(Phase::Finished) => {
                 Some("the run is finished; n in the list starts a new one with its networks")
             }
-            Condition::Is(Phase::Paused) => Some("the run is paused; p lets it go on"),
-            Condition::Is(_) | Condition::Stalled(_) => Some("the run is training"),
+            Condition::InPhase(Phase::Paused) => Some("the run is paused; p lets it go on"),
+            Condition::InPhase(_) | Condition::Stalled(_) => Some("the run is training"),
             Condition::Unknown | Condition::Missing => Some("there is no run yet"),
             Condition::Removed => Some("the run has been removed"),
         }
@@ -141,7 +141,7 @@ impl Watch {
         let reason = status.and_then(|status| status.reason.as_deref());
         let warning = status.and_then(|status| status.warning.as_deref());
         match run.condition {
-            Condition::Is(Phase::Failed) => {
+            Condition::InPhase(Phase::Failed) => {
                 (format!("{}; {resume}", reason.unwrap_or("the training has broken down")), true)
             }
             Condition::Died => (format!("the training process ended without a message; {resume}"), true),
@@ -151,7 +151,7 @@ impl Watch {
             }
             Condition::Removed => ("the folder of the run has been removed; Esc goes back".to_owned(), true),
             _ if !run.notices.is_empty() => (run.notices.join("; "), true),
-            Condition::Is(Phase::Stopped) | Condition::Interrupted => {
+            Condition::InPhase(Phase::Stopped) | Condition::Interrupted => {
                 (format!("stopped before its end; {resume}"), false)
             }
             _ if warning.is_some() => (warning.unwrap_or_default().to_owned(), true),
@@ -160,16 +160,16 @@ impl Watch {
                 Some(sentence) => (format!("it could not be started: {sentence}"), true),
                 None => ("waiting for the run to start".to_owned(), false),
             },
-            Condition::Is(Phase::Paused) => ("paused and saved; p lets it go on".to_owned(), false),
-            Condition::Is(Phase::Measuring) => ("plays the held-out layouts".to_owned(), false),
-            Condition::Is(Phase::Stopping) => ("saved; it plays the held-out layouts and ends".to_owned(), false),
-            Condition::Is(Phase::Training) => {
+            Condition::InPhase(Phase::Paused) => ("paused and saved; p lets it go on".to_owned(), false),
+            Condition::InPhase(Phase::Measuring) => ("plays the held-out layouts".to_owned(), false),
+            Condition::InPhase(Phase::Stopping) => ("saved; it plays the held-out layouts and ends".to_owned(), false),
+            Condition::InPhase(Phase::Training) => {
                 (format!("it goes on without this screen: carom watch {}", shell_word(name)), false)
             }
-            Condition::Is(Phase::Finished) if !self.has_policy => {
+            Condition::InPhase(Phase::Finished) if !self.has_policy => {
                 ("finished; it has left no networks for the coach".to_owned(), false)
             }
-            Condition::Is(Phase::Finished) => {
+            Condition::InPhase(Phase::Finished) => {
                 ("finished; w uses these networks in the coach, k keeps them under a name".to_owned(), false)
             }
         }

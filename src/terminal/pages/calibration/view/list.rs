@@ -72,7 +72,7 @@ fn is_doubtful(page: &CalibrationPage, place: usize, entry: &Entry) -> bool {
     let Some(found) = page.sheet().found() else { return !entry.readings(&page.table).1.is_empty() };
     !entry.readings(&page.table).1.is_empty()
         || found.misread().contains(&(place + 1))
-        || found.strange.iter().any(|strange| strange.trial == place + 1)
+        || found.outlier_strokes.iter().any(|strange| strange.trial == place + 1)
 }
 
 fn draw_strokes(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> Rect {
@@ -95,7 +95,7 @@ fn draw_strokes(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> Rect {
             () => ui.theme.text(),
         };
         list::draw_mark(is_marked, inner.x, y, ui);
-        let marks = test.asked().map(|name| entry.typed(name));
+        let marks = test.field_names().map(|name| entry.field_text(name));
         let marks: Vec<String> = marks.map(|mark| if mark.is_empty() { "-".to_owned() } else { mark }).collect();
         let sign = if is_doubtful { "! " } else { "" };
         let end = if entry.far_end { "far end: " } else { "" };
@@ -125,7 +125,7 @@ fn draw_values(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
         let sign = ui.caps.pick("± ", "+-");
         let value = format!("{:.4} {sign}{:.4}", one.after, one.after_deviation);
         let room = NAME.max(usize::from(inner.width).saturating_sub(columns(&value) + 4));
-        let style = if found.known(one) == NO_BETTER { ui.theme.faint() } else { ui.theme.text() };
+        let style = if found.certainty(one) == NO_BETTER { ui.theme.faint() } else { ui.theme.text() };
         draw_constant_name(one, room, style, Position::new(inner.x + 2, y), ui);
         write_right(ui.buffer, inner.x, inner.right() - 1, y, &value, style);
     }

@@ -99,7 +99,8 @@ fn status_line(page: &CalibrationPage) -> Message {
         )),
         None if page.is_daily => {
             let play = sheet.judged.as_ref().and_then(|judged| judged.play);
-            let today = play.map_or_else(String::new, |[before, now]| format!("today {}; ", now.against(&before)));
+            let today =
+                play.map_or_else(String::new, |[before, now]| format!("today {}; ", now.describe_change_from(&before)));
             Message::good(format!("{today}both strokes are entered; N begins another day's check"))
         }
         None => Message::plain("choose a test, play it, and enter what was marked"),

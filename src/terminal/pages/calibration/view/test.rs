@@ -50,9 +50,9 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let room = usize::from(area.width.saturating_sub(4));
     let inner = draw_title(shorten(test.title, room, ui.caps), area, ui);
     let width = inner.width.saturating_sub(2);
-    let words = [("put", test.place), ("strike", test.strike)].map(|(what, words)| format!("{what}: {words}"));
+    let words = [("put", test.placement), ("strike", test.strike)].map(|(what, words)| format!("{what}: {words}"));
     let lines: usize = words.iter().map(|words| wrap(words, usize::from(width)).len()).sum();
-    let asked: Vec<&str> = test.asked().collect();
+    let asked: Vec<&str> = test.field_names().collect();
     let rows = (lines + asked.len()) as u16;
     let picture = Rect { height: inner.height.saturating_sub(rows), ..inner };
     let has_tip = inner.width >= BESIDE && picture.height > WORDS + 3;
@@ -114,7 +114,7 @@ fn draw_picture(table: &Table, test: &Test, sketch: &Sketch, area: Rect, ui: &mu
     // The paths of the object balls are drawn over that of the cue ball.
     for ball in 0..BALLS {
         let color = ui.theme.paths[ball];
-        let dots = sketch.ways[ball].iter().step_by(stride);
+        let dots = sketch.paths[ball].iter().step_by(stride);
         spots.extend(dots.map(|place| Spot { place: *place, is_ball: false, color, letter: dot }));
     }
     let ahead = DVec2::from_angle(sketch.cue.phi);
@@ -122,7 +122,7 @@ fn draw_picture(table: &Table, test: &Test, sketch: &Sketch, area: Rect, ui: &mu
     let behind = (0..=(CUE / CUE_DOTS) as u32).map(|n| 1.5 * table.radius + f64::from(n) * CUE_DOTS);
     let cue = behind.map(|back| sketch.layout.balls[0] - ahead * back).filter(|place| mapping.is_on_bed(*place));
     spots.extend(cue.map(|place| Spot { place, is_ball: false, color: ui.theme.cue, letter: sign }));
-    let marks = sketch.places.iter().flatten();
+    let marks = sketch.mark_positions.iter().flatten();
     spots.extend(marks.map(|place| Spot { place: *place, is_ball: true, color: ui.theme.mark, letter: 'o' }));
     let view = TableView { spots: &spots, is_numbered: false, ..TableView::new(table, &sketch.layout) };
     draw_table(&view, area, ui);
@@ -155,7 +155,7 @@ fn letter_marks(test: &Test, sketch: &Sketch, mapping: &Mapping, ui: &mut Ui) {
     let half = 0.5 * f64::from(bed.height);
     let style = ui.theme.accent().add_modifier(Modifier::REVERSED);
     let mut taken: Vec<DVec2> = Vec::new();
-    for (n, place) in sketch.places.iter().enumerate() {
+    for (n, place) in sketch.mark_positions.iter().enumerate() {
         let Some(place) = *place else { continue };
         // Two marks at the same position have their letters side by side.
         let beside = taken.iter().filter(|other| **other == place).count() as u16;
@@ -187,7 +187,7 @@ const fn form(page: &CalibrationPage) -> Option<&Form> {
 fn typed(page: &CalibrationPage, test: &Test, n: usize, name: &str, ui: &Ui) -> String {
     let typed = match form(page) {
         Some(form) => form.fields[n].1.text().to_owned(),
-        None => page.sheet().marked_stroke().map_or_else(String::new, |(_, entry)| entry.typed(name)),
+        None => page.sheet().marked_stroke().map_or_else(String::new, |(_, entry)| entry.field_text(name)),
     };
     let mark = test.marks.iter().find(|mark| mark.name == name);
     let is_bare = mark.map(Mark::unit) == Some(Unit::Seconds) && !typed.ends_with('s');

@@ -38,7 +38,7 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
         .into_iter()
         .flat_map(|(words, style)| wrap(&words, width).into_iter().map(move |line| Row::Text(line, style)));
     let constants =
-        found.into_iter().flat_map(|found| found.constants.iter().map(|one| Row::Constant(one, found.known(one))));
+        found.into_iter().flat_map(|found| found.constants.iter().map(|one| Row::Constant(one, found.certainty(one))));
     // If the strokes contradict each other, the warnings come before the values.
     let rows: Vec<Row> = if found.is_some_and(Calibration::is_contradictory) {
         lines.chain(constants).collect()
@@ -82,14 +82,14 @@ fn draw_constant(one: &Change, known: &str, area: Rect, ui: &mut Ui) {
         "better" => ui.theme.text(),
         _ => ui.theme.faint(),
     };
-    let value = one.told().join(ui.caps.pick(" ± ", " +- "));
+    let value = one.after_text().join(ui.caps.pick(" ± ", " +- "));
     let room = usize::from(area.width.saturating_sub(WORDS));
     let has_words = room >= WORDS_ROOM;
     let (value_end, known_end) = if has_words { (VALUE_END, KNOWN_END) } else { (NARROW_VALUE_END, NARROW_KNOWN_END) };
     if has_words {
         ui.buffer.set_string(area.x + 1, area.y, &one.name, style);
         let words = if ui.caps.unicode { one.words() } else { one.words().replace('²', "2") };
-        let words = if columns(&words) <= room { words } else { one.short_words() };
+        let words = if columns(&words) <= room { words } else { one.short_name() };
         ui.buffer.set_string(area.x + WORDS, area.y, words, ui.theme.faint());
     } else {
         let room = usize::from(value_end).saturating_sub(2 + columns(&value));
@@ -101,7 +101,7 @@ fn draw_constant(one: &Change, known: &str, area: Rect, ui: &mut Ui) {
 
 /// Writes the short description of a constant in `room` columns, followed by its name if that fits.
 pub fn draw_constant_name(one: &Change, room: usize, style: Style, at: Position, ui: &mut Ui) {
-    let words = one.short_words();
+    let words = one.short_name();
     if words.is_empty() {
         ui.buffer.set_string(at.x, at.y, shorten(&one.name, room, ui.caps), style);
         return;
@@ -120,11 +120,11 @@ pub fn sentences(page: &CalibrationPage, found: &Calibration, ui: &Ui) -> Vec<(S
         let number = strokes.iter().position(|(place, _)| place + 1 == trial).map_or(trial, |place| place + 1);
         format!("stroke {number} of {test}")
     };
-    let misread = found.verdicts.iter().filter(|verdict| verdict.misread);
-    lines.extend(misread.map(|one| (one.doubtful(&stroke(one.trial, one.test)), ui.theme.warning())));
-    let strange = found.strange.iter();
-    lines.extend(strange.map(|one| (one.words(&stroke(one.trial, one.test)), ui.theme.warning())));
-    lines.extend(found.rails_apart().into_iter().map(|sentence| (sentence, ui.theme.accent())));
+    let misread = found.mark_checks.iter().filter(|verdict| verdict.misread);
+    lines.extend(misread.map(|one| (one.misread_text(&stroke(one.trial, one.test)), ui.theme.warning())));
+    let outlier_strokes = found.outlier_strokes.iter();
+    lines.extend(outlier_strokes.map(|one| (one.words(&stroke(one.trial, one.test)), ui.theme.warning())));
+    lines.extend(found.differing_rails().into_iter().map(|sentence| (sentence, ui.theme.accent())));
     let agreement = if found.is_contradictory() {
         ui.theme.warning()
     } else if found.misread().is_empty() {
@@ -135,7 +135,7 @@ pub fn sentences(page: &CalibrationPage, found: &Calibration, ui: &Ui) -> Vec<(S
     lines.push((found.agreement(stroke), agreement));
     lines.extend(found.meanings().into_iter().map(|sentence| (sentence, ui.theme.text())));
     if let Some([before, now]) = page.sheet().judged.as_ref().and_then(|judged| judged.play) {
-        lines.push((format!("today {}", now.against(&before)), ui.theme.accent()));
+        lines.push((format!("today {}", now.describe_change_from(&before)), ui.theme.accent()));
     }
     if let Some(best) = page.sheet().best() {
         let words = format!("next: {} helps most, with {:.1} bits; each bit halves one doubt", best.test, best.bits);

@@ -13,7 +13,7 @@ use ratatui::{
 use crate::{
     drills::{Attempt, Goal, Record, Session, Venue},
     learning::run::history::{NonFinite, Point, Span as Values},
-    printing::moment,
+    printing::format_utc,
     terminal::{
         pages::drills::{
             DrillsPage, Estimate, record_of,
@@ -217,7 +217,7 @@ fn draw_sessions(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>
 /// The start time of a session, to the minute, UTC; empty if the time in its file is out of range.
 fn started(session: &Session) -> String {
     let time = UNIX_EPOCH.checked_add(Duration::from_secs(session.started));
-    time.map_or(String::new(), |time| moment(time).replace('T', " ").chars().take(16).collect())
+    time.map_or(String::new(), |time| format_utc(time).replace('T', " ").chars().take(16).collect())
 }
 
 /// The exercise and goal of a session.

@@ -22,10 +22,10 @@ const CONDITION: usize = 9;
 pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
     let condition = watch.condition();
     let style = match condition {
-        Condition::Is(Phase::Failed) | Condition::Died | Condition::Stalled(_) | Condition::Removed => {
+        Condition::InPhase(Phase::Failed) | Condition::Died | Condition::Stalled(_) | Condition::Removed => {
             ui.theme.warning()
         }
-        Condition::Is(Phase::Training | Phase::Measuring | Phase::Finished) => ui.theme.good(),
+        Condition::InPhase(Phase::Training | Phase::Measuring | Phase::Finished) => ui.theme.good(),
         _ => ui.theme.text(),
     };
     let words = format!("{:<CONDITION$}", condition.to_string());

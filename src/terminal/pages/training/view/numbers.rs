@@ -97,7 +97,7 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     // Only a run that is training has a speed.
     let working = status.filter(|_| watch.is_at_work());
     let speed = |value: Option<f64>| or_unknown(value.filter(|value| value.is_finite()), |value| count(value as u64));
-    let is_going_on = matches!(watch.condition(), Condition::Is(Phase::Training | Phase::Measuring));
+    let is_going_on = matches!(watch.condition(), Condition::InPhase(Phase::Training | Phase::Measuring));
     let left = run.time_left().filter(|_| is_going_on);
     let exploration = status.map(|status| status.exploration).or(last.and_then(|record| record.exploration));
     let replay_fill = status.and_then(|status| status.replay_fill).or(last.and_then(|record| record.replay_fill));

@@ -86,7 +86,7 @@ pub fn draw(training: &TrainingPage, area: Rect, ui: &mut Ui) {
         let run = &runs[n];
         let style = match run.state {
             _ if n == mark => ui.theme.accent(),
-            Condition::Stalled(_) | Condition::Died | Condition::Is(Phase::Failed) => ui.theme.warning(),
+            Condition::Stalled(_) | Condition::Died | Condition::InPhase(Phase::Failed) => ui.theme.warning(),
             state if state.is_at_work() => ui.theme.good(),
             _ => ui.theme.text(),
         };
@@ -176,7 +176,7 @@ pub fn status_line(training: &TrainingPage) -> Message {
     if !list.unreadable.is_empty() {
         return Message::warning(list.unreadable.join("; "));
     }
-    let paused = list.runs().iter().filter(|run| run.state == Condition::Is(Phase::Paused)).count();
+    let paused = list.runs().iter().filter(|run| run.state == Condition::InPhase(Phase::Paused)).count();
     let working = list.runs().iter().filter(|run| run.state.is_at_work()).count() - paused;
     let working = match working {
         0 => "no run is training".to_owned(),

@@ -17,7 +17,7 @@ const PLAYERS: &str = "players";
 
 /// Paths of everything that the program writes.
 #[derive(Clone, Debug)]
-pub struct Places {
+pub struct DataPaths {
     /// Training runs, one folder each.
     pub runs: PathBuf,
     /// Policies that the user has saved under a name.
@@ -35,11 +35,11 @@ pub struct Places {
     /// The user's own tables, one file each.
     pub tables: PathBuf,
     /// State of the last session of the full-screen program.
-    pub last: PathBuf,
+    pub last_session: PathBuf,
     /// The partly typed calibration stroke at the time when the program ended.
     pub draft: PathBuf,
     /// Folder of the state that spectators may read while the player allows it.
-    pub shown: PathBuf,
+    pub spectator_folder: PathBuf,
     /// The log file.
     pub log: PathBuf,
     /// Record of the notices that were already shown.
@@ -47,10 +47,10 @@ pub struct Places {
     /// The settings file.
     pub settings: PathBuf,
     /// The folder that contains most of these paths.
-    pub own: PathBuf,
+    pub root: PathBuf,
 }
 
-impl Places {
+impl DataPaths {
     /// Returns the paths of this account: in the platform's data directory, and in its state directory if the platform has one. If the user
     /// has no home directory, they are in the working directory.
     pub fn of_this_user() -> Self {
@@ -96,7 +96,7 @@ impl Places {
 
     /// Returns the file of the player's own table called `name` (with or without `.toml`), if it exists.
     pub fn own_table(&self, name: &str) -> Option<PathBuf> {
-        self.own_tables().into_iter().find(|path| is_called(path, name))
+        self.own_tables().into_iter().find(|path| has_name(path, name))
     }
 
     fn in_folders(data: &Path, state: &Path, settings: PathBuf) -> Self {
@@ -109,18 +109,18 @@ impl Places {
             calibration: data.join("calibration.toml"),
             daily_check: data.join("calibration-daily.toml"),
             tables: data.join("tables"),
-            last: state.join("last.json"),
+            last_session: state.join("last.json"),
             draft: state.join("draft.json"),
-            shown: data.join("shown"),
+            spectator_folder: data.join("shown"),
             log: state.join("carom.log"),
             notices: state.join("notices"),
             settings,
-            own: data.to_owned(),
+            root: data.to_owned(),
         }
     }
 }
 
 /// Whether the file at `path` has this name, with or without its extension.
-pub fn is_called(path: &Path, name: &str) -> bool {
+pub fn has_name(path: &Path, name: &str) -> bool {
     [path.file_stem(), path.file_name()].into_iter().flatten().any(|own| own == name)
 }

@@ -6,7 +6,7 @@ use std::{
 };
 
 use crate::{
-    storage::{self, target_of, write_atomic},
+    storage::{self, resolve_symlinks, write_atomic},
     table::Table,
 };
 
@@ -15,10 +15,10 @@ use crate::{
 pub enum SaveError {
     /// The file exists and is not a table.
     #[error("{0} already exists and is no table, so it is not overwritten; give another name")]
-    Other(PathBuf),
+    NotATable(PathBuf),
     /// The file cannot be written.
     #[error("{0} cannot be written: {1}")]
-    Unwritten(PathBuf, io::Error),
+    Unwritable(PathBuf, io::Error),
 }
 
 /// Checks whether a table may be saved at `path`. It may replace another table, but no other file.
@@ -27,8 +27,8 @@ pub enum SaveError {
 /// Fails if the file exists and is not a table.
 pub fn may_save_table(path: &Path) -> Result<(), SaveError> {
     let is_table = |text: String| Table::from_toml(&text).is_ok();
-    if path.exists() && !storage::read_text(path, storage::SMALL).is_ok_and(is_table) {
-        return Err(SaveError::Other(path.to_owned()));
+    if path.exists() && !storage::read_text(path, storage::MAX_SMALL_FILE).is_ok_and(is_table) {
+        return Err(SaveError::NotATable(path.to_owned()));
     }
     Ok(())
 }
@@ -39,10 +39,10 @@ pub fn may_save_table(path: &Path) -> Result<(), SaveError> {
 /// The same as [`may_save_table`], and if the file cannot be written.
 pub fn save_table(path: &Path, table: &Table) -> Result<(), SaveError> {
     may_save_table(path)?;
-    let unwritten = |error| SaveError::Unwritten(path.to_owned(), error);
+    let unwritten = |error| SaveError::Unwritable(path.to_owned(), error);
     let text = toml::to_string(table).map_err(|error| unwritten(io::Error::other(error)))?;
     let text = format!(
         "# Written by carom calibrate. To use this table, give the path of this file to carom recommend --table.\n{text}"
     );
-    write_atomic(&target_of(path), text.as_bytes()).map_err(unwritten)
+    write_atomic(&resolve_symlinks(path), text.as_bytes()).map_err(unwritten)
 }

@@ -25,27 +25,29 @@ const REPLACEMENTS: [(&str, &str); 17] = [
 ];
 
 /// Replaces the non-ASCII characters that the program itself writes by ASCII.
-pub fn spelt(text: &str) -> Cow<'_, str> {
+pub fn to_ascii(text: &str) -> Cow<'_, str> {
     if text.is_ascii() {
         return Cow::Borrowed(text);
     }
-    Cow::Owned(REPLACEMENTS.iter().fold(with_degrees(text), |text, (character, word)| text.replace(character, word)))
+    Cow::Owned(
+        REPLACEMENTS.iter().fold(spell_out_degrees(text), |text, (character, word)| text.replace(character, word)),
+    )
 }
 
 /// Replaces degree signs by words: "degree" after the number 1, otherwise "degrees".
-fn with_degrees(text: &str) -> String {
+fn spell_out_degrees(text: &str) -> String {
     let mut parts = text.split('\u{b0}').peekable();
-    let mut spelt = String::new();
+    let mut spelled = String::new();
     while let Some(part) = parts.next() {
-        spelt += part;
+        spelled += part;
         if parts.peek().is_some() {
             let is_one = part
                 .strip_suffix('1')
                 .is_some_and(|rest| !rest.ends_with(|last: char| last.is_ascii_digit() || last == '.'));
-            spelt += if is_one { " degree" } else { " degrees" };
+            spelled += if is_one { " degree" } else { " degrees" };
         }
     }
-    spelt
+    spelled
 }
 
 /// Whether text may contain non-ASCII characters, according to the environment variables.
@@ -76,16 +78,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_the_program_writes_is_spelt_and_names_stay() {
-        assert_eq!(spelt("red \u{2013} 3\u{b0}, 1.0 \u{b1} 0.2, a\u{b2}"), "red - 3 degrees, 1.0 +- 0.2, a^2");
-        assert_eq!(spelt("1\u{b0}, 11\u{b0}, 0.1\u{b0}, 1.0\u{b0}"), "1 degree, 11 degrees, 0.1 degrees, 1.0 degrees");
-        assert_eq!(spelt("cue raised 1\u{b0}."), "cue raised 1 degree.");
-        assert_eq!(spelt("a mass\u{e9} by Andr\u{e9}"), "a masse by Andr\u{e9}");
-        assert!(matches!(spelt("plain"), Cow::Borrowed("plain")));
+    fn own_symbols_are_transliterated_and_names_stay() {
+        assert_eq!(to_ascii("red \u{2013} 3\u{b0}, 1.0 \u{b1} 0.2, a\u{b2}"), "red - 3 degrees, 1.0 +- 0.2, a^2");
+        assert_eq!(
+            to_ascii("1\u{b0}, 11\u{b0}, 0.1\u{b0}, 1.0\u{b0}"),
+            "1 degree, 11 degrees, 0.1 degrees, 1.0 degrees"
+        );
+        assert_eq!(to_ascii("cue raised 1\u{b0}."), "cue raised 1 degree.");
+        assert_eq!(to_ascii("a mass\u{e9} by Andr\u{e9}"), "a masse by Andr\u{e9}");
+        assert!(matches!(to_ascii("plain"), Cow::Borrowed("plain")));
     }
 
     #[test]
-    fn the_first_variable_that_is_set_is_the_locale() {
+    fn the_first_variable_set_determines_the_locale() {
         let unicode = |set: &[(&str, &str)]| {
             is_unicode(|name| set.iter().find(|(key, _)| *key == name).map(|(_, value)| (*value).to_owned()))
         };

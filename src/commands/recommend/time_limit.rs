@@ -5,19 +5,19 @@ use std::{sync::mpsc, thread, time::Duration};
 use crate::commands::{Failure, output::print_note};
 
 /// Time limit of one explanation. On a real table it takes a tenth of this.
-const LONGEST: Duration = Duration::from_secs(3);
+const TIME_LIMIT: Duration = Duration::from_secs(3);
 
 /// Returns the result of `find` if it is ready in time; otherwise reports on the standard error that `what` is left out.
-pub fn in_time<T: Send + 'static, E: std::fmt::Display + Send + 'static>(
+pub fn with_time_limit<T: Send + 'static, E: std::fmt::Display + Send + 'static>(
     what: &str,
     find: impl FnOnce() -> Result<T, E> + Send + 'static,
 ) -> Result<Option<T>, Failure> {
     let (sender, found) = mpsc::channel();
     // A late result is ignored; the thread ends with the program.
     thread::spawn(move || drop(sender.send(find())));
-    if let Ok(found) = found.recv_timeout(LONGEST) {
+    if let Ok(found) = found.recv_timeout(TIME_LIMIT) {
         return found.map(Some).map_err(Failure::wrong_input);
     }
-    print_note(format_args!("note: {what} take more than {} s on this table and are left out", LONGEST.as_secs()));
+    print_note(format_args!("note: {what} take more than {} s on this table and are left out", TIME_LIMIT.as_secs()));
     Ok(None)
 }

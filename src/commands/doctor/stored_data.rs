@@ -5,20 +5,20 @@ use std::path::{Path, PathBuf};
 use serde::{Serialize, Serializer};
 
 use crate::{
-    calibration::kept_entries,
-    commands::input::table_in,
+    calibration::load_entries_or_empty,
+    commands::input::load_table,
     drills::Store,
     learning::run::list::{Listing, runs_in},
-    storage::{Places, folder_state, without_numbers},
+    storage::{DataPaths, folder_state, without_error_numbers},
     terminal::{Complaint, SavedSession},
 };
 
 /// Free disk space below which the disk counts as full, bytes: enough for the last checkpoints of a run and a few sessions.
-const LEAST_FREE: u64 = 50 << 20;
+const MIN_FREE: u64 = 50 << 20;
 
 /// A folder that the program writes into.
 #[derive(Serialize)]
-pub struct Place {
+pub struct FolderReport {
     pub what: &'static str,
     #[serde(serialize_with = "lossy")]
     pub path: PathBuf,
@@ -35,10 +35,10 @@ fn lossy<S: Serializer>(path: &Path, to: S) -> Result<S::Ok, S::Error> {
     to.collect_str(&path.display())
 }
 
-impl Place {
-    fn look(what: &'static str, path: &Path) -> Self {
+impl FolderReport {
+    fn inspect(what: &'static str, path: &Path) -> Self {
         let state = folder_state(path);
-        let refusal = state.refusal.map(|error| without_numbers(error.to_string()));
+        let refusal = state.refusal.map(|error| without_error_numbers(error.to_string()));
         Self { what, path: path.to_owned(), exists: state.exists, refusal, free_bytes: state.free }
     }
 
@@ -48,52 +48,52 @@ impl Place {
         if let Some(refusal) = &self.refusal {
             return Some(format!("nothing can be written to the folder of {what}, {path}: {refusal}"));
         }
-        let free = self.free_bytes.filter(|free| *free < LEAST_FREE)?;
+        let free = self.free_bytes.filter(|free| *free < MIN_FREE)?;
         Some(format!("the disk of the folder of {what}, {path}, is nearly full: {} MB are free", free / 1_000_000))
     }
 }
 
 /// Returns the folders, each once.
-pub fn places(places: &Places) -> Vec<Place> {
+pub fn folders(paths: &DataPaths) -> Vec<FolderReport> {
     let folder = |file: &Path| file.parent().map(Path::to_owned).unwrap_or_default();
     [
-        ("settings", folder(&places.settings)),
-        ("practice, tables and runs", folder(&places.player)),
-        ("the last session and the log", folder(&places.log)),
+        ("settings", folder(&paths.settings)),
+        ("practice, tables and runs", folder(&paths.player)),
+        ("the last session and the log", folder(&paths.log)),
     ]
-    .map(|(what, path)| Place::look(what, &path))
+    .map(|(what, path)| FolderReport::inspect(what, &path))
     .into()
 }
 
 /// The stored data.
 #[derive(Serialize)]
-pub struct Kept {
-    pub settings: Found,
+pub struct StoredData {
+    pub settings: StoredItems,
     /// The user's own table files.
-    pub tables: Found,
-    pub runs: Found,
-    pub sessions: Found,
-    pub positions: Found,
+    pub tables: StoredItems,
+    pub runs: StoredItems,
+    pub sessions: StoredItems,
+    pub positions: StoredItems,
     /// The skill that the player has saved as their own.
-    pub player: Found,
+    pub player: StoredItems,
     /// Strokes of a calibration.
-    pub calibration: Found,
+    pub calibration: StoredItems,
     /// Strokes of the last daily check.
-    pub daily_check: Found,
+    pub daily_check: StoredItems,
     /// The saved state of the last session.
-    pub last: Found,
+    pub last: StoredItems,
 }
 
 /// The number of stored items of a kind, and the problems with them.
 #[derive(Serialize)]
-pub struct Found {
+pub struct StoredItems {
     #[serde(serialize_with = "lossy")]
     pub path: PathBuf,
     pub count: usize,
     pub wrong: Vec<String>,
 }
 
-impl Found {
+impl StoredItems {
     /// Creates an entry from the number of items, or from the error of reading them.
     fn of(path: &Path, count: Result<usize, impl ToString>) -> Self {
         let wrong = count.as_ref().err().map(ToString::to_string);
@@ -101,25 +101,29 @@ impl Found {
     }
 }
 
-impl Kept {
+impl StoredData {
     /// Checks all stored data.
-    pub fn find(places: &Places, complaints: &[Complaint]) -> Self {
-        let store = Store::new(places);
+    pub fn inspect(paths: &DataPaths, complaints: &[Complaint]) -> Self {
+        let store = Store::new(paths);
         let (sessions, positions, own) = (store.sessions(), store.positions(), store.own_skill());
         Self {
-            settings: Found {
-                path: places.settings.clone(),
-                count: usize::from(places.settings.is_file()),
-                wrong: Complaint::sentences(&places.settings, complaints),
+            settings: StoredItems {
+                path: paths.settings.clone(),
+                count: usize::from(paths.settings.is_file()),
+                wrong: Complaint::sentences(&paths.settings, complaints),
             },
-            tables: tables(places),
-            runs: runs(&places.runs),
-            sessions: Found { path: places.sessions.clone(), count: sessions.items.len(), wrong: sessions.notes },
-            positions: Found { path: places.positions.clone(), count: positions.items.len(), wrong: positions.notes },
-            player: Found::of(&places.player, own.map(|own| usize::from(own.is_some()))),
-            calibration: strokes(&places.calibration),
-            daily_check: strokes(&places.daily_check),
-            last: last(&places.last),
+            tables: tables(paths),
+            runs: runs(&paths.runs),
+            sessions: StoredItems { path: paths.sessions.clone(), count: sessions.items.len(), wrong: sessions.notes },
+            positions: StoredItems {
+                path: paths.positions.clone(),
+                count: positions.items.len(),
+                wrong: positions.notes,
+            },
+            player: StoredItems::of(&paths.player, own.map(|own| usize::from(own.is_some()))),
+            calibration: strokes(&paths.calibration),
+            daily_check: strokes(&paths.daily_check),
+            last: last(&paths.last_session),
         }
     }
 
@@ -132,21 +136,21 @@ impl Kept {
 }
 
 /// Checks the strokes in a calibration file.
-fn strokes(path: &Path) -> Found {
-    Found::of(path, kept_entries(path).map(|entries| entries.trials.len()))
+fn strokes(path: &Path) -> StoredItems {
+    StoredItems::of(path, load_entries_or_empty(path).map(|entries| entries.trials.len()))
 }
 
 /// Checks the last session and the earlier ones that can be resumed.
-fn last(path: &Path) -> Found {
+fn last(path: &Path) -> StoredItems {
     let last = SavedSession::load(path).map_err(|error| format!("{}: {error}", path.display()));
-    Found::of(path, last.map(|last| last.map_or(0, |last| last.with_former().len())))
+    StoredItems::of(path, last.map(|last| last.map_or(0, |last| last.with_former().len())))
 }
 
 /// Checks the user's own tables.
-fn tables(places: &Places) -> Found {
-    let mut found = Found { path: places.tables.clone(), count: 0, wrong: Vec::new() };
-    for path in places.own_tables() {
-        match table_in(&path) {
+fn tables(paths: &DataPaths) -> StoredItems {
+    let mut found = StoredItems { path: paths.tables.clone(), count: 0, wrong: Vec::new() };
+    for path in paths.own_tables() {
+        match load_table(&path) {
             Ok(_) => found.count += 1,
             Err(failure) => found.wrong.push(failure.to_string()),
         }
@@ -155,9 +159,11 @@ fn tables(places: &Places) -> Found {
 }
 
 /// Checks the user's runs.
-fn runs(folder: &Path) -> Found {
+fn runs(folder: &Path) -> StoredItems {
     match if folder.exists() { runs_in(folder) } else { Ok(Listing::default()) } {
-        Ok(Listing { runs, unreadable }) => Found { path: folder.to_owned(), count: runs.len(), wrong: unreadable },
-        Err(error) => Found::of(folder, Err(format!("{}: {error}", folder.display()))),
+        Ok(Listing { runs, unreadable }) => {
+            StoredItems { path: folder.to_owned(), count: runs.len(), wrong: unreadable }
+        }
+        Err(error) => StoredItems::of(folder, Err(format!("{}: {error}", folder.display()))),
     }
 }

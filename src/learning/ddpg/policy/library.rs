@@ -16,7 +16,7 @@ pub const BUNDLED: &str = "bundled";
 
 /// A policy cannot be saved in the library.
 #[derive(Debug, thiserror::Error)]
-pub enum KeepError {
+pub enum SavePolicyError {
     /// The name is not valid.
     #[error("\"{0}\" is no name for a policy; accepted are {NAME_RULE}")]
     Name(String),
@@ -25,7 +25,7 @@ pub enum KeepError {
     Bundled,
     /// A policy of this name exists.
     #[error("a policy \"{0}\" already exists")]
-    Taken(String),
+    Exists(String),
     /// The file is not a usable policy.
     #[error(transparent)]
     Policy(#[from] PolicyError),
@@ -48,20 +48,20 @@ pub fn find(folder: &Path, name: &str) -> Option<PathBuf> {
 /// if `replaces`.
 ///
 /// # Errors
-/// [`KeepError`]; an existing policy is then unchanged.
-pub fn keep(folder: &Path, policy: &Path, name: &str, replaces: bool) -> Result<PathBuf, KeepError> {
+/// [`SavePolicyError`]; an existing policy is then unchanged.
+pub fn save(folder: &Path, policy: &Path, name: &str, replaces: bool) -> Result<PathBuf, SavePolicyError> {
     if !is_name(name) {
-        return Err(KeepError::Name(name.to_owned()));
+        return Err(SavePolicyError::Name(name.to_owned()));
     }
     if name == BUNDLED {
-        return Err(KeepError::Bundled);
+        return Err(SavePolicyError::Bundled);
     }
     let kept = file(folder, name);
     if kept.exists() && !replaces {
-        return Err(KeepError::Taken(name.to_owned()));
+        return Err(SavePolicyError::Exists(name.to_owned()));
     }
     let (_, bytes) = Policy::load_with_bytes(policy)?;
-    write_atomic(&kept, &bytes).map_err(|reason| KeepError::File { path: kept.display().to_string(), reason })?;
+    write_atomic(&kept, &bytes).map_err(|reason| SavePolicyError::File { path: kept.display().to_string(), reason })?;
     Ok(kept)
 }
 
@@ -74,15 +74,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_policy_is_kept_found_and_replaced_only_on_demand() {
+    fn policies_are_saved_found_and_replaced_on_demand() {
         let folder = tempfile::tempdir().unwrap();
         let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
         let [first, second] = ["match-r3", "thesis-r3"].map(|name| models.join(name).with_extension(EXTENSION));
-        let kept = keep(folder.path(), &first, "mine", false).unwrap();
+        let kept = save(folder.path(), &first, "mine", false).unwrap();
         assert_eq!(find(folder.path(), "mine").as_ref(), Some(&kept));
         assert_eq!(std::fs::read(&kept).unwrap(), std::fs::read(&first).unwrap());
-        assert!(matches!(keep(folder.path(), &second, "mine", false), Err(KeepError::Taken(_))));
-        keep(folder.path(), &second, "mine", true).unwrap();
+        assert!(matches!(save(folder.path(), &second, "mine", false), Err(SavePolicyError::Exists(_))));
+        save(folder.path(), &second, "mine", true).unwrap();
         assert_eq!(std::fs::read(&kept).unwrap(), std::fs::read(&second).unwrap());
         assert_eq!([find(folder.path(), "other"), find(folder.path(), "../mine")], [None, None]);
     }
@@ -91,13 +91,13 @@ mod tests {
     fn other_names_and_other_files_are_refused() {
         let folder = tempfile::tempdir().unwrap();
         for name in ["", "a/b", "..", "../up", ".hidden", "with blank", &"x".repeat(101)] {
-            let error = keep(folder.path(), Path::new("nowhere"), name, true).unwrap_err().to_string();
+            let error = save(folder.path(), Path::new("nowhere"), name, true).unwrap_err().to_string();
             assert!(error.contains("no name for a policy"), "{name}: {error}");
         }
-        assert!(matches!(keep(folder.path(), Path::new("nowhere"), BUNDLED, true), Err(KeepError::Bundled)));
+        assert!(matches!(save(folder.path(), Path::new("nowhere"), BUNDLED, true), Err(SavePolicyError::Bundled)));
         let note = folder.path().join("note");
         std::fs::write(&note, "no policy").unwrap();
-        assert!(matches!(keep(folder.path(), &note, "note", false), Err(KeepError::Policy(_))));
+        assert!(matches!(save(folder.path(), &note, "note", false), Err(SavePolicyError::Policy(_))));
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 }
