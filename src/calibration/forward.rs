@@ -56,7 +56,7 @@ impl Hand {
     /// Returns the marks of `test` after such a stroke, played from the far end if `is_turned`; `None` for a mark to which the ball never
     /// gets.
     pub fn seen(&self, table: &Table, test: &Test, is_turned: bool, off: &[f64; STROKE]) -> Vec<Option<f64>> {
-        let table = if is_turned { Cow::Owned(table.turned()) } else { Cow::Borrowed(table) };
+        let table = if is_turned { Cow::Owned(table.seen_from_other_end()) } else { Cow::Borrowed(table) };
         let (cue, layout) = self.stroke(&table, test, off);
         marks(&table, test, &cue, &layout)
     }

@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn a_roll_from_any_speed_is_right_to_five_thousandths_in_few_bands() {
+    fn few_bands_give_any_roll_to_half_a_percent() {
         for (least, growth) in [(0.040, 0.016), (0.05, 0.03), (0.07, 0.002)] {
             for step in 1..200 {
                 let speed = 0.04 * f64::from(step);

@@ -7,7 +7,7 @@
 use glam::{DVec2, DVec3};
 
 use super::Constants;
-use crate::physics::{BallState, Cloth, SpatialState, rolling_spin, slip, turned_by_cloth};
+use crate::physics::{BallState, Cloth, SpatialState, rolling_spin, slip, spin_change_by_cloth};
 
 /// Number of landings up to which powers are multiplied; an exponential costs the same.
 const FEW: u32 = 8;
@@ -154,7 +154,10 @@ impl Hops {
     /// Returns velocity along the cloth and spin after a total friction impulse per mass of `rubbed`, m/s.
     fn rubbed(&self, rubbed: f64) -> (DVec2, DVec3) {
         let impulse = -rubbed * self.direction;
-        (self.start.velocity.truncate() + impulse, self.start.spin + turned_by_cloth(self.radius, impulse).extend(0.0))
+        (
+            self.start.velocity.truncate() + impulse,
+            self.start.spin + spin_change_by_cloth(self.radius, impulse).extend(0.0),
+        )
     }
 
     /// Returns the centre at the landing with this index, m.
@@ -265,7 +268,7 @@ mod tests {
             let flight = (ball.velocity.z + speed) / cloth.gravity;
             ball.position += (flight * ball.velocity.truncate()).extend(-ball.position.z);
             ball.velocity.z = -speed;
-            cloth.answer(constants.radius, &mut ball);
+            cloth.resolve(constants.radius, &mut ball);
             time += flight;
         }
         (time, ball)
@@ -281,7 +284,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_sums_are_what_landing_after_landing_gives(
+        fn closed_form_sums_equal_stepwise_landings(
             height in prop_oneof![Just(0.0), 0.0..0.3f64],
             velocity in [-5.0..5.0f64, -5.0..5.0, -3.0..4.0],
             spin in [-150.0..150.0f64, -150.0..150.0, -99.0..99.0],
@@ -304,7 +307,7 @@ mod tests {
         }
 
         #[test]
-        fn arcs_follow_one_another_and_the_state_lies_on_them(
+        fn arcs_are_contiguous_and_contain_the_state(
             velocity in [-5.0..5.0f64, -5.0..5.0, 0.1..4.0],
             spin in [-150.0..150.0f64, -150.0..150.0, -99.0..99.0],
             restitution in prop_oneof![Just(0.5), Just(0.99), 0.1..0.95f64],
@@ -326,7 +329,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_that_is_let_fall_without_slip_comes_down_where_it_is() {
+    fn ball_dropped_without_slip_lands_in_place() {
         let constants = constants();
         let cloth = Cloth { restitution: 0.5, friction: 0.2, gravity: 9.81 };
         let hops = Hops::new(&constants, &cloth, &started(0.05, [0.0; 3], [0.0, 0.0, 20.0]));

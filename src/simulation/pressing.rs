@@ -24,7 +24,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if self.is_out_of_reach(|index| self.state(index, now)) {
             return ControlFlow::Break(());
         }
-        if !self.is_exhausted() && resting.go_on(self.table) {
+        if !self.is_exhausted() && resting.continue_step(self.table) {
             self.effort.absorb(&resting.effort);
             self.observer.contact_step()?;
             let members = resting.members;
@@ -32,7 +32,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             for index in (0..BALLS).filter(|&index| members[index]) {
                 self.rest(index, now);
             }
-            self.look_ahead_of_pressed(now, members);
+            self.predict_pressed(now, members);
             return ControlFlow::Continue(());
         }
         // A ball that another one strikes repeatedly is this slow only between two impacts.
@@ -45,7 +45,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.pressed = true;
         // Termination guard: a ball in another contact stands still, and its contact restarts.
         self.ended = (!self.is_exhausted()).then_some(resting);
-        self.look_ahead(now, members)
+        self.predict_changed(now, members)
     }
 
     /// Whether a moving ball that is not one of the `members` touches one of them.
@@ -70,7 +70,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             return None;
         }
         let members = resting.members;
-        self.cut(now);
+        self.end_step(now);
         let states = self.resting.as_ref()?.end;
         self.relaunch(now, std::array::from_fn(|index| members[index] && !changed[index]), &states);
         self.pressed = true;
@@ -79,13 +79,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
     /// Ends the present step of the resting contacts at `now`.
     #[cold]
-    pub(super) fn cut(&mut self, now: f64) {
+    pub(super) fn end_step(&mut self, now: f64) {
         let Some(resting) = &mut self.resting else { return };
         let time = now - resting.start;
         if time >= resting.step {
             return;
         }
-        resting.cut(self.table, time);
+        resting.shorten(self.table, time);
         self.next_step = resting.next_step;
         for index in (0..BALLS).filter(|&index| resting.members[index] && time > 0.0) {
             let segment = &mut self.balls[index].segment;
@@ -117,7 +117,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         {
             return ControlFlow::Continue(());
         }
-        self.cut(now);
+        self.end_step(now);
         // Other members of a continuing contact are part of the new one.
         let mut states: [BallState; BALLS] = match &self.resting {
             Some(resting) if resting.start < now => std::array::from_fn(|index| {

@@ -133,7 +133,7 @@ mod tests {
     use crate::{
         physics,
         study::{
-            shots::{Steepest, random_shots},
+            shots::{MaxElevation, random_shots},
             stability::adversarial,
         },
     };
@@ -144,7 +144,7 @@ mod tests {
             play(&Numbers::of(table), positions(&shot.layout), velocity, spin, by_extrema).unwrap();
         };
         for table in ["thesis", "textbook"].map(|name| Table::preset(name).unwrap()) {
-            for shot in random_shots(&table, random, 1, Steepest::USUAL) {
+            for shot in random_shots(&table, random, 1, MaxElevation::USUAL) {
                 judge(&table, &shot);
             }
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);

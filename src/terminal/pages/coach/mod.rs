@@ -446,7 +446,7 @@ impl CoachPage {
     /// What is listed of what happens in `shot`.
     pub fn events(&self, shot: &Shot) -> Vec<Event> {
         let all = shot.recording.events().iter();
-        all.filter(|event| self.has_all_events || shot.recording.is_told(event)).copied().collect()
+        all.filter(|event| self.has_all_events || shot.recording.is_reported(event)).copied().collect()
     }
 
     /// What came of the shot that is watched, once the balls lie still.

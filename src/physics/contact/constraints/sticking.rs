@@ -13,7 +13,7 @@ pub enum Cloth {
 }
 
 /// Holding forces of the cloth on a ball: against slip, against rolling, against spin.
-pub type Holding = (DVec2, DVec2, f64);
+pub type HoldingForces = (DVec2, DVec2, f64);
 
 /// Holding modes of the cloth for one ball.
 #[derive(Clone, Copy)]
@@ -27,14 +27,14 @@ impl Sticking {
     pub fn of(set: &ActiveSet, ball: usize) -> Self {
         let cloth = match (set.cloth[ball], set.roll[ball]) {
             (Friction::Slips(_), _) => Cloth::Slides,
-            (_, Friction::Slips(_) | Friction::Eases) => Cloth::Rolls,
+            (_, Friction::Slips(_) | Friction::Filippov) => Cloth::Rolls,
             _ => Cloth::Stands,
         };
         Self { cloth, spin: !matches!(set.spin[ball], Friction::Slips(_)) }
     }
 
     /// Returns the forces that hold a ball with this motion without them.
-    pub fn holding(self, linear: DVec2, angular: DVec3) -> Holding {
+    pub fn holding_forces(self, linear: DVec2, angular: DVec3) -> HoldingForces {
         let around = angular.truncate();
         let (cloth, roll) = match self.cloth {
             Cloth::Slides => (DVec2::ZERO, DVec2::ZERO),
@@ -49,7 +49,7 @@ impl Sticking {
     }
 
     /// Returns the remaining motion after the holding forces.
-    pub fn held(self, linear: DVec2, angular: DVec3) -> (DVec2, DVec3) {
+    pub fn remaining_motion(self, linear: DVec2, angular: DVec3) -> (DVec2, DVec3) {
         let around = angular.truncate();
         let spin = if self.spin { 0.0 } else { angular.z };
         match self.cloth {
