@@ -231,8 +231,8 @@ fn measure(args: &Args, table: Table, max_elevation: MaxElevation) -> Result<Stu
     let shots = args.shots.map_or(shots, |shots| shots as usize);
     let shots = random_shots(&table, shots, args.seed.unwrap_or(SEED), max_elevation);
     let (name, all, mut line) = (table.name.clone(), shots.len(), ProgressLine::default());
-    let found_by = args.table.clone().unwrap_or_else(|| name.clone());
-    let plan = Plan { table, found_by, max_elevation, shots, methods: Method::all(finest), rounds, steps };
+    let table_argument = args.table.clone().unwrap_or_else(|| name.clone());
+    let plan = Plan { table, table_argument, max_elevation, shots, methods: Method::all(finest), rounds, steps };
     let study = plan.run(|done| line.show(format_args!("every method on {name}: {done} of {all} shots")));
     line.clear();
     if study.summary.judged.count == 0 {

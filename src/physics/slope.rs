@@ -40,7 +40,7 @@ pub fn roll_on_slope(rolling: &Rolling, tilt: DVec2, velocity: DVec2) -> Stretch
     let speed = velocity.length();
     let direction = velocity / speed;
     let end = end_on_slope(rolling, pull, speed);
-    let deceleration = rolling.between(speed, end);
+    let deceleration = rolling.mean_deceleration(speed, end);
     let along = pull.dot(direction);
     let across = pull - along * direction;
     let (left, lost) = (end / speed, 1.0 - end / speed);

@@ -57,7 +57,7 @@ struct Bounces {
     /// Pause between the last bounce before this chatter and its first, s.
     pause: f64,
     /// Ratio of the last flight to the one before; NaN for a first bounce, which has none.
-    shrinking: f64,
+    flight_ratio: f64,
 }
 
 impl Bounces {
@@ -81,7 +81,7 @@ impl Chatters {
                 flight: f64::INFINITY,
                 longest: 0.0,
                 pause: 0.0,
-                shrinking: 0.0,
+                flight_ratio: 0.0,
             }; SLOTS],
         )
     }
@@ -105,7 +105,7 @@ impl Chatters {
         } else {
             (bounces.count, bounces.longest, bounces.pause) = (0, 0.0, flight);
         }
-        bounces.shrinking = flight / bounces.flight;
+        bounces.flight_ratio = flight / bounces.flight;
         (bounces.last, bounces.flight) = (now, flight);
         bounces.count > REPORTED_BOUNCES
     }
@@ -123,13 +123,13 @@ impl Chatters {
     }
 
     /// Returns the ratio of a contact's last flight to the one before; NaN after its first bounce.
-    pub fn shrinking(&self, contact: &Contact) -> f64 {
-        self.0[Self::slot(contact)].shrinking
+    pub fn flight_ratio(&self, contact: &Contact) -> f64 {
+        self.0[Self::slot(contact)].flight_ratio
     }
 
     /// Returns when each chatter of a ball ends, s, if it does not bounce again: those with other balls at their index, those with cushions
     /// at the ball's own index. Any bounce, reported or not, may be followed by others within `pause`, s.
-    pub fn ends(&self, ball: usize, pause: f64) -> [f64; BALLS] {
+    pub fn end_times(&self, ball: usize, pause: f64) -> [f64; BALLS] {
         let mut ends = [f64::NEG_INFINITY; BALLS];
         let cushions = (0..4).map(|rail| (ball, PAIRS.len() + 4 * ball + rail));
         for (other, slot) in cushions.chain(PAIRS_OF[ball].map(|(pair, other)| (other, pair))) {
@@ -172,14 +172,14 @@ pub struct ChatterEnd {
 
 /// Returns the contacts that come to rest together with `contact`, which has just bounced and opens in the state `balls`. Forces must press
 /// them once their bounces have ended, and the remaining bounces must be negligible. `None` if the chatter continues. `restitution` is that
-/// of its bounces; `shrinking` is the ratio of the last flight to the one before.
+/// of its bounces; `flight_ratio` is the ratio of the last flight to the one before.
 pub fn chatter_end(
     table: &Table,
     constants: &Constants,
     contact: &Contact,
     balls: &[BallState; BALLS],
     on_cloth: [bool; BALLS],
-    (restitution, shrinking): (f64, f64),
+    (restitution, flight_ratio): (f64, f64),
     effort: &Effort,
 ) -> Option<ChatterEnd> {
     let tolerance = &constants.tolerance;
@@ -216,8 +216,8 @@ pub fn chatter_end(
     if made && speed > if alone { tolerance.slowest_bounce } else { tolerance.slowest_coupled_bounce } {
         return None;
     }
-    // After a first bounce, `shrinking` is NaN and counts as the slowest: `min` returns the other operand.
-    let restitution = restitution.max(shrinking.min(SLOWEST_SHRINKING));
+    // After a first bounce, `flight_ratio` is NaN and counts as the slowest: `min` returns the other operand.
+    let restitution = restitution.max(flight_ratio.min(SLOWEST_SHRINKING));
     let cube = |x: f64| x * x * x;
     // Coupled contacts do not necessarily bounce more and more softly: only their present speed is known.
     let negligible = if alone { tolerance.negligible } else { tolerance.negligible_coupled };
@@ -287,8 +287,8 @@ mod tests {
         let flights = (1..=40).map(|bounce| 0.1 * 0.9_f64.powi(bounce));
         let (reported, now) = reported(&mut chatters, &Contact::of_balls(0, 1), flights);
         assert_eq!(reported, REPORTED_BOUNCES);
-        assert!(chatters.ends(1, 0.0)[0] > now && chatters.ends(2, 0.0)[0] < now);
-        assert!(chatters.ends(0, 0.0)[1] < now + 1.0);
+        assert!(chatters.end_times(1, 0.0)[0] > now && chatters.end_times(2, 0.0)[0] < now);
+        assert!(chatters.end_times(0, 0.0)[1] < now + 1.0);
     }
 
     /// Bounces between a ball and a cushion: each time the cushion throws the ball back, they start again, with shorter flights.
@@ -302,7 +302,7 @@ mod tests {
         });
         let (reported, now) = reported(&mut chatters, &Contact::of_balls(0, 1), flights);
         assert_eq!(reported, REPORTED_BOUNCES);
-        assert!(chatters.ends(0, 0.0)[1] > now && chatters.ends(0, 0.0)[1] < now + 0.2);
+        assert!(chatters.end_times(0, 0.0)[1] > now && chatters.end_times(0, 0.0)[1] < now + 0.2);
     }
 
     /// Two contacts alternately throw a ball back, each with two bounces, after ever shorter pauses.

@@ -189,12 +189,12 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         if flow.is_continue() {
             flow = self.predict_ball(0.0, 0);
         }
-        self.play_on(flow)
+        self.run_events(flow)
     }
 
     /// Runs the event loop from the stroke to the end. Returns the time of the last event.
     #[inline(always)]
-    pub(super) fn play_on(&mut self, mut flow: ControlFlow<()>) -> f64 {
+    pub(super) fn run_events(&mut self, mut flow: ControlFlow<()>) -> f64 {
         let mut now = 0.0;
         if S::LONE_BALL && S::KEPT_PREDICTIONS && flow.is_continue() && self.is_only_moving_ball(0) {
             flow = self.play_lone_ball(0, &mut now);
@@ -232,7 +232,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
                 Some(pair) => self.collide(pair, next),
                 None if self.balls[source].rail_after < self.balls[source].duration => self.rebound(source, next),
                 None => match self.balls[source].segment.motion {
-                    Motion::Resting => self.rest_on(next),
+                    Motion::Resting => self.continue_resting(next),
                     Motion::Flying => self.stay_on_cloth(source, &mut next),
                     _ => self.change_motion(source, next),
                 },
@@ -363,6 +363,6 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     }
 }
 
-pub(super) fn only(index: usize) -> [bool; BALLS] {
+pub(super) fn only_ball(index: usize) -> [bool; BALLS] {
     std::array::from_fn(|other| other == index)
 }

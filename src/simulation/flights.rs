@@ -7,7 +7,7 @@ use super::{
     aloft::Nose,
     chatter::Chatters,
     contacts::PAIRS_OF,
-    engine::{Ball, ContactMode, Engine, PairPrediction, only},
+    engine::{Ball, ContactMode, Engine, PairPrediction, only_ball},
     guards::AIR_IMPACT_COST,
     hops::Hops,
     savings::Savings,
@@ -98,7 +98,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
     /// Handles a ball that a cushion has lifted.
     #[cold]
-    pub(super) fn climb(
+    pub(super) fn climb_cushion(
         &mut self,
         index: usize,
         now: f64,
@@ -110,7 +110,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let rail = self.balls[index].rail;
         self.report(now, EventKind::BallRail(index, rail))?;
         self.lift(index, now, state, climb)?;
-        self.predict_changed(now, self.with_freed(freed, only(index)))
+        self.predict_changed(now, self.with_freed(freed, only_ball(index)))
     }
 
     /// Starts a flight with the upward velocity `climb`, m/s.
@@ -127,7 +127,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let Ball { rail_after, rail, .. } = self.balls[index];
         let c = self.constants;
         let mut state = self.balls[index].segment.spatial_after(&c, rail_after);
-        self.land_first(now, &mut state);
+        self.land_before_impact(now, &mut state);
         self.end_segment(index, now);
         let cushion = *self.law.cushions.at(rail);
         let to_nose = Nose::of(&cushion, c.radius).vector_from(&c, rail, state.position);
@@ -154,19 +154,19 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.effort_in_air.add(AIR_IMPACT_COST);
         let (first, second) = PAIRS[pair];
         let PairPrediction { since, after, .. } = self.pairs[pair];
-        let mut changed = only(first);
+        let mut changed = only_ball(first);
         changed[second] = true;
         let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
         let c = self.constants;
         let [mut one, mut other] = [first, second].map(|index| match &freed {
-            Some(states) if self.freed_members()[index] => SpatialState::from(states[index]),
+            Some(states) if self.resting_members()[index] => SpatialState::from(states[index]),
             _ => {
                 let segment = &self.balls[index].segment;
                 segment.spatial_after(&c, (since - segment.start) + after)
             }
         });
-        self.land_first(now, &mut one);
-        self.land_first(now, &mut other);
+        self.land_before_impact(now, &mut one);
+        self.land_before_impact(now, &mut other);
         let slowest = c.tolerance.slowest_in_air;
         // If a ball is in the air, there is a cloth that it has left.
         let Some(cloth) = self.cloth else { return ControlFlow::Continue(()) };
@@ -193,7 +193,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
     /// Makes a ball that reaches the cloth at the moment of an impact land before it: otherwise rounding would decide whether its state is
     /// from before or after the landing. If the ball would rise too slowly to fly, it stays on the cloth.
-    fn land_first(&self, now: f64, state: &mut SpatialState) {
+    fn land_before_impact(&self, now: f64, state: &mut SpatialState) {
         let falls = -state.velocity.z;
         let rounding = if falls > 0.0 { f64::EPSILON * (self.constants.radius + MOMENT * now * falls) } else { 0.0 };
         if state.position.z <= rounding {
@@ -263,7 +263,7 @@ mod tests {
         let position = other.extend(0.0) + 2.0 * table.radius * n;
         let flow = engine.launch_in_space(0, 0.0, &SpatialState { position, velocity: velocity(n), spin: DVec3::ZERO });
         assert!(flow.is_continue() && engine.predict_ball(0.0, 0).is_continue());
-        let time = engine.play_on(flow);
+        let time = engine.run_events(flow);
         let end = engine.finish(time);
         (reported.0.len(), end)
     }

@@ -77,7 +77,7 @@ impl Hops {
         hops.duration = hops.first + hops.per_speed() * landing * e / (1.0 - e);
         hops.last_velocity = match hops.sticks {
             Some(_) => hops.rolling(),
-            None => hops.rubbed(friction_impulse / (1.0 - e)).0,
+            None => hops.motion_after_friction(friction_impulse / (1.0 - e)).0,
         };
         hops
     }
@@ -143,7 +143,7 @@ impl Hops {
         if self.sticks.is_some_and(|last| landings > last) {
             return self.rolls();
         }
-        self.rubbed(self.friction_impulse * self.powers(landings))
+        self.motion_after_friction(self.friction_impulse * self.powers(landings))
     }
 
     fn rolls(&self) -> (DVec2, DVec3) {
@@ -151,9 +151,9 @@ impl Hops {
         (velocity, rolling_spin(self.radius, velocity).extend(self.start.spin.z))
     }
 
-    /// Returns velocity along the cloth and spin after a total friction impulse per mass of `rubbed`, m/s.
-    fn rubbed(&self, rubbed: f64) -> (DVec2, DVec3) {
-        let impulse = -rubbed * self.direction;
+    /// Returns velocity along the cloth and spin after a total friction impulse per mass of `friction`, m/s.
+    fn motion_after_friction(&self, friction: f64) -> (DVec2, DVec3) {
+        let impulse = -friction * self.direction;
         (
             self.start.velocity.truncate() + impulse,
             self.start.spin + spin_change_by_cloth(self.radius, impulse).extend(0.0),
@@ -161,13 +161,13 @@ impl Hops {
     }
 
     /// Returns the centre at the landing with this index, m.
-    fn place(&self, landing: u32) -> DVec2 {
+    fn landing_position(&self, landing: u32) -> DVec2 {
         let e = self.cloth.restitution;
         let velocity = self.start.velocity.truncate();
         let slides = self.sticks.map_or(landing, |last| last.min(landing));
         let sum = self.powers(slides);
-        let rubbed = self.friction_impulse * sum * self.powers(slides + 1) / (1.0 + e);
-        let mut displacement = e * (sum * velocity - rubbed * self.direction);
+        let friction = self.friction_impulse * sum * self.powers(slides + 1) / (1.0 + e);
+        let mut displacement = e * (sum * velocity - friction * self.direction);
         if landing > slides {
             displacement += self.decayed(slides + 1) * self.powers(landing - slides) * self.rolling();
         }
@@ -184,14 +184,14 @@ impl Hops {
         let e = self.cloth.restitution;
         let (position, (velocity, spin)) = if let Some(last) = self.sticks {
             let rest = self.decayed(last + 1) / (1.0 - e);
-            (self.place(last) + self.per_speed() * self.landing * rest * self.rolling(), self.rolls())
+            (self.landing_position(last) + self.per_speed() * self.landing * rest * self.rolling(), self.rolls())
         } else {
             let sum = 1.0 / (1.0 - e);
             let displacement =
                 e * sum * (self.start.velocity.truncate() - self.friction_impulse * sum / (1.0 + e) * self.direction);
             (
                 self.touchdown() + self.per_speed() * self.landing * displacement,
-                self.rubbed(self.friction_impulse * sum),
+                self.motion_after_friction(self.friction_impulse * sum),
             )
         };
         BallState { position, velocity, spin }
@@ -208,7 +208,7 @@ impl Hops {
         Arc {
             begin,
             end: begin + self.per_speed() * climb,
-            position: self.place(landings - 1).extend(0.0),
+            position: self.landing_position(landings - 1).extend(0.0),
             velocity: self.motion(landings).0.extend(climb),
         }
     }

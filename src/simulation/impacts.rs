@@ -6,7 +6,7 @@ use super::{
     Event, EventKind, Observer, Rail,
     chatter::{Chatters, chatter_end},
     contacts::{PAIRS_OF, close_gaps, is_in_corner, move_to_cushion, touching},
-    engine::{Ball, ContactMode, Engine, PairPrediction, SAME_TIME, only},
+    engine::{Ball, ContactMode, Engine, PairPrediction, SAME_TIME, only_ball},
     guards::BOUNCE_COST,
     savings::Savings,
 };
@@ -38,11 +38,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let Ball { rail_after, rail, segment, .. } = &self.balls[index];
         let (rail_after, rail, meets_two) =
             (*rail_after, *rail, is_in_corner(&self.constants, segment.position_after(*rail_after)));
-        if (self.is_crowded(now) || meets_two || self.touches_another(index, now)) && self.collide_at_once(now)? {
+        if (self.may_be_simultaneous(now) || meets_two || self.touches_another(index, now))
+            && self.collide_simultaneously(now)?
+        {
             return ControlFlow::Continue(());
         }
         let n = rail.normal();
-        let freed = if self.resting.is_some() { self.release(now, only(index)) } else { None };
+        let freed = if self.resting.is_some() { self.release(now, only_ball(index)) } else { None };
         let mut state = match &freed {
             Some(states) => states[index],
             None => self.balls[index].segment.state_after(&self.constants, rail_after),
@@ -56,7 +58,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             state.position += c.tolerance.micro_gap * n;
         }
         if impulse.climb > c.lifts {
-            return self.climb(index, now, state, impulse.climb, freed.is_some());
+            return self.climb_cushion(index, now, state, impulse.climb, freed.is_some());
         }
         let mut reported = true;
         if state.velocity.dot(n) <= c.tolerance.slow_bounce {
@@ -81,14 +83,14 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.launch(index, now, &state);
         self.report_impact(now, EventKind::BallRail(index, rail), reported)?;
         if freed.is_some() {
-            self.predict_changed(now, self.with_freed(true, only(index)))
+            self.predict_changed(now, self.with_freed(true, only_ball(index)))
         } else {
             self.predict_ball(now, index)
         }
     }
 
     pub(super) fn collide(&mut self, pair: usize, now: f64) -> ControlFlow<()> {
-        if self.is_crowded(now) && self.collide_at_once(now)? {
+        if self.may_be_simultaneous(now) && self.collide_simultaneously(now)? {
             return ControlFlow::Continue(());
         }
         let (first, second) = PAIRS[pair];
@@ -96,11 +98,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             return self.collide_in_space(pair, now);
         }
         let PairPrediction { since, after, .. } = self.pairs[pair];
-        let mut changed = only(first);
+        let mut changed = only_ball(first);
         changed[second] = true;
         let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
         let state_of = |index: usize| match &freed {
-            Some(states) if self.freed_members()[index] => states[index],
+            Some(states) if self.resting_members()[index] => states[index],
             _ => {
                 let segment = &self.balls[index].segment;
                 segment.state_after(&self.constants, (since - segment.start) + after)
@@ -151,7 +153,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
     /// Whether other impacts may happen at this moment, or too many have happened.
     #[inline(always)]
-    pub(super) fn is_crowded(&mut self, now: f64) -> bool {
+    pub(super) fn may_be_simultaneous(&mut self, now: f64) -> bool {
         self.rounds = if now - self.last_impact <= SAME_TIME { self.rounds + 1 } else { 0 };
         self.last_impact = now;
         let mut at_once = 0;
@@ -163,9 +165,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
     /// Resolves all contacts that close now together, if there are several. Returns whether they have collided.
     #[cold]
-    pub(super) fn collide_at_once(&mut self, now: f64) -> ControlFlow<(), bool> {
+    pub(super) fn collide_simultaneously(&mut self, now: f64) -> ControlFlow<(), bool> {
         self.effort.add(BOUNCE_COST);
-        let members = self.freed_members();
+        let members = self.resting_members();
         let held = self.resting.as_ref().map(|resting| resting.after(self.table, now - resting.start));
         let mut states: [BallState; BALLS] = std::array::from_fn(|index| match &held {
             Some(states) if members[index] => states[index],
@@ -261,9 +263,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if self.micro_collisions.is_some() {
             return None;
         }
-        let shrinking = self.chatters.as_ref().map_or(0.0, |chatters| chatters.shrinking(contact));
+        let flight_ratio = self.chatters.as_ref().map_or(0.0, |chatters| chatters.flight_ratio(contact));
         let states = self.states_with(now, freed, bounced);
-        let bounces = (self.law.restitution(contact), shrinking);
+        let bounces = (self.law.restitution(contact), flight_ratio);
         let end = chatter_end(self.table, &self.constants, contact, &states, self.on_cloth(), bounces, &self.effort)?;
         (now + end.duration < self.next_meeting_aloft()).then_some(end.contacts)
     }
@@ -286,7 +288,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         given: &[(usize, BallState)],
     ) -> [BallState; BALLS] {
         let mut balls = std::array::from_fn(|index| match freed {
-            Some(states) if self.freed_members()[index] => states[index],
+            Some(states) if self.resting_members()[index] => states[index],
             _ => self.state(index, now),
         });
         for (index, state) in given {

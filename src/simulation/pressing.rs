@@ -6,7 +6,7 @@ use super::{
     EventKind, Observer, Segment,
     chatter::Chatters,
     contacts::PAIRS_OF,
-    engine::{ContactMode, Engine, only},
+    engine::{ContactMode, Engine, only_ball},
     resting::{Outcome, Resting},
     savings::Savings,
     segment::Course,
@@ -19,7 +19,7 @@ use crate::{
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Handles the next step of the balls in resting contact.
     #[cold]
-    pub(super) fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
+    pub(super) fn continue_resting(&mut self, now: f64) -> ControlFlow<()> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
         if self.is_out_of_reach(|index| self.state(index, now)) {
             return ControlFlow::Break(());
@@ -98,13 +98,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 
     /// Returns the members of the stored resting contact.
-    pub(super) fn freed_members(&self) -> [bool; BALLS] {
+    pub(super) fn resting_members(&self) -> [bool; BALLS] {
         self.resting.as_ref().map_or([false; BALLS], |resting| resting.members)
     }
 
     /// Returns the `changed` balls, together with the members of the stored resting contact if it has been `freed`.
     pub(super) fn with_freed(&self, freed: bool, changed: [bool; BALLS]) -> [bool; BALLS] {
-        let members = self.freed_members();
+        let members = self.resting_members();
         std::array::from_fn(|index| changed[index] || (freed && members[index]))
     }
 
@@ -170,7 +170,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         // A slip that ends here has ended for good.
         self.relaunch(now, moved, &states);
         *changed = std::array::from_fn(|index| changed[index] || moved[index]);
-        let members = self.freed_members();
+        let members = self.resting_members();
         for index in 0..BALLS {
             let was = self.balls[index].mode;
             if members[index] {
@@ -184,7 +184,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 self.balls[index].mode = ContactMode::Bouncing;
                 // A ball whose contact ended because of another ball is still on the common trajectory.
                 if self.balls[index].segment.motion == Motion::Resting {
-                    self.relaunch(now, only(index), &states);
+                    self.relaunch(now, only_ball(index), &states);
                     changed[index] = true;
                 }
             }
@@ -212,7 +212,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// chatters, is early enough. In micro-collisions, any event may make it bounce again.
     fn may_bounce(&self, index: usize) -> bool {
         let Some(chatters) = &self.chatters else { return false };
-        let (ends, own) = (chatters.ends(index, self.longest_pause()), self.times[index]);
+        let (ends, own) = (chatters.end_times(index, self.longest_pause()), self.times[index]);
         if self.micro_collisions.is_some() {
             return self.times.iter().any(|time| ends.iter().any(|end| time <= end));
         }

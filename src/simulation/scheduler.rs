@@ -8,7 +8,7 @@ use super::{
     ball_ball::{Triangle, next_collision},
     contacts::PAIRS_OF,
     cushions::next_cushion_impact,
-    engine::{Ball, ContactMode, Engine, PairPrediction, only},
+    engine::{Ball, ContactMode, Engine, PairPrediction, only_ball},
     predict::{Prediction, next_cushion_impact_on_curve},
     savings::Savings,
 };
@@ -75,7 +75,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     #[inline(always)]
     pub(super) fn predict_ball(&mut self, now: f64, index: usize) -> ControlFlow<()> {
         if !S::KEPT_PREDICTIONS || self.pressed || self.resting.is_some() {
-            return self.predict_changed(now, only(index));
+            return self.predict_changed(now, only_ball(index));
         }
         let ball = &self.balls[index];
         let still = ball.segment.motion == Motion::Stationary;
@@ -100,7 +100,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
         if self.pressed {
             // Only the pair predictions have shown that balls press each other.
-            return self.predict_changed(now, only(index));
+            return self.predict_changed(now, only_ball(index));
         }
         ControlFlow::Continue(())
     }

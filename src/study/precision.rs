@@ -29,7 +29,7 @@ pub struct Plan {
     /// The table.
     pub table: Table,
     /// The name or path by which `--table` finds the table.
-    pub found_by: String,
+    pub table_argument: String,
     /// Greatest cue elevation of the shots.
     pub max_elevation: MaxElevation,
     /// The shots.
@@ -259,7 +259,8 @@ impl Plan {
             energy: Spread::of(gathered.shots.iter().filter_map(|(_, _, energy)| *energy)),
             flips_straight: Proportion::of(errors().map(|errors| errors.flips[0])),
             flips_three_cushion: Proportion::of(errors().map(|errors| errors.flips[1])),
-            worst_shot: worst.map_or_else(String::new, |(shot, ..)| self.shots[*shot].command_line(&self.found_by)),
+            worst_shot: worst
+                .map_or_else(String::new, |(shot, ..)| self.shots[*shot].command_line(&self.table_argument)),
         }
     }
 }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{
     reference_engine::{DoubleDouble, Real},
-    shots::{Reference, ReferenceEvent, references},
+    shots::{ReferenceEvent, ReferenceShot, references},
     statistics::{Proportion, Spread},
     truth::Truth,
 };
@@ -69,7 +69,7 @@ struct Checked {
     engine_to_truth: Option<f64>,
 }
 
-fn row(file: &'static str, shots: &[Reference]) -> ReferenceRow {
+fn row(file: &'static str, shots: &[ReferenceShot]) -> ReferenceRow {
     let checked: Vec<Checked> = shots.iter().map(check).collect();
     let in_units = |error: fn(&Checked) -> Option<f64>| {
         Spread::of(checked.iter().filter_map(move |shot| Some(error(shot)? / shot.unit?)))
@@ -90,9 +90,9 @@ fn row(file: &'static str, shots: &[Reference]) -> ReferenceRow {
     }
 }
 
-fn check(reference: &Reference) -> Checked {
+fn check(reference: &ReferenceShot) -> Checked {
     let table = reference.table();
-    let known_end = table.as_ref().map_or(reference.end, |table| reference.end_on(table));
+    let known_end = table.as_ref().map_or(reference.end, |table| reference.final_layout(table));
     let truth = table.as_ref().and_then(|table| Truth::of_reference(table, reference).ok());
     let recording = table.and_then(|table| Recording::new(&table, &reference.layout, &reference.cue.into()).ok());
     let has_events = !reference.events.is_empty();

@@ -99,7 +99,7 @@ fn random_shot(table: &Table, max_elevation: MaxElevation, rng: &mut impl Rng) -
 
 /// A shot computed by an independent program with 50 digits; its numbers are rounded to `f64` in the file.
 #[derive(Clone, Debug, Deserialize)]
-pub struct Reference {
+pub struct ReferenceShot {
     /// Name of the table preset.
     pub preset: String,
     /// Initial positions of the balls.
@@ -131,7 +131,7 @@ pub struct ReferenceEvent {
     pub rail: Option<String>,
 }
 
-impl Reference {
+impl ReferenceShot {
     /// Returns the table of the shot, `None` if there is no preset of that name. If a ball leaves the cloth, the table gets the
     /// default flight parameters.
     pub fn table(&self) -> Option<Table> {
@@ -141,7 +141,7 @@ impl Reference {
     }
 
     /// Returns the final positions; a ball that left the table is on its spot.
-    pub fn end_on(&self, table: &Table) -> Layout {
+    pub fn final_layout(&self, table: &Table) -> Layout {
         let leaves = |ball| {
             let is_it =
                 |event: &ReferenceEvent| event.balls == [ball] && event.kind == EventKind::LeavesTable(ball).name();
@@ -152,7 +152,7 @@ impl Reference {
 }
 
 /// Returns the reference files by name: ordinary shots, hard ones, resting contacts, and flights.
-pub fn references() -> [(&'static str, Vec<Reference>); 4] {
+pub fn references() -> [(&'static str, Vec<ReferenceShot>); 4] {
     let read = |text: &str| {
         let line = |line| serde_json::from_str(line).expect("the bundled reference shots are valid: a test reads them");
         text.lines().map(line).collect()

@@ -3,7 +3,7 @@
 
 use super::{
     reference_engine::{DoubleDouble, Motion, Numbers, Real, Shot, Stroke, Unjudged, Vector, by_extrema, play, strike},
-    shots::{Reference, StudyShot},
+    shots::{ReferenceShot, StudyShot},
 };
 use crate::{
     simulation::EventKind,
@@ -60,7 +60,7 @@ impl Truth {
     ///
     /// # Errors
     /// [`Unjudged`] if the truth cannot be computed.
-    pub fn of_reference(table: &Table, reference: &Reference) -> Result<Self, Unjudged> {
+    pub fn of_reference(table: &Table, reference: &ReferenceShot) -> Result<Self, Unjudged> {
         let numbers = Numbers::of(table);
         let of = DoubleDouble::of;
         let turn = |degrees: f64| (of(degrees) * DoubleDouble::PI / of(180.0)).sin_cos();

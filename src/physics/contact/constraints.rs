@@ -26,7 +26,7 @@ mod stopping;
 use glam::{DVec2, DVec3};
 
 use self::joint::{Joint, Movement, Response, Triple};
-use self::sticking::{Cloth, Sticking};
+use self::sticking::{ClothMode, Sticking};
 pub use self::stopping::stop_by_impulses;
 use super::{
     ActiveSet, Contact, Forces, Friction, MAX_CONTACTS, Scene,
@@ -315,7 +315,7 @@ impl<const ROOM: usize> ConstraintSystem<ROOM> {
     /// same motion. Returns the index of that contact.
     fn fix_redundant_friction(&mut self, applies_to: impl Fn(usize) -> bool) -> Option<usize> {
         let holds = |joint: &Joint| {
-            let rolls = self.sticking[joint.first].cloth == Cloth::Rolls;
+            let rolls = self.sticking[joint.first].cloth == ClothMode::Rolls;
             rolls && joint.second.is_none() && joint.unknowns == 3 && applies_to(joint.first)
         };
         let index = self.joints().iter().position(holds)?;
@@ -436,10 +436,10 @@ impl<const ROOM: usize> Solved<ROOM> {
             let sticking = system.sticking[ball];
             let (cloth, roll, spin) = sticking.holding_forces(without_cloth.linear[ball], without_cloth.angular[ball]);
             (forces.cloth[ball], forces.roll[ball], forces.spin[ball]) = (cloth, roll, spin);
-            if sticking.cloth != Cloth::Slides && set.roll[ball] != Friction::Filippov {
+            if sticking.cloth != ClothMode::Slides && set.roll[ball] != Friction::Filippov {
                 limit(sliding, cloth.length());
             }
-            if sticking.cloth == Cloth::Stands {
+            if sticking.cloth == ClothMode::Stands {
                 limit(rolling, roll.length());
             }
             if sticking.spin {
