@@ -171,8 +171,8 @@ impl<const ROOM: usize> ConstraintSystem<ROOM> {
     }
 
     /// Computes the unknowns for which all rates vanish, if the balls would move like `free` without the contacts. `with_bias` selects
-    /// whether the curvature of the trajectories counts. Returns the remaining motion, even if curvature separates over-constrained contacts.
-    /// `None` if the rates cannot vanish together for any other reason.
+    /// whether the curvature of the trajectories counts. Returns the remaining motion, even if curvature separates over-constrained
+    /// contacts. `None` if the rates cannot vanish together for any other reason.
     #[inline(always)]
     fn solve(&mut self, free: &Movement, with_bias: bool) -> Option<Movement> {
         let shape = self.joints().iter().rev().fold(0, |shape, joint| 4 * shape + joint.unknowns);
