@@ -9,7 +9,7 @@ use std::{f64::consts::PI, ops::ControlFlow, time::Instant};
 use carom::{
     game::Tally,
     physics::{CueInputs, Impulse, strike},
-    simulation::{All, Event, EventKind, Observer, Savings, Segment, simulate, watch_with},
+    simulation::{AllSavings, Event, EventKind, Observer, Savings, Segment, simulate, watch_with},
     table::{Layout, Table},
 };
 use glam::DVec2;
@@ -96,7 +96,7 @@ fn watched<S: Savings>(scene: &Scene) -> u64 {
 fn hoarded(scene: &Scene) -> u64 {
     let play = |(layout, impulse): &(Layout, Impulse)| {
         let mut hoarder = Hoarder::default();
-        watch_with::<All, _>(&scene.table, layout, impulse, &mut hoarder);
+        watch_with::<AllSavings, _>(&scene.table, layout, impulse, &mut hoarder);
         std::hint::black_box(&hoarder.segments);
         hoarder.watch.fingerprint
     };
@@ -119,12 +119,12 @@ macro_rules! without {
 
 fn main() {
     let rows: [(&str, Play); 11] = [
-        ("all savings", watched::<All>),
+        ("all savings", watched::<AllSavings>),
         ("balls at rest predict nothing", without!(BALLS_AT_REST)),
         ("predictions are kept", without!(KEPT_PREDICTIONS)),
         ("only cushions in reach", without!(CUSHIONS_IN_REACH)),
-        ("no roots for courses apart", without!(COURSES_APART)),
-        ("a loop of its own for a lone ball", without!(ALONE)),
+        ("no roots for courses apart", without!(SEPARATED_COURSES)),
+        ("a loop of its own for a lone ball", without!(LONE_BALL)),
         ("the last ball is not rolled out", without!(LAST_ROLLS)),
         ("the end when it is decided", without!(EARLY_END)),
         ("the end when energy is spent", without!(OUT_OF_REACH)),
@@ -135,8 +135,8 @@ fn main() {
                 BALLS_AT_REST,
                 KEPT_PREDICTIONS,
                 CUSHIONS_IN_REACH,
-                COURSES_APART,
-                ALONE,
+                SEPARATED_COURSES,
+                LONE_BALL,
                 LAST_ROLLS,
                 EARLY_END,
                 OUT_OF_REACH

@@ -4,7 +4,7 @@
 //! the other half, and prints the content of `src/table/match_doubt.toml`. It takes a few minutes.
 
 use carom::{
-    study::filmed::{bundled, weigh},
+    study::filmed::{bundled, weigh_models},
     table::{RailModel, Table},
 };
 
@@ -16,7 +16,7 @@ const SURE: f64 = 20.0;
 
 fn main() {
     let table = Table::default();
-    for law in weigh(&table, &LAWS, &bundled(), SURE) {
+    for law in weigh_models(&table, &LAWS, &bundled(), SURE) {
         let fitted = &law.fitted;
         println!(
             "# {:?}: misses the next rail by {:.3} diamonds (median of {})",

@@ -6,7 +6,7 @@ use carom::{
     coach::{Skill, Technique, make_probability},
     drills::{Category, Exercise, GATHERED, flaws},
     game::scores,
-    physics::{CueInputs, with_room},
+    physics::{CueInputs, raise_to_clear},
     statistics::normal_pair,
     table::{Layout, Table},
 };
@@ -176,7 +176,7 @@ fn candidates(exercise: &Exercise, strokes: usize, rng: &mut impl RngExt) -> Vec
 /// Returns the shot with the cue raised as far as necessary, rounded up to a tenth of a degree. `None` if it has no room at 20 degrees, or
 /// at 85 degrees for a jump or a massé.
 fn with_raised_cue(exercise: &Exercise, table: &Table, shot: &CueInputs) -> Option<CueInputs> {
-    let raised = with_room(table, &exercise.layout, shot).ok()?;
+    let raised = raise_to_clear(table, &exercise.layout, shot).ok()?;
     let theta = (raised.theta.to_degrees() * DEGREE - 1e-9).ceil() / DEGREE;
     let most = if exercise.category == Category::JumpAndMasse { 85.0 } else { 20.0 };
     (theta <= most).then(|| CueInputs { theta: theta.to_radians(), ..raised })

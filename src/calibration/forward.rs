@@ -62,7 +62,7 @@ impl StrokeSpread {
         is_turned: bool,
         off: &[f64; STROKE_PARAMETERS],
     ) -> Vec<Option<f64>> {
-        let table = if is_turned { Cow::Owned(table.turned()) } else { Cow::Borrowed(table) };
+        let table = if is_turned { Cow::Owned(table.seen_from_other_end()) } else { Cow::Borrowed(table) };
         let (cue, layout) = self.stroke(&table, test, off);
         marks(&table, test, &cue, &layout)
     }

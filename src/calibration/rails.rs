@@ -4,7 +4,7 @@ use super::{
     belief::Belief,
     estimate::{Estimate, Trial, estimate},
 };
-use crate::table::{DoubtError, OneRail, Rail, Table, TableDoubt};
+use crate::table::{DoubtError, Rail, RailOverrides, Table, TableDoubt};
 
 /// Constants that a rail can have individually: name of the common constant, name of the rail's own, and the standard deviation between
 /// the rails of one table, which is an assumption.
@@ -25,9 +25,9 @@ const MAX_REMAINING: f64 = 0.95;
 fn with_rail_constants(table: &Table, doubt: &TableDoubt, rails: &[Rail], wide: f64) -> Result<Belief, DoubtError> {
     let (mut table, mut doubt) = (table.clone(), doubt.clone());
     for rail in rails {
-        let OneRail { height, .. } = table.rail.own(*rail);
+        let RailOverrides { height, .. } = table.rail.overrides(*rail);
         let (e, mu) = (Some(table.rail_restitution), Some(table.rail_friction));
-        *table.rail.own_mut(*rail) = Some(OneRail { e, mu, height });
+        *table.rail.overrides_mut(*rail) = Some(RailOverrides { e, mu, height });
         for (common, own, differ) in RAIL_CONSTANTS {
             let Some(deviation) = doubt.deviations.get(common).copied() else { continue };
             let name = name(*rail, own);
@@ -71,7 +71,7 @@ pub fn distinct_rails(
     trials: &[Trial],
 ) -> Result<Option<(Belief, Estimate)>, DoubtError> {
     let is_both = trials.iter().any(|trial| trial.is_turned) && trials.iter().any(|trial| !trial.is_turned);
-    let has_own = Rail::ALL.iter().any(|rail| table.rail.own(*rail) != OneRail::default());
+    let has_own = Rail::ALL.iter().any(|rail| table.rail.overrides(*rail) != RailOverrides::default());
     if !is_both || has_own {
         return Ok(None);
     }

@@ -11,7 +11,7 @@ use super::{
     simulated::simulate_protocol,
     *,
 };
-use crate::table::{OneRail, Rail, Table, TableDoubt};
+use crate::table::{Rail, RailOverrides, Table, TableDoubt};
 
 /// `match` as an unknown table, with the doubt of any table.
 fn base() -> (Table, TableDoubt) {
@@ -368,7 +368,7 @@ fn a_slower_day_changes_mostly_weather_constants() {
 #[test]
 fn weather_changes_single_rails_like_all_rails() {
     let (mut table, mut doubt) = base();
-    *table.rail.own_mut(Rail::Top) = Some(OneRail { e: Some(0.8), ..OneRail::default() });
+    *table.rail.overrides_mut(Rail::Top) = Some(RailOverrides { e: Some(0.8), ..RailOverrides::default() });
     doubt.deviations.insert("rail.top.e".to_owned(), 0.008);
     let after = next_day_doubt(&table, &doubt);
     after.validate().unwrap();
@@ -415,7 +415,8 @@ fn both(truth: &Table) -> Vec<(usize, Trial)> {
 fn tests_from_both_ends_reveal_a_differing_rail() {
     let (table, doubt) = base();
     let mut truth = table.clone();
-    *truth.rail.own_mut(Rail::Top) = Some(OneRail { e: Some(table.rail_restitution - 0.08), ..OneRail::default() });
+    *truth.rail.overrides_mut(Rail::Top) =
+        Some(RailOverrides { e: Some(table.rail_restitution - 0.08), ..RailOverrides::default() });
     let found = calibrate("club", &table, &doubt, &both(&truth)).unwrap();
     let texts = found.differing_rails();
     assert_eq!(texts.len(), 1, "{texts:?}");
@@ -443,11 +444,11 @@ fn tests_from_the_far_end_hit_the_opposite_rails() {
     assert!(entry.set_field(FAR_END, "maybe").unwrap_err().contains("accepted are yes and no"));
     let table = Table { tilt: glam::DVec2::new(1e-3, -5e-4), ..table };
     let mut leaning = table.clone();
-    leaning.rail.left = Some(OneRail { e: Some(0.7), ..OneRail::default() });
+    leaning.rail.left = Some(RailOverrides { e: Some(0.7), ..RailOverrides::default() });
     let [near, far] = [false, true].map(|is_turned| exact_from(&leaning, is_turned)[4].1.readings[0].value);
     assert_ne!(near, far);
-    assert_eq!(leaning.turned().turned(), leaning);
-    assert_eq!(leaning.turned().rail.right, leaning.rail.left);
+    assert_eq!(leaning.seen_from_other_end().seen_from_other_end(), leaning);
+    assert_eq!(leaning.seen_from_other_end().rail.right, leaning.rail.left);
 }
 
 #[test]

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     game::Rule,
-    physics::{CueInputs, has_room, squirt, with_room},
+    physics::{CueInputs, has_room, raise_to_clear, squirt},
     player::errors::{Errors, normal},
     table::{Layout, Rail, Table},
 };
@@ -166,7 +166,7 @@ pub fn playable(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<CueIn
     if has_room(table, layout, cue) {
         return Some(*cue);
     }
-    with_room(table, layout, cue).ok().filter(|raised| raised.theta <= steepest(cue))
+    raise_to_clear(table, layout, cue).ok().filter(|raised| raised.theta <= steepest(cue))
 }
 
 /// Draws a random direction in which a straight-running ball hits `target`, uniform in thickness.

@@ -20,7 +20,7 @@ use super::{
 use crate::{
     game::Rule,
     learning::Policy,
-    physics::{CueInputs, turn},
+    physics::{CueInputs, signed_angle},
     platform::parallel,
     statistics::SuccessRate,
     table::{Layout, LayoutError, Table},
@@ -286,7 +286,7 @@ fn keep_one_of_each(pool: &mut Vec<Candidate>, skill: Skill, radius: f64) {
             let is_the_same = (one.a - cue.a).abs() <= a / radius
                 && (one.b - cue.b).abs() <= b / radius
                 && (one.theta - cue.theta).abs() <= theta
-                && turn(one.phi, cue.phi).abs() <= phi
+                && signed_angle(one.phi, cue.phi).abs() <= phi
                 && (one.speed - cue.speed).abs() <= speed;
             other.kind != candidate.kind && !is_the_same
         };

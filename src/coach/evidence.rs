@@ -7,7 +7,7 @@
 
 use super::{Skill, candidates::with_errors, draws::ErrorSize};
 use crate::{
-    physics::{CueInputs, turn},
+    physics::{CueInputs, signed_angle},
     player::errors::Errors,
     statistics::SuccessRate,
     table::Table,
@@ -56,7 +56,7 @@ impl Distribution {
     fn errors_to(&self, place: &InputVector) -> Errors {
         let mut errors: Errors = std::array::from_fn(|input| place[input] - self.at[input]);
         // Directions wrap around: half a turn to the left equals half a turn to the right.
-        errors[3] = turn(self.at[3], place[3]);
+        errors[3] = signed_angle(self.at[3], place[3]);
         std::array::from_fn(|input| errors[input] * self.inverse_deviations[input])
     }
 

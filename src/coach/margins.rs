@@ -13,7 +13,7 @@ use crate::{
     physics::{CueInputs, has_room, strike},
     platform::{self, parallel},
     player::aimed,
-    simulation::{All, watch_with},
+    simulation::{AllSavings, watch_with},
     table::{Layout, Table},
 };
 
@@ -252,7 +252,7 @@ fn outcome(point: Point, touching: Touching, table: &Table, layout: &Layout, cue
         return Outcome::NoStroke;
     }
     let mut referee = Referee::new(Some(2), CONTACT_STEPS);
-    watch_with::<All, _>(table, layout, &impulse, &mut referee);
+    watch_with::<AllSavings, _>(table, layout, &impulse, &mut referee);
     let Tally { met: [one, other], .. } = referee.tally;
     match (one, other) {
         (false, false) => Outcome::NoBall,

@@ -17,7 +17,7 @@ use crate::{
     game::{Point, Referee, Rule, Tally, Touching, pushes_touching_ball},
     physics::{CueInputs, Impulse, strike},
     player::aimed,
-    simulation::{All, Event, Observer, watch_with},
+    simulation::{AllSavings, Event, Observer, watch_with},
     table::{BALLS, Layout, Table},
 };
 
@@ -114,7 +114,7 @@ impl Task<'_> {
         let impulse = strike(table, cue);
         let referee = Referee::new(Some(2), self.patience).beginning(self.tally(layout, &impulse));
         let mut observer = TimeLimited { referee, timed_out: false, task: self };
-        watch_with::<All, _>(table, layout, &impulse, &mut observer);
+        watch_with::<AllSavings, _>(table, layout, &impulse, &mut observer);
         (!observer.timed_out).then_some(observer.referee.tally)
     }
 

@@ -13,8 +13,8 @@ use super::{
 use crate::{
     printing::{self, ProgressLine},
     storage::write_atomic,
-    study::{self, Method, Plan, Steepest, Study, filmed, random_shots, stability},
-    table::{JUDGED, Table},
+    study::{self, MaxElevation, Method, Plan, Study, filmed, random_shots, stability},
+    table::{THESIS_PRESETS, Table},
 };
 
 /// Measure the accuracy and the run time of the simulator.
@@ -93,7 +93,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let tables = args.table.as_ref().map_or_else(default_tables, |name| table_by_name(name).map(with_flights))?;
     let references = study::check_references();
-    let measured = tables.into_iter().map(|(table, steepest)| measure(args, table, steepest));
+    let measured = tables.into_iter().map(|(table, max_elevation)| measure(args, table, max_elevation));
     let studies = measured.collect::<Result<Vec<_>, _>>()?;
     if let Some(folder) = &args.out {
         write_files(folder, &studies)?;
@@ -139,7 +139,7 @@ fn replay_film(args: &Args) -> Result<(), Failure> {
     };
     let judged = |(name, table): &(String, Table)| {
         print_note(format_args!("playing the film on {name} ..."));
-        filmed::judge(name, table, &film)
+        filmed::evaluate_model(name, table, &film)
     };
     let rows: Vec<_> = models.iter().map(judged).collect();
     if let Some(folder) = &args.out {
@@ -171,7 +171,7 @@ fn fit_film(args: &Args) -> Result<(), Failure> {
         print_note(format_args!("fitting {used} ..."));
         let fitted = filmed::fit_constants(&table, model, fit_on);
         let name = format!("fitted to {used}");
-        let row = filmed::judge(&name, &fitted.table, judge_on);
+        let row = filmed::evaluate_model(&name, &fitted.table, judge_on);
         if args.json {
             printing::json_line(&mut out, &fitted)?;
             printing::json_line(&mut out, &row)?;
@@ -188,7 +188,7 @@ fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
     let plan = stability::Plan { seed: args.seed.unwrap_or(plan.seed), ..*plan };
     let mut out = printing::stdout().exact(args.json);
     if !args.json {
-        writeln!(out, "{}", stability::heads())?;
+        writeln!(out, "{}", stability::headings())?;
     }
     let mut rows = Vec::new();
     for row in stability::rows(&plan) {
@@ -211,28 +211,28 @@ fn play_stability(args: &Args, plan: &stability::Plan) -> Result<(), Failure> {
 }
 
 /// Returns the default tables: two with ordinary strokes, and one with steep strokes that make balls fly.
-fn default_tables() -> Result<Vec<(Table, Steepest)>, Failure> {
-    let flat = JUDGED.into_iter().map(|name| Ok((table_by_name(name)?, Steepest::USUAL)));
-    flat.chain([Ok((Table::default(), Steepest::FLIGHTS))]).collect()
+fn default_tables() -> Result<Vec<(Table, MaxElevation)>, Failure> {
+    let flat = THESIS_PRESETS.into_iter().map(|name| Ok((table_by_name(name)?, MaxElevation::USUAL)));
+    flat.chain([Ok((Table::default(), MaxElevation::FLIGHTS))]).collect()
 }
 
 /// Returns the table with ordinary strokes and, if balls can leave its cloth, again with steep ones.
-fn with_flights(table: Table) -> Vec<(Table, Steepest)> {
-    let flying = table.flight.is_some().then(|| (table.clone(), Steepest::FLIGHTS));
-    [(table, Steepest::USUAL)].into_iter().chain(flying).collect()
+fn with_flights(table: Table) -> Vec<(Table, MaxElevation)> {
+    let flying = table.flight.is_some().then(|| (table.clone(), MaxElevation::FLIGHTS));
+    [(table, MaxElevation::USUAL)].into_iter().chain(flying).collect()
 }
 
 /// Runs every method on one table.
 ///
 /// # Errors
 /// Fails if no shot has a known truth to compare the methods with.
-fn measure(args: &Args, table: Table, steepest: Steepest) -> Result<Study, Failure> {
+fn measure(args: &Args, table: Table, max_elevation: MaxElevation) -> Result<Study, Failure> {
     let (shots, finest, rounds, steps) = if args.quick { (96, 1e-4, 2, 1.5e6) } else { (1000, 1e-6, 3, 4e7) };
     let shots = args.shots.map_or(shots, |shots| shots as usize);
-    let shots = random_shots(&table, shots, args.seed.unwrap_or(SEED), steepest);
+    let shots = random_shots(&table, shots, args.seed.unwrap_or(SEED), max_elevation);
     let (name, all, mut line) = (table.name.clone(), shots.len(), ProgressLine::default());
-    let found_by = args.table.clone().unwrap_or_else(|| name.clone());
-    let plan = Plan { table, found_by, steepest, shots, methods: Method::all(finest), rounds, steps };
+    let table_argument = args.table.clone().unwrap_or_else(|| name.clone());
+    let plan = Plan { table, table_argument, max_elevation, shots, methods: Method::all(finest), rounds, steps };
     let study = plan.run(|done| line.show(format_args!("every method on {name}: {done} of {all} shots")));
     line.clear();
     if study.summary.judged.count == 0 {

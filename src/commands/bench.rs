@@ -59,7 +59,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 /// Formats a figure as a line of text.
 fn words(figure: &Figure) -> String {
     let threads = if figure.threads == 1 { "1 thread".to_owned() } else { format!("{} threads", figure.threads) };
-    let line = format!("{:<18} {:<7} {threads:<10} {:>12} /s", figure.what, figure.table, grouped(figure.per_second));
+    let line =
+        format!("{:<18} {:<7} {threads:<10} {:>12} /s", figure.operation, figure.table, grouped(figure.per_second));
     figure.sizes.as_ref().map_or_else(|| line.clone(), |sizes| format!("{line}  {sizes}"))
 }
 

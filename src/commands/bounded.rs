@@ -6,8 +6,8 @@ use super::Failure;
 use crate::{
     physics::{CueInputs, Impulse, strike},
     printing::number,
-    simulation::{Bounded, End, Recorder, Recording, Start},
-    study::{Stepped, Steps},
+    simulation::{BoundedRecorder, End, Recorder, Recording, Start},
+    study::{SteppedShot, Steps},
     table::{Layout, Table},
 };
 
@@ -36,7 +36,7 @@ pub fn play_in_steps(
     layout: &Layout,
     cue: &CueInputs,
     steps: Steps,
-) -> Result<(Recording, Stepped), Failure> {
+) -> Result<(Recording, SteppedShot), Failure> {
     layout.validate(table).map_err(Failure::wrong_input)?;
     cue.validate().map_err(Failure::wrong_input)?;
     let finest = Steps::finest(table, &strike(table, cue), MAX_STEPS);
@@ -48,13 +48,13 @@ pub fn play_in_steps(
             table.name
         )));
     }
-    let play = |impulse: &Impulse, recorder: &mut Recorder| -> (End, (Stepped, bool)) {
-        let mut bounded = Bounded::new(recorder, TIME_LIMIT, u32::MAX);
+    let play = |impulse: &Impulse, recorder: &mut Recorder| -> (End, (SteppedShot, bool)) {
+        let mut bounded = BoundedRecorder::new(recorder, TIME_LIMIT, u32::MAX);
         let stepped = steps.simulate(table, layout, impulse, &mut bounded);
         (stepped.end, (stepped, bounded.is_over()))
     };
     let (recording, (stepped, is_over)) =
-        Recording::played_by(table, layout, Start::Stroke(cue), play).map_err(Failure::wrong_input)?;
+        Recording::record_with(table, layout, Start::Stroke(cue), play).map_err(Failure::wrong_input)?;
     Ok((check_finite(table, recording, is_over, "larger time steps or ")?, stepped))
 }
 

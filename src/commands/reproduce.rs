@@ -13,7 +13,7 @@ use crate::{
     platform::stop_on_signal,
     printing,
     storage::write_atomic,
-    study::reproduction::{Drawn, FIGURES, Figure, Measure, Session, SessionError, csv, picture, summary},
+    study::reproduction::{FIGURES, Figure, Measure, ReproducedFigure, Session, SessionError, csv, picture, summary},
 };
 
 /// Train the thesis' agents again and draw its learning curves.
@@ -67,7 +67,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         bar.inc(shots);
         !stop.load(Ordering::Relaxed)
     };
-    let mut hand_over = |drawn: &Drawn| {
+    let mut hand_over = |drawn: &ReproducedFigure| {
         done += 1;
         bar.suspend(|| write(args, drawn))
     };
@@ -88,7 +88,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// Writes the files of a figure and prints the final values of its curves.
-fn write(args: &Args, drawn: &Drawn) -> std::io::Result<()> {
+fn write(args: &Args, drawn: &ReproducedFigure) -> std::io::Result<()> {
     let curves: Vec<_> = drawn.curves.iter().collect();
     let name = drawn.figure.file_name();
     // Random play has a reward, but neither Q-values nor a loss.

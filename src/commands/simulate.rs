@@ -20,7 +20,7 @@ use crate::{
     physics::{CueInputs, Impulse, LeastElevation, NoRoom, SpatialState, has_room, least_elevation},
     printing::{self, fixed, number},
     simulation::{Event, Rail, Recording, Start},
-    study::{Stepped, Steps},
+    study::{SteppedShot, Steps},
     table::{BALL_NAMES, BALLS, CueBall, Layout, Table},
 };
 
@@ -192,7 +192,7 @@ impl PlacedEvent {
         let (first, second) = event.kind.balls();
         let heights: Vec<f64> =
             std::iter::once(first).chain(second).map(|ball| recording.height(ball, event.time)).collect();
-        let jump = recording.jump_begun_by(&event);
+        let jump = recording.jump_started_by(&event);
         Self {
             event,
             at: event.kind.rail().map(|_| recording.state(first, event.time).position),
@@ -273,7 +273,7 @@ struct SimulateAnswer {
     #[serde(skip_serializing_if = "Option::is_none")]
     cue_room: Option<CueRoom>,
     #[serde(flatten)]
-    steps: Option<Stepped>,
+    steps: Option<SteppedShot>,
 }
 
 /// The lowest possible elevation of the cue.
@@ -344,7 +344,7 @@ impl SimulateAnswer {
 }
 
 /// A simulated shot, with step statistics if it was played in time steps.
-type Played = (Recording, Option<Stepped>);
+type Played = (Recording, Option<SteppedShot>);
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let steps = steps_of(args)?;
@@ -431,7 +431,7 @@ fn describe(out: &mut impl Write, args: &Args, (recording, stepped): &Played, ve
     let (in_a_metre, per_second) = length.speed();
     writeln!(out, "{}", impulse_words(recording.impulse(), length))?;
     writeln!(out, "{:>12}  {:<18}  {:<13}  {:<6}  white, the cue ball", "t, s", "event", "balls", "rail")?;
-    let is_shown = |event: &&Event| args.rolls || recording.is_told(event);
+    let is_shown = |event: &&Event| args.rolls || recording.is_reported(event);
     for event in recording.events().iter().filter(is_shown) {
         let (first, second) = event.kind.balls();
         let first = BALL_NAMES[first];
@@ -447,7 +447,7 @@ fn describe(out: &mut impl Write, args: &Args, (recording, stepped): &Played, ve
             cue_ball.position.y,
             in_a_metre * cue_ball.velocity.length(),
         )?;
-        match recording.jump_begun_by(event) {
+        match recording.jump_started_by(event) {
             Some(jump) => writeln!(out, ", {}", jump_words(&jump, length))?,
             None => writeln!(out)?,
         }
@@ -463,7 +463,7 @@ fn describe(out: &mut impl Write, args: &Args, (recording, stepped): &Played, ve
     for &t in &args.at {
         Moment::of(recording, t).describe(out, length)?;
     }
-    if let Some(Stepped { steps, deepest_overlap, .. }) = stepped {
+    if let Some(SteppedShot { steps, deepest_overlap, .. }) = stepped {
         writeln!(out, "{steps} steps, the deepest overlap {:.4} mm", 1e3 * deepest_overlap)?;
     }
     let said = verdict.words(CueBall::White, length);

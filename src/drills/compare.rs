@@ -3,7 +3,7 @@
 use crate::{
     coach::{Coach, Request, Shooter, layout_number, layout_seed, make_probability},
     game::Rule,
-    physics::{CueInputs, turn},
+    physics::{CueInputs, signed_angle},
     statistics::SuccessRate,
     table::{Layout, LayoutError, Table},
 };
@@ -54,7 +54,7 @@ pub fn difference(meant: &CueInputs, advised: &CueInputs) -> CueInputs {
         a: meant.a - advised.a,
         b: meant.b - advised.b,
         theta: meant.theta - advised.theta,
-        phi: turn(advised.phi, meant.phi),
+        phi: signed_angle(advised.phi, meant.phi),
         speed: meant.speed - advised.speed,
     }
 }

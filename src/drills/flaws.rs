@@ -11,7 +11,7 @@ use crate::{
         systems::{Applied, Guide, System, guide},
     },
     game::{Point, scores},
-    physics::{CueInputs, has_room, with_room},
+    physics::{CueInputs, has_room, raise_to_clear},
     simulation::Recording,
     table::Table,
 };
@@ -120,8 +120,8 @@ fn raised(
     let first = recording.events().iter().find(|event| event.kind.is_contact());
     // A hop at the rail must be high enough to be reported, and must end before the first contact.
     let hops = recording.jumps().into_iter().find(|jump| jump.ball == 0);
-    let has_landed = hops.zip(first).is_some_and(|(hop, first)| hop.is_told() && hop.end <= first.time);
-    let is_least = with_room(table, &exercise.layout, &CueInputs { theta: 0.0, ..*cue })
+    let has_landed = hops.zip(first).is_some_and(|(hop, first)| hop.is_reported() && hop.end <= first.time);
+    let is_least = raise_to_clear(table, &exercise.layout, &CueInputs { theta: 0.0, ..*cue })
         .is_ok_and(|least| cue.theta <= least.theta + 0.5_f64.to_radians());
     let (flies, bends) = (technique.over == Some(2), technique.over.is_none() && technique.is_jump_or_masse());
     let steep = cue.theta;

@@ -4,7 +4,7 @@ use super::{Attempt, ExerciseError, Session, session::now, shifted};
 use crate::{
     coach::Verdict,
     game::{Point, Referee, Rule, Tally},
-    physics::{CueError, CueInputs, NoRoom, strike, with_room},
+    physics::{CueError, CueInputs, NoRoom, raise_to_clear, strike},
     player::errors,
     simulation::{Recording, simulate},
     table::{BALLS, Layout, Table},
@@ -83,7 +83,7 @@ pub fn check(table: &Table, cue: &CueInputs) -> Result<(), CueError> {
 /// Returns the intended stroke with the cue raised over the rails and balls behind it.
 fn raised(table: &Table, layout: &Layout, meant: &CueInputs) -> Result<CueInputs, PlayError> {
     check(table, meant)?;
-    Ok(with_room(table, layout, meant)?)
+    Ok(raise_to_clear(table, layout, meant)?)
 }
 
 impl Session {

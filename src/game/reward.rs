@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{Referee, Rule, Tally};
 use crate::{
     physics::{CueInputs, has_room, strike},
-    simulation::{All, Observer, simulate_with, watch_with},
+    simulation::{AllSavings, Observer, simulate_with, watch_with},
     table::{Layout, Table},
 };
 
@@ -106,10 +106,10 @@ impl Reward {
         };
         let mut referee = Referee::new(enough, steps);
         if referee.wants_ends() {
-            let end = simulate_with::<All, _>(table, layout, &impulse, &mut referee);
+            let end = simulate_with::<AllSavings, _>(table, layout, &impulse, &mut referee);
             self.value(table, &referee.tally, &end.layout(table))
         } else {
-            watch_with::<All, _>(table, layout, &impulse, &mut referee);
+            watch_with::<AllSavings, _>(table, layout, &impulse, &mut referee);
             self.contact_reward(&referee.tally)
         }
     }

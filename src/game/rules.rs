@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{Point, Touching};
 use crate::{
     physics::{CueInputs, Impulse, strike},
-    simulation::{All, Event, EventKind, Observer, StepBudget, watch_with},
+    simulation::{AllSavings, Event, EventKind, Observer, StepBudget, watch_with},
     table::{Layout, Table},
 };
 
@@ -231,7 +231,7 @@ impl Observer for Referee {
 pub fn scores(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     let impulse = strike(table, cue);
     let mut referee = Referee::default().beginning(Tally::from_stroke(table, layout, &impulse));
-    watch_with::<All, _>(table, layout, &impulse, &mut referee);
+    watch_with::<AllSavings, _>(table, layout, &impulse, &mut referee);
     Point::of(rule, table, layout).is_made(&referee.tally)
 }
 

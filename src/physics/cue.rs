@@ -113,7 +113,7 @@ pub enum ImpulseError {
 }
 
 /// Returns the angle from one direction to another, rad, between -π and π: whole turns are removed.
-pub fn turn(from: f64, to: f64) -> f64 {
+pub fn signed_angle(from: f64, to: f64) -> f64 {
     let turn = to - from;
     turn - TAU * (turn / TAU).round()
 }
@@ -271,7 +271,7 @@ pub fn strike(table: &Table, cue: &CueInputs) -> Impulse {
         Some(cloth) if sin_theta > 0.0 => {
             let pressed = velocity.extend(-force * sin_theta);
             let mut ball = SpatialState { position: DVec3::ZERO, velocity: pressed, spin };
-            cloth.answer(table.radius, &mut ball);
+            cloth.resolve(table.radius, &mut ball);
             Impulse { velocity: ball.velocity.truncate(), spin: ball.spin, lift: ball.velocity.z }
         }
         _ => Impulse::on_cloth(velocity, spin),
@@ -320,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn a_level_stroke_is_found_again_from_the_motion_that_it_gives() {
+    fn level_stroke_is_recovered_from_its_motion() {
         for table in [Table::default(), Table::preset("thesis").unwrap()] {
             for stroke in ["0,0,0,0,1", "0.3,-0.2,0,140,3", "-0.4,0.4,0,-80,0.2"] {
                 let cue = CueInputs::parse(stroke).unwrap();
@@ -335,7 +335,7 @@ mod tests {
     }
 
     #[test]
-    fn a_motion_that_no_ball_has_is_refused_with_its_numbers() {
+    fn impossible_motion_is_refused_with_its_values() {
         let impulse = Impulse::on_cloth;
         let still = impulse(DVec2::ZERO, DVec3::ZERO);
         assert_eq!(still.validate(), Ok(()));
@@ -349,7 +349,7 @@ mod tests {
     }
 
     #[test]
-    fn half_a_radius_of_side_squirts_by_the_published_angle_to_the_other_side() {
+    fn squirt_of_half_a_radius_matches_the_published_angle() {
         let table = Table { cue_end_mass: Some(0.005), ball_mass: 0.17, ..Table::default() };
         // TP A.31's formula by hand: atan(1.25 · 0.866 / (1 + 34 + 1.875)).
         let angle = squirt(&table, 0.5);
@@ -360,7 +360,7 @@ mod tests {
     }
 
     #[test]
-    fn directions_are_formatted_from_zero_to_below_a_whole_turn() {
+    fn directions_are_formatted_from_0_to_below_360_degrees() {
         let formatted = |degrees: f64| {
             CueInputs { phi: degrees.to_radians(), ..CueInputs::parse("0,0,0,0,1").unwrap() }.phi_text(2)
         };
@@ -377,7 +377,7 @@ mod tests {
     }
 
     #[test]
-    fn a_steep_cue_may_meet_the_ball_near_its_top_and_a_level_one_may_not() {
+    fn steep_cue_can_strike_near_the_top_and_level_cue_cannot() {
         let table = Table::preset("textbook").unwrap();
         let cue = |theta: &str| CueInputs::parse(&format!("0.2,0.9,{theta},0,2")).unwrap();
         let (level, steep) = (cue("5"), cue("75"));

@@ -109,7 +109,7 @@ pub fn has_room(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
 ///
 /// # Errors
 /// Fails if the cue is blocked at every elevation below the vertical.
-pub fn with_room(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<CueInputs, NoRoom> {
+pub fn raise_to_clear(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<CueInputs, NoRoom> {
     if has_room(table, layout, cue) {
         return Ok(*cue);
     }

@@ -25,7 +25,7 @@ impl From<BallState> for SpatialState {
 
 impl SpatialState {
     /// Returns the horizontal part of the state, which is the full state for a ball on the cloth.
-    pub fn seen_from_above(&self) -> BallState {
+    pub fn horizontal_state(&self) -> BallState {
         BallState { position: self.position.truncate(), velocity: self.velocity.truncate(), spin: self.spin }
     }
 
@@ -60,7 +60,7 @@ impl Cloth {
 
     /// Applies the impact of a ball on the cloth. The normal impulse per mass is `(1 + e_c) |v_z|`. The friction impulse is `mu_c` times
     /// that, opposite to the slip, limited by the no-slip value of two sevenths of the slip. Does nothing to a ball that moves upwards.
-    pub fn answer(&self, radius: f64, ball: &mut SpatialState) {
+    pub fn resolve(&self, radius: f64, ball: &mut SpatialState) {
         if ball.velocity.z >= 0.0 {
             return;
         }
@@ -77,13 +77,13 @@ impl Cloth {
         if size > 0.0 {
             let against = u * (-friction / size);
             ball.velocity += against.extend(0.0);
-            ball.spin += turned_by_cloth(radius, against).extend(0.0);
+            ball.spin += spin_change_by_cloth(radius, against).extend(0.0);
         }
     }
 }
 
 /// Returns the change of spin by an impulse per mass at the ball's lowest point, rad/s: `-5/(2R) z×J`.
-pub fn turned_by_cloth(radius: f64, impulse: DVec2) -> DVec2 {
+pub fn spin_change_by_cloth(radius: f64, impulse: DVec2) -> DVec2 {
     (-2.5 / radius) * impulse.perp()
 }
 
@@ -98,24 +98,24 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_that_slips_fast_loses_mu_times_the_push_and_one_that_slips_little_rolls_on() {
+    fn fast_slip_loses_the_coulomb_impulse_and_slow_slip_ends() {
         let falling = |ahead: f64| SpatialState {
             position: DVec3::ZERO,
             velocity: DVec3::new(ahead, 0.0, -1.0),
             spin: DVec3::new(0.0, 0.0, 7.0),
         };
         let mut fast = falling(3.0);
-        cloth().answer(RADIUS, &mut fast);
+        cloth().resolve(RADIUS, &mut fast);
         assert!(fast.velocity.abs_diff_eq(DVec3::new(3.0 - 0.2 * 1.5, 0.0, 0.5), 1e-15), "{fast:?}");
         assert!((fast.spin - DVec3::new(0.0, 2.5 / RADIUS * 0.3, 7.0)).length() < 1e-12, "{fast:?}");
         let mut slow = falling(0.5);
-        cloth().answer(RADIUS, &mut slow);
+        cloth().resolve(RADIUS, &mut slow);
         assert!(slip(RADIUS, slow.velocity.truncate(), slow.spin).length() < 1e-15);
         assert!((slow.velocity.x - 5.0 / 7.0 * 0.5).abs() < 1e-15);
     }
 
     #[test]
-    fn the_cloth_never_gives_energy_and_leaves_a_rising_ball_alone() {
+    fn cloth_gains_no_energy_and_ignores_rising_balls() {
         for (ahead, turns) in [(0.1, 60.0), (-2.0, -5.0), (4.0, 0.0)] {
             let mut ball = SpatialState {
                 position: DVec3::ZERO,
@@ -123,10 +123,10 @@ mod tests {
                 spin: DVec3::new(turns, turns, 3.0),
             };
             let before = ball.specific_energy(RADIUS, 9.81);
-            cloth().answer(RADIUS, &mut ball);
+            cloth().resolve(RADIUS, &mut ball);
             assert!(ball.specific_energy(RADIUS, 9.81) < before);
             let rising = ball;
-            cloth().answer(RADIUS, &mut ball);
+            cloth().resolve(RADIUS, &mut ball);
             assert_eq!(ball, rising);
         }
     }

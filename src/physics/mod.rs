@@ -14,11 +14,11 @@ pub use contact::{
     ActiveSet, Contact, Contacts, Effort, FIRST_BOUNCE, Forces, Friction, MAX_CONTACTS, Resolved, Scene, factorize,
     stop_by_impulses, substitute,
 };
-pub use cue::{CueDegrees, CueError, CueInputs, Impulse, ImpulseError, level_stroke, squirt, strike, turn};
+pub use cue::{CueDegrees, CueError, CueInputs, Impulse, ImpulseError, level_stroke, signed_angle, squirt, strike};
 #[cfg(test)]
 pub use cue_room::tests::collides;
-pub use cue_room::{LeastElevation, NoRoom, Obstacle, has_room, least_elevation, with_room};
-pub use flight::{Cloth, SpatialState, turned_by_cloth};
+pub use cue_room::{LeastElevation, NoRoom, Obstacle, has_room, least_elevation, raise_to_clear};
+pub use flight::{Cloth, SpatialState, spin_change_by_cloth};
 pub use impact::{BallImpact, Cushion, Cushions, ImpactImpulse, ImpactLaw, collide_together};
 pub use motion::{BallState, Motion, decayed_spin, rolling_deceleration, rolling_spin, slip};
 pub use rolling::Rolling;

@@ -44,7 +44,7 @@ impl Rolling {
             let fast = least + growth * speed;
             speed - speed * fast / (BAND_WIDTH[0] * fast + BAND_WIDTH[1] * growth * speed)
         };
-        (self.between(speed, end), end)
+        (self.mean_deceleration(speed, end), end)
     }
 
     /// Returns the deceleration of a roll that starts at `speed`, m/s²; zero speed is accepted, too.
@@ -54,7 +54,7 @@ impl Rolling {
 
     /// Returns the constant deceleration that approximates the law between two speeds, m/s².
     #[inline]
-    pub fn between(&self, speed: f64, end: f64) -> f64 {
+    pub fn mean_deceleration(&self, speed: f64, end: f64) -> f64 {
         let Self { least, growth } = *self;
         let (width, middle) = (speed - end, 0.5 * (speed + end));
         let mean = least + growth * middle;
@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn a_roll_from_any_speed_is_right_to_five_thousandths_in_few_bands() {
+    fn few_bands_give_any_roll_to_half_a_percent() {
         for (least, growth) in [(0.040, 0.016), (0.05, 0.03), (0.07, 0.002)] {
             for step in 1..200 {
                 let speed = 0.04 * f64::from(step);

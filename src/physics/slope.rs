@@ -40,7 +40,7 @@ pub fn roll_on_slope(rolling: &Rolling, tilt: DVec2, velocity: DVec2) -> Stretch
     let speed = velocity.length();
     let direction = velocity / speed;
     let end = end_on_slope(rolling, pull, speed);
-    let deceleration = rolling.between(speed, end);
+    let deceleration = rolling.mean_deceleration(speed, end);
     let along = pull.dot(direction);
     let across = pull - along * direction;
     let (left, lost) = (end / speed, 1.0 - end / speed);
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_on_a_slope_keeps_to_the_integrated_course() {
+    fn course_on_a_slope_matches_integration() {
         for slip in [DVec2::ZERO, DVec2::new(0.5, -1.2)] {
             // Such a slope moves these balls by up to 0.3 m. Measured errors: 2.2e-4 m at rest and 2.5e-4 m along the way.
             keeps_to_the_integrated_course(Rolling { least: 0.05, growth: 0.0 }, 1e-3, &SPEEDS, slip, |_| [3e-4; 2]);
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn with_a_resistance_that_grows_it_is_right_to_a_thousandth_of_the_way() {
+    fn course_with_growing_resistance_is_accurate_to_one_thousandth() {
         let rolling = Rolling { least: 0.036, growth: 0.0155 };
         keeps_to_the_integrated_course(rolling, 1e-3, &SPEEDS[..3], DVec2::ZERO, |speed| {
             // The bands alone cause an error of a thousandth of the length.
@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn the_steepest_slope_that_a_table_may_have_is_right_to_two_thousandths_of_the_way() {
+    fn course_on_the_steepest_slope_is_accurate_to_two_thousandths() {
         for (least, growth) in [(0.036, 0.0155), (0.07, 0.0)] {
             let (rolling, steepest) = (Rolling { least, growth }, 0.2 * 1.4 * least);
             keeps_to_the_integrated_course(rolling, steepest, &SPEEDS, DVec2::ZERO, |speed| {
@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn a_slope_along_the_way_only_changes_the_deceleration() {
+    fn slope_along_the_path_only_changes_the_deceleration() {
         let rolling = Rolling { least: 0.05, growth: 0.0 };
         let chain = chained(&rolling, DVec2::new(7e-3, 0.0), [DVec2::ZERO, DVec2::X, DVec2::ZERO]);
         let end = chain[chain.len() - 1];

@@ -28,7 +28,7 @@ pub struct Ended<'a> {
 
 impl Ended<'_> {
     /// Keeps frictions yielding that yielded before, while their slips are small.
-    fn goes_on_yielding(
+    fn keep_yielding(
         &self,
         radius: f64,
         tolerance: &Tolerance,
@@ -91,7 +91,7 @@ pub fn find_active_set(
         }
         let mut set = ActiveSet::of(table, &begin, contacts, none);
         if let Some(previous) = previous.filter(|previous| previous.set.yields()) {
-            previous.goes_on_yielding(table.radius, tolerance, &begin, contacts, &mut set);
+            previous.keep_yielding(table.radius, tolerance, &begin, contacts, &mut set);
         }
         remove_rounding(table, constants, &mut begin, contacts, &set);
         // Non-unique forces stay near the previous ones after an interruption that has changed no contact, and after many consecutive
@@ -143,7 +143,7 @@ pub fn find_active_set(
         }
         // Balls at rest may continue to push each other, held by the cloth; this has no effect.
         let still = |(ball, state): (usize, &BallState)| {
-            !pressing.hold(ball) || (state.velocity == DVec2::ZERO && state.spin == glam::DVec3::ZERO)
+            !pressing.involve(ball) || (state.velocity == DVec2::ZERO && state.spin == glam::DVec3::ZERO)
         };
         if !ended.departs && ended.begin.iter().enumerate().all(still) {
             return None;
@@ -155,7 +155,7 @@ pub fn find_active_set(
         if resolved.contacts.len() == pressing.len() {
             return Some((begin, resolved));
         }
-        for ball in (0..BALLS).filter(|&ball| pressing.hold(ball) && !resolved.contacts.hold(ball)) {
+        for ball in (0..BALLS).filter(|&ball| pressing.involve(ball) && !resolved.contacts.involve(ball)) {
             // The slip has also ended for a ball that nothing holds; if it rolls, it continues to roll.
             let ends = slip(table.radius, now[ball].velocity, now[ball].spin).length() <= tolerance.ending_slip;
             if resolved.set.cloth[ball] == Friction::Sticks && slides(table.radius, &now[ball]) && ends {
@@ -214,7 +214,7 @@ pub fn transient_pressing(constants: &Constants, balls: &State, contacts: &Conta
         let rounding = 32.0 * f64::EPSILON * speeds / slip * constants.sliding;
         rounding.max(constants.tolerance.opening / (slip * constants.slide_time))
     };
-    let members = balls.iter().enumerate().filter(|(ball, _)| contacts.hold(*ball));
+    let members = balls.iter().enumerate().filter(|(ball, _)| contacts.involve(*ball));
     members.map(|(_, ball)| idle(ball)).fold(0.0, f64::max)
 }
 
@@ -225,7 +225,7 @@ fn stand_on_slope(constants: &Constants, balls: &State, contacts: &Contacts) -> 
     let stands = |ball: &BallState| {
         ball.velocity.length() < none && constants.radius * ball.spin.truncate().length() < none && ball.spin.z == 0.0
     };
-    !constants.level && (0..BALLS).all(|ball| !contacts.hold(ball) || stands(&balls[ball]))
+    !constants.level && (0..BALLS).all(|ball| !contacts.involve(ball) || stands(&balls[ball]))
 }
 
 /// Returns the balls of contacts that do not press, without slips on the cloth that end at once: a ball that counts as rolling in a resting
@@ -233,7 +233,7 @@ fn stand_on_slope(constants: &Constants, balls: &State, contacts: &Contacts) -> 
 pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State, contacts: &Contacts) -> State {
     let set = ActiveSet::of(table, balls, contacts, constants.tolerance.ending_slip);
     let ends = |(ball, state): (usize, &BallState)| {
-        contacts.hold(ball) && set.cloth[ball] == Friction::Sticks && slides(table.radius, state)
+        contacts.involve(ball) && set.cloth[ball] == Friction::Sticks && slides(table.radius, state)
     };
     let mut ended = *balls;
     if balls.iter().enumerate().any(ends) {
@@ -253,7 +253,7 @@ pub fn remove_rounding(table: &Table, constants: &Constants, balls: &mut State, 
     close_gaps(constants, balls, contacts);
     stop_by_impulses(table, balls, contacts, set, &[0.0; MAX_CONTACTS]);
     for (ball, state) in balls.iter_mut().enumerate() {
-        if !contacts.iter().any(|contact| contact.has(ball)) {
+        if !contacts.iter().any(|contact| contact.involves(ball)) {
             continue;
         }
         if set.spin[ball] == Friction::Sticks {

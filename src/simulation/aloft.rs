@@ -10,14 +10,14 @@ use super::{
     ball_ball::Triangle,
     contacts::cushion_gap,
     hops::{Arc, Hops},
-    predict::{Ahead, lesser, polynomial_closes, shifted, travel},
+    predict::{Prediction, lesser, polynomial_closes, shifted, travel},
     roots::{MAX_DEGREE, first_crossing},
     savings::Savings,
 };
 use crate::physics::{Cushion, Cushions, Motion};
 
 /// Largest number of landings that are searched: after it, hops are lower than an atom even on the liveliest accepted cloth.
-const MOST_LANDINGS: u32 = 4000;
+const MAX_LANDINGS: u32 = 4000;
 
 /// The nose of a cushion as a line, for collisions in the air.
 #[derive(Clone, Copy)]
@@ -36,7 +36,7 @@ impl Nose {
     }
 
     /// Returns the vector from a ball's centre to the nose of `rail`, m. If it points into the table, the ball has passed over the nose.
-    pub fn way_from(&self, constants: &Constants, rail: Rail, centre: DVec3) -> DVec3 {
+    pub fn vector_from(&self, constants: &Constants, rail: Rail, centre: DVec3) -> DVec3 {
         let n = rail.normal();
         let inwards = gap(constants, rail, centre) + self.beyond;
         (-inwards * n).extend(self.height - centre.z)
@@ -52,11 +52,11 @@ impl Nose {
     /// its end.
     fn meets(&self, constants: &Constants, arc: &Arc, gravity: f64, rail: Rail) -> Option<f64> {
         let (radius, tolerance) = (constants.radius, &constants.tolerance);
-        let lasts = arc.end - arc.begin;
+        let duration = arc.end - arc.begin;
         let (climb, n) = (arc.velocity.z, rail.normal());
         let approach = -arc.velocity.truncate().dot(n);
         let gap = gap(constants, rail, arc.position);
-        if gap - (approach * lasts).max(0.0) > self.margin(radius, top(arc, gravity)) + tolerance.surely_apart {
+        if gap - (approach * duration).max(0.0) > self.margin(radius, top(arc, gravity)) + tolerance.certain_gap {
             return None;
         }
         // Horizontal distance to the nose, its height above the ball, and the squared distance minus R², without cancellation.
@@ -69,8 +69,8 @@ impl Nose {
             0.25 * gravity * gravity,
         ];
         let scale = 2.0 * radius;
-        let ahead = polynomial_closes(tolerance, &c, c[0] <= scale * tolerance.touching, scale, lasts);
-        if let Ahead::Meeting(time) = ahead
+        let ahead = polynomial_closes(tolerance, &c, c[0] <= scale * tolerance.touching, scale, duration);
+        if let Prediction::Impact(time) = ahead
             && beside > approach * time
         {
             return Some(time);
@@ -78,7 +78,7 @@ impl Nose {
         // The ball passes over the nose and lands behind it.
         let above = climb * climb - 2.0 * gravity * (below + radius);
         let down = (climb + above.max(0.0).sqrt()) / gravity;
-        (above >= 0.0 && (0.0..=lasts).contains(&down) && beside <= approach * down).then_some(down)
+        (above >= 0.0 && (0.0..=duration).contains(&down) && beside <= approach * down).then_some(down)
     }
 }
 
@@ -97,14 +97,14 @@ fn stays_away(constants: &Constants, nose: &Nose, hops: &Hops, arc: &Arc, rest: 
     let n = rail.normal();
     let approach = -lesser(arc.velocity.truncate().dot(n), hops.last_velocity.dot(n));
     let nearest = gap(constants, rail, arc.position) - rest * approach.max(0.0);
-    nearest > nose.margin(constants.radius, top(arc, hops.cloth.gravity)) + constants.tolerance.surely_apart
+    nearest > nose.margin(constants.radius, top(arc, hops.cloth.gravity)) + constants.tolerance.certain_gap
 }
 
 /// Returns when and at which cushion the ball of a flying `segment` hits the nose or lands behind it, s after the segment's start.
-pub fn nose_ahead(constants: &Constants, cushions: &Cushions, segment: &Segment) -> Option<(f64, Rail)> {
+pub fn next_nose_impact(constants: &Constants, cushions: &Cushions, segment: &Segment) -> Option<(f64, Rail)> {
     let hops = segment.hops()?;
     let duration = hops.duration;
-    for landings in 0..MOST_LANDINGS {
+    for landings in 0..MAX_LANDINGS {
         let arc = hops.arc(landings);
         let rest = duration - arc.begin;
         // The last hops are shorter than the resolution of time.
@@ -162,7 +162,7 @@ struct Pieces<'a> {
 impl<'a> Pieces<'a> {
     fn new(segment: &'a Segment, now: f64) -> Self {
         let begin = now - segment.start;
-        Self { segment, begin, flight: segment.hops().map(|hops| (hops, hops.landings(begin).min(MOST_LANDINGS))) }
+        Self { segment, begin, flight: segment.hops().map(|hops| (hops, hops.landings(begin).min(MAX_LANDINGS))) }
     }
 
     /// Returns the piece as an expansion about `after` seconds since the search's start.
@@ -199,13 +199,18 @@ fn passes_by(constants: &Constants, balls: [&Segment; 2], now: f64, horizon: f64
     let Some(hops) = flies.hops() else { return false };
     let state = hops.state_after(now - flies.start);
     let triangle = Triangle::between(state.position.truncate(), state.velocity.truncate(), hops.last_velocity, horizon);
-    triangle.clears(lies.position, constants.diameter + constants.tolerance.surely_apart)
+    triangle.clears(lies.position, constants.diameter + constants.tolerance.certain_gap)
 }
 
 /// Returns when two balls collide, at least one of which is in the air, within `horizon` seconds of time `now`.
-pub fn balls_ahead_in_space<S: Savings>(constants: &Constants, balls: [&Segment; 2], now: f64, horizon: f64) -> Ahead {
-    if S::COURSES_APART && passes_by(constants, balls, now, horizon) {
-        return Ahead::Nothing;
+pub fn next_collision_in_space<S: Savings>(
+    constants: &Constants,
+    balls: [&Segment; 2],
+    now: f64,
+    horizon: f64,
+) -> Prediction {
+    if S::SEPARATED_COURSES && passes_by(constants, balls, now, horizon) {
+        return Prediction::Nothing;
     }
     let mut balls = balls.map(|segment| Pieces::new(segment, now));
     let mut after = 0.0;
@@ -214,15 +219,15 @@ pub fn balls_ahead_in_space<S: Savings>(constants: &Constants, balls: [&Segment;
         let d: [DVec3; 6] = std::array::from_fn(|power| one.course[power] - other.course[power]);
         let rest = horizon - after;
         let reach = one.farthest(rest) + other.farthest(rest);
-        if d[0].truncate().length() - constants.diameter > constants.tolerance.surely_apart + reach {
-            return Ahead::Nothing;
+        if d[0].truncate().length() - constants.diameter > constants.tolerance.certain_gap + reach {
+            return Prediction::Nothing;
         }
         let ends = one.ends.min(other.ends).min(horizon);
-        if let Ahead::Meeting(time) = meet(constants, &d, ends - after) {
-            return Ahead::Meeting(after + time);
+        if let Prediction::Impact(time) = meet(constants, &d, ends - after) {
+            return Prediction::Impact(after + time);
         }
-        if ends >= horizon || balls.iter().any(|ball| ball.flight.is_some_and(|(_, count)| count >= MOST_LANDINGS)) {
-            return Ahead::Nothing;
+        if ends >= horizon || balls.iter().any(|ball| ball.flight.is_some_and(|(_, count)| count >= MAX_LANDINGS)) {
+            return Prediction::Nothing;
         }
         for (ball, its) in balls.iter_mut().zip([one.ends, other.ends]) {
             if its <= ends {
@@ -231,16 +236,16 @@ pub fn balls_ahead_in_space<S: Savings>(constants: &Constants, balls: [&Segment;
         }
         after = ends.max(after);
     }
-    Ahead::Nothing
+    Prediction::Nothing
 }
 
 /// Returns when two balls with the distance vector `d[0] + t d[1] + …` collide within `horizon` seconds.
-fn meet(constants: &Constants, d: &[DVec3; 6], horizon: f64) -> Ahead {
+fn meet(constants: &Constants, d: &[DVec3; 6], horizon: f64) -> Prediction {
     let (diameter, tolerance) = (constants.diameter, &constants.tolerance);
     let scale = 2.0 * diameter;
     let closing = d[0].length() - diameter;
-    if horizon <= 0.0 || closing > tolerance.surely_apart + travel(&d.map(DVec3::length), horizon) {
-        return Ahead::Nothing;
+    if horizon <= 0.0 || closing > tolerance.certain_gap + travel(&d.map(DVec3::length), horizon) {
+        return Prediction::Nothing;
     }
     let apart = d[0].length_squared() - diameter * diameter;
     let touching = apart <= scale * tolerance.touching;
@@ -252,7 +257,7 @@ fn meet(constants: &Constants, d: &[DVec3; 6], horizon: f64) -> Ahead {
         }
         let slope = [c[0], 2.0 * c[1], 3.0 * c[2], 4.0 * c[3]];
         let value = |t: f64| (d + t * (v + t * k)).length_squared() - diameter * diameter;
-        return first_crossing(value, &slope, horizon).map_or(Ahead::Nothing, Ahead::Meeting);
+        return first_crossing(value, &slope, horizon).map_or(Prediction::Nothing, Prediction::Impact);
     }
     let mut gap = [0.0; MAX_DEGREE + 1];
     for i in 0..6 {

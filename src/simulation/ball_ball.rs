@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use super::{
     Constants, Segment,
-    aloft::balls_ahead_in_space,
-    predict::{Ahead, curved_balls_ahead, lesser, polynomial_closes},
+    aloft::next_collision_in_space,
+    predict::{Prediction, lesser, next_collision_on_curve, polynomial_closes},
     roots::{first_crossing, horner},
     savings::Savings,
     tolerance::Tolerance,
@@ -13,30 +13,30 @@ use super::{
 use crate::physics::Motion;
 
 /// Returns the next collision of two balls within `horizon` seconds of time `now`. If they press on each other and `may_rest`, the result
-/// is [`Ahead::Pressed`]. If resting was tried and nothing holds them, they collide as soon as they overlap.
+/// is [`Prediction::Pressed`]. If resting was tried and nothing holds them, they collide as soon as they overlap.
 #[inline(always)]
-pub fn balls_ahead<S: Savings>(
+pub fn next_collision<S: Savings>(
     constants: &Constants,
     first: &Segment,
     second: &Segment,
     now: f64,
     horizon: f64,
     may_rest: bool,
-) -> Ahead {
+) -> Prediction {
     if first.course.is_some() || second.course.is_some() {
         return if first.motion == Motion::Flying || second.motion == Motion::Flying {
-            balls_ahead_in_space::<S>(constants, [first, second], now, horizon)
+            next_collision_in_space::<S>(constants, [first, second], now, horizon)
         } else {
-            curved_balls_ahead(constants, first, second, now, horizon)
+            next_collision_on_curve(constants, first, second, now, horizon)
         };
     }
     let (t1, t2) = (now - first.start, now - second.start);
     let d = first.position_after(t1) - second.position_after(t2);
     let dv = first.velocity_after(t1) - second.velocity_after(t2);
     let dk = first.half_acceleration - second.half_acceleration;
-    let apart = constants.diameter + constants.tolerance.surely_apart;
-    if S::COURSES_APART && Triangle::new(d, dv, dk, horizon).clears(DVec2::ZERO, apart) {
-        return Ahead::Nothing;
+    let apart = constants.diameter + constants.tolerance.certain_gap;
+    if S::SEPARATED_COURSES && Triangle::new(d, dv, dk, horizon).clears(DVec2::ZERO, apart) {
+        return Prediction::Nothing;
     }
     // On a slope, the path of a rolling ball is curved.
     let rolls_straight = constants.level
@@ -47,7 +47,7 @@ pub fn balls_ahead<S: Savings>(
     approach(constants, [d, dv, dk], horizon, may_rest, rolls_straight)
 }
 
-/// As [`balls_ahead`], for balls that no line was found to separate: their distance vector is `d + t dv + t² dk`.
+/// As [`next_collision`], for balls that no line was found to separate: their distance vector is `d + t dv + t² dk`.
 #[inline(never)]
 fn approach(
     constants: &Constants,
@@ -55,14 +55,14 @@ fn approach(
     horizon: f64,
     may_rest: bool,
     rolls_straight: bool,
-) -> Ahead {
+) -> Prediction {
     let (diameter, tolerance) = (constants.diameter, &constants.tolerance);
     let gap = d.length_squared() - diameter * diameter;
     if gap <= 2.0 * diameter * tolerance.touching {
-        return touching_balls_ahead(tolerance, d, dv, dk, diameter, horizon, may_rest);
+        return next_collision_of_touching(tolerance, d, dv, dk, diameter, horizon, may_rest);
     }
     if rolls_straight {
-        return straight_ahead(d, dv, dk, gap, diameter, horizon);
+        return next_straight_collision(d, dv, dk, gap, diameter, horizon);
     }
     let c1 = 2.0 * d.dot(dv);
     let c2 = dv.length_squared() + 2.0 * d.dot(dk);
@@ -70,7 +70,7 @@ fn approach(
     let c4 = dk.length_squared();
     let derivative = [c1, 2.0 * c2, 3.0 * c3, 4.0 * c4];
     let value = |t: f64| (d + t * (dv + t * dk)).length_squared() - diameter * diameter;
-    first_crossing(value, &derivative, horizon).map_or(Ahead::Nothing, Ahead::Meeting)
+    first_crossing(value, &derivative, horizon).map_or(Prediction::Nothing, Prediction::Impact)
 }
 
 /// A triangle that contains a part of a trajectory: the control points of a parabola, or the range of positions for all velocities between
@@ -113,7 +113,7 @@ impl Triangle {
 }
 
 /// Prediction for two touching balls, whose gap is divided by the time: its root at zero is the present contact.
-fn touching_balls_ahead(
+fn next_collision_of_touching(
     tolerance: &Tolerance,
     d: DVec2,
     dv: DVec2,
@@ -121,15 +121,15 @@ fn touching_balls_ahead(
     diameter: f64,
     horizon: f64,
     may_rest: bool,
-) -> Ahead {
+) -> Prediction {
     let c1 = 2.0 * d.dot(dv);
     let c2 = dv.length_squared() + 2.0 * d.dot(dk);
     let separation = c1 / (2.0 * diameter);
     if separation < -tolerance.opening {
-        return Ahead::Meeting(0.0);
+        return Prediction::Impact(0.0);
     }
     if may_rest && separation <= tolerance.opening && c2 / diameter < -tolerance.pressing {
-        return Ahead::Pressed;
+        return Prediction::Pressed;
     }
     // Coefficients at rounding level would open and close the gap without end.
     let clean = |c: f64| if c.abs() < tolerance.pressing { 0.0 } else { c };
@@ -142,42 +142,42 @@ fn touching_balls_ahead(
     // Pressing balls collide as soon as they close at a significant speed: until a gap at rounding level closes, their slips would change
     // too much.
     let speed = [c1 + 4.0 * diameter * tolerance.opening, 2.0 * c2, 3.0 * c3, 4.0 * c4];
-    let horizon = if let Ahead::Meeting(time) = falls { time } else { horizon };
+    let horizon = if let Prediction::Impact(time) = falls { time } else { horizon };
     let steepness = [speed[1], 2.0 * speed[2], 3.0 * speed[3]];
     match first_crossing(|t| horner(&speed, t), &steepness, horizon) {
-        Some(time) if horner(&gap, time) <= 2.0 * diameter * tolerance.touching => Ahead::Meeting(time),
+        Some(time) if horner(&gap, time) <= 2.0 * diameter * tolerance.touching => Prediction::Impact(time),
         _ => falls,
     }
 }
 
 /// Prediction for a ball that rolls straight towards one at rest: where the line enters the circle of radius `diameter`, and when.
-fn straight_ahead(d: DVec2, dv: DVec2, dk: DVec2, gap: f64, diameter: f64, horizon: f64) -> Ahead {
+fn next_straight_collision(d: DVec2, dv: DVec2, dk: DVec2, gap: f64, diameter: f64, horizon: f64) -> Prediction {
     let speed = dv.length();
     let direction = dv / speed;
     let along = -d.dot(direction);
     let beside = d.perp_dot(direction);
     let half_chord_squared = diameter * diameter - beside * beside;
     if along <= 0.0 || half_chord_squared < 0.0 {
-        return Ahead::Nothing;
+        return Prediction::Nothing;
     }
     // The nearer of the two crossings, computed as the product of both divided by the farther one, without cancellation.
     let distance = gap / (along + half_chord_squared.sqrt());
     let half_deceleration = -dk.dot(direction);
     let discriminant = speed * speed - 4.0 * half_deceleration * distance;
     if discriminant < 0.0 {
-        return Ahead::Nothing;
+        return Prediction::Nothing;
     }
     let time = 2.0 * distance / (speed + discriminant.sqrt());
-    if time <= horizon { Ahead::Meeting(time) } else { Ahead::Nothing }
+    if time <= horizon { Prediction::Impact(time) } else { Prediction::Nothing }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{super::savings::All, *};
+    use super::{super::savings::AllSavings, *};
     use crate::{physics::BallState, table::Table};
 
     #[test]
-    fn a_course_that_bends_around_a_ball_clears_it_and_one_that_grazes_it_does_not() {
+    fn triangle_clears_a_bending_course_but_not_a_grazing_one() {
         let (v, k) = (DVec2::new(1.0, 0.0), DVec2::new(0.0, 0.5));
         let triangle = Triangle::new(DVec2::ZERO, v, k, 1.0);
         // The trajectory ends at (1, 0.5) and passes (0.5, 0.125).
@@ -189,13 +189,13 @@ mod tests {
     }
 
     #[test]
-    fn a_straight_meeting_takes_the_time_of_the_constant_deceleration() {
+    fn straight_collision_time_follows_constant_deceleration() {
         let constants = Constants::of(&Table::default());
         let velocity = DVec2::new(0.5, 0.0);
         let spin = crate::physics::rolling_spin(constants.radius, velocity).extend(0.0);
         let (roll, _) = Segment::free(&constants, 0.0, &BallState { position: DVec2::ZERO, velocity, spin });
         let rest = Segment::at_rest(DVec2::new(0.5, 0.0));
-        let Ahead::Meeting(time) = balls_ahead::<All>(&constants, &roll, &rest, 0.0, 10.0, true) else {
+        let Prediction::Impact(time) = next_collision::<AllSavings>(&constants, &roll, &rest, 0.0, 10.0, true) else {
             panic!("no meeting")
         };
         let position = roll.position_after(time);
@@ -205,16 +205,16 @@ mod tests {
     /// Two balls side by side, one of which begins to press: until a gap at rounding level closes, 1e-7 s pass, in which the slip of balls
     /// that never slip grows beyond its zero tolerance.
     #[test]
-    fn touching_balls_that_press_without_resting_meet_as_soon_as_they_close_at_a_speed_that_counts() {
+    fn touching_balls_collide_once_their_closing_speed_is_significant() {
         let constants = Constants::of(&Table::preset("thesis").unwrap());
         let (tolerance, diameter) = (&constants.tolerance, constants.diameter);
         let meets = |dv: DVec2, dk: DVec2| {
-            touching_balls_ahead(tolerance, DVec2::new(diameter, 0.0), dv, dk, diameter, 1.0, false)
+            next_collision_of_touching(tolerance, DVec2::new(diameter, 0.0), dv, dk, diameter, 1.0, false)
         };
-        let Ahead::Meeting(time) = meets(DVec2::ZERO, DVec2::new(-0.9, 0.0)) else { panic!("no meeting") };
+        let Prediction::Impact(time) = meets(DVec2::ZERO, DVec2::new(-0.9, 0.0)) else { panic!("no meeting") };
         assert!((time * 1.8 - 2.0 * tolerance.opening).abs() < 1e-3 * tolerance.opening, "{time}");
         // Separating balls do not collide.
         let parting = DVec2::new(0.5 * tolerance.opening, 0.0);
-        assert_eq!(meets(parting, DVec2::new(0.9, 0.0)), Ahead::Nothing);
+        assert_eq!(meets(parting, DVec2::new(0.9, 0.0)), Prediction::Nothing);
     }
 }

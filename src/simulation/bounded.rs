@@ -10,7 +10,7 @@ use crate::table::{BALLS, Layout, Table};
 
 /// An observer that records until a limit is reached.
 #[derive(Debug)]
-pub struct Bounded<'a> {
+pub struct BoundedRecorder<'a> {
     recorder: &'a mut Recorder,
     until: Instant,
     /// Events and steps that may still follow.
@@ -18,7 +18,7 @@ pub struct Bounded<'a> {
     is_over: bool,
 }
 
-impl<'a> Bounded<'a> {
+impl<'a> BoundedRecorder<'a> {
     /// Records for at most `longest`, and at most `most` events and steps of resting contacts.
     pub fn new(recorder: &'a mut Recorder, longest: Duration, most: u32) -> Self {
         Self { recorder, until: Instant::now() + longest, left: most, is_over: false }
@@ -29,21 +29,21 @@ impl<'a> Bounded<'a> {
         self.is_over
     }
 
-    fn go_on(&mut self) -> ControlFlow<()> {
+    fn check_limits(&mut self) -> ControlFlow<()> {
         self.is_over |= self.left == 0 || Instant::now() > self.until;
         self.left = self.left.saturating_sub(1);
         if self.is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 
-impl Observer for Bounded<'_> {
+impl Observer for BoundedRecorder<'_> {
     fn wants_segments(&self) -> bool {
         true
     }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.recorder.event(event)?;
-        self.go_on()
+        self.check_limits()
     }
 
     fn bounce(&mut self, bounce: Event) {
@@ -52,7 +52,7 @@ impl Observer for Bounded<'_> {
 
     fn contact_step(&mut self) -> ControlFlow<()> {
         self.recorder.contact_step()?;
-        self.go_on()
+        self.check_limits()
     }
 
     fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
@@ -61,10 +61,10 @@ impl Observer for Bounded<'_> {
 }
 
 impl Recording {
-    /// Checks a shot and plays it within the limits of [`Bounded::new`]; also returns whether it was given up.
+    /// Checks a shot and plays it within the limits of [`BoundedRecorder::new`]; also returns whether it was given up.
     ///
     /// # Errors
-    /// As [`Recording::played_by`].
+    /// As [`Recording::record_with`].
     pub fn within_bounds(
         table: &Table,
         layout: &Layout,
@@ -72,8 +72,8 @@ impl Recording {
         longest: Duration,
         most: u32,
     ) -> Result<(Self, bool), ShotError> {
-        Self::played_by(table, layout, start, |impulse, recorder| {
-            let mut bounded = Bounded::new(recorder, longest, most);
+        Self::record_with(table, layout, start, |impulse, recorder| {
+            let mut bounded = BoundedRecorder::new(recorder, longest, most);
             let end = simulate(table, layout, impulse, &mut bounded);
             (end, bounded.is_over())
         })

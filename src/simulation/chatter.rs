@@ -25,7 +25,7 @@ const MADE_BY_BOUNCES: f64 = 4.0;
 const COUPLING: f64 = 10.0;
 
 /// Bound on normal forces in units of the cloth's friction on a ball: three balls can press on one contact, and frictions wedge them.
-const MOST_PULL: f64 = 8.0;
+const MAX_PULL: f64 = 8.0;
 
 /// Change of the slip between two balls by the cloth's frictions, in units of the change of a ball's speed.
 const GRIPPED_SLIP: f64 = 7.0;
@@ -57,7 +57,7 @@ struct Bounces {
     /// Pause between the last bounce before this chatter and its first, s.
     pause: f64,
     /// Ratio of the last flight to the one before; NaN for a first bounce, which has none.
-    shrinking: f64,
+    flight_ratio: f64,
 }
 
 impl Bounces {
@@ -81,7 +81,7 @@ impl Chatters {
                 flight: f64::INFINITY,
                 longest: 0.0,
                 pause: 0.0,
-                shrinking: 0.0,
+                flight_ratio: 0.0,
             }; SLOTS],
         )
     }
@@ -105,7 +105,7 @@ impl Chatters {
         } else {
             (bounces.count, bounces.longest, bounces.pause) = (0, 0.0, flight);
         }
-        bounces.shrinking = flight / bounces.flight;
+        bounces.flight_ratio = flight / bounces.flight;
         (bounces.last, bounces.flight) = (now, flight);
         bounces.count > REPORTED_BOUNCES
     }
@@ -123,13 +123,13 @@ impl Chatters {
     }
 
     /// Returns the ratio of a contact's last flight to the one before; NaN after its first bounce.
-    pub fn shrinking(&self, contact: &Contact) -> f64 {
-        self.0[Self::slot(contact)].shrinking
+    pub fn flight_ratio(&self, contact: &Contact) -> f64 {
+        self.0[Self::slot(contact)].flight_ratio
     }
 
     /// Returns when each chatter of a ball ends, s, if it does not bounce again: those with other balls at their index, those with cushions
     /// at the ball's own index. Any bounce, reported or not, may be followed by others within `pause`, s.
-    pub fn ends(&self, ball: usize, pause: f64) -> [f64; BALLS] {
+    pub fn end_times(&self, ball: usize, pause: f64) -> [f64; BALLS] {
         let mut ends = [f64::NEG_INFINITY; BALLS];
         let cushions = (0..4).map(|rail| (ball, PAIRS.len() + 4 * ball + rail));
         for (other, slot) in cushions.chain(PAIRS_OF[ball].map(|(pair, other)| (other, pair))) {
@@ -167,19 +167,19 @@ pub struct ChatterEnd {
     /// Contacts that rest from now on.
     pub contacts: Contacts,
     /// Remaining duration of the omitted bounces, s; zero if they are negligibly slow.
-    pub lasts: f64,
+    pub duration: f64,
 }
 
 /// Returns the contacts that come to rest together with `contact`, which has just bounced and opens in the state `balls`. Forces must press
 /// them once their bounces have ended, and the remaining bounces must be negligible. `None` if the chatter continues. `restitution` is that
-/// of its bounces; `shrinking` is the ratio of the last flight to the one before.
+/// of its bounces; `flight_ratio` is the ratio of the last flight to the one before.
 pub fn chatter_end(
     table: &Table,
     constants: &Constants,
     contact: &Contact,
     balls: &[BallState; BALLS],
     on_cloth: [bool; BALLS],
-    (restitution, shrinking): (f64, f64),
+    (restitution, flight_ratio): (f64, f64),
     effort: &Effort,
 ) -> Option<ChatterEnd> {
     let tolerance = &constants.tolerance;
@@ -189,7 +189,7 @@ pub fn chatter_end(
     if speed <= slowest {
         let mut alone = Contacts::NONE;
         alone.push(*contact);
-        return Some(ChatterEnd { contacts: alone, lasts: 0.0 });
+        return Some(ChatterEnd { contacts: alone, duration: 0.0 });
     }
     // Contacts that the bounces open are closed on average, and slips that they create count as zero.
     let mut contacts = coupled(constants, balls, on_cloth, contact, speed);
@@ -201,7 +201,7 @@ pub fn chatter_end(
     let slips = balls
         .iter()
         .enumerate()
-        .filter(|(ball, _)| contacts.hold(*ball))
+        .filter(|(ball, _)| contacts.involve(*ball))
         .map(|(_, state)| slip(table.radius, state.velocity, state.spin).length());
     let (mut slide, mut made) = (f64::INFINITY, false);
     for slip in slips {
@@ -216,8 +216,8 @@ pub fn chatter_end(
     if made && speed > if alone { tolerance.slowest_bounce } else { tolerance.slowest_coupled_bounce } {
         return None;
     }
-    // After a first bounce, `shrinking` is NaN and counts as the slowest: `min` returns the other operand.
-    let restitution = restitution.max(shrinking.min(SLOWEST_SHRINKING));
+    // After a first bounce, `flight_ratio` is NaN and counts as the slowest: `min` returns the other operand.
+    let restitution = restitution.max(flight_ratio.min(SLOWEST_SHRINKING));
     let cube = |x: f64| x * x * x;
     // Coupled contacts do not necessarily bounce more and more softly: only their present speed is known.
     let negligible = if alone { tolerance.negligible } else { tolerance.negligible_coupled };
@@ -228,11 +228,12 @@ pub fn chatter_end(
     };
     // Most bounces are too fast for any acceleration that the cloth can cause.
     let bodies = if contact.second.is_some() { 2.0 } else { 1.0 };
-    if !ends(MOST_PULL * bodies * (constants.sliding + constants.tilt.length())) {
+    if !ends(MAX_PULL * bodies * (constants.sliding + constants.tilt.length())) {
         return None;
     }
     let set = ActiveSet::of(table, balls, &contacts, none);
-    let resolved = Scene { table, balls, contacts: &contacts, set: &set }.resolve(tolerance.slack, None, effort)?;
+    let resolved =
+        Scene { table, balls, contacts: &contacts, set: &set }.resolve(tolerance.force_error, None, effort)?;
     let index = resolved.contacts.iter().position(|pressing| pressing == contact)?;
     let pull = bodies * resolved.forces.normal[index];
     // In each impact, balls that never slip lose the slip that arose in flight, which the other contacts feel as a bounce.
@@ -245,9 +246,9 @@ pub fn chatter_end(
         return None;
     }
     let is_missed = speed > tolerance.slowest_coupled_bounce;
-    let lasts = if is_missed { 2.0 * speed / (pull * (1.0 - restitution)) } else { 0.0 };
-    let is_cut_short = is_missed && meets_another(constants, balls, on_cloth, &resolved.contacts, lasts);
-    (!is_cut_short).then_some(ChatterEnd { contacts: resolved.contacts, lasts })
+    let duration = if is_missed { 2.0 * speed / (pull * (1.0 - restitution)) } else { 0.0 };
+    let is_cut_short = is_missed && meets_another(constants, balls, on_cloth, &resolved.contacts, duration);
+    (!is_cut_short).then_some(ChatterEnd { contacts: resolved.contacts, duration })
 }
 
 /// Whether a ball of the contacts collides with anything else within `time`, s, before the omitted bounces are over: it would still have
@@ -286,13 +287,13 @@ mod tests {
         let flights = (1..=40).map(|bounce| 0.1 * 0.9_f64.powi(bounce));
         let (reported, now) = reported(&mut chatters, &Contact::of_balls(0, 1), flights);
         assert_eq!(reported, REPORTED_BOUNCES);
-        assert!(chatters.ends(1, 0.0)[0] > now && chatters.ends(2, 0.0)[0] < now);
-        assert!(chatters.ends(0, 0.0)[1] < now + 1.0);
+        assert!(chatters.end_times(1, 0.0)[0] > now && chatters.end_times(2, 0.0)[0] < now);
+        assert!(chatters.end_times(0, 0.0)[1] < now + 1.0);
     }
 
     /// Bounces between a ball and a cushion: each time the cushion throws the ball back, they start again, with shorter flights.
     #[test]
-    fn a_ball_that_another_contact_throws_back_goes_on_with_its_chatter() {
+    fn ball_thrown_back_by_another_contact_continues_its_chatter() {
         let mut chatters = Chatters::new();
         let flights = (0..20).flat_map(|round| {
             let longest = 0.1 * 0.95_f64.powi(round);
@@ -301,12 +302,12 @@ mod tests {
         });
         let (reported, now) = reported(&mut chatters, &Contact::of_balls(0, 1), flights);
         assert_eq!(reported, REPORTED_BOUNCES);
-        assert!(chatters.ends(0, 0.0)[1] > now && chatters.ends(0, 0.0)[1] < now + 0.2);
+        assert!(chatters.end_times(0, 0.0)[1] > now && chatters.end_times(0, 0.0)[1] < now + 0.2);
     }
 
     /// Two contacts alternately throw a ball back, each with two bounces, after ever shorter pauses.
     #[test]
-    fn bounces_that_come_back_after_ever_shorter_pauses_are_one_chatter() {
+    fn bounces_with_shrinking_pauses_are_one_chatter() {
         let flights = (1..=50).flat_map(|round| [0.0, 0.0, 6e-3 * 0.9_f64.powi(round)]);
         let (reported, _) = reported(&mut Chatters::new(), &Contact::of_balls(0, 2), flights);
         assert!(reported <= 4 * REPORTED_BOUNCES, "{reported} of 150 bounces are reported");
@@ -314,7 +315,7 @@ mod tests {
 
     /// A ball spins against a cushion, and another one approaches from behind: at this speed the bounces end within some microseconds.
     #[test]
-    fn a_chatter_goes_on_that_another_ball_would_cut_short() {
+    fn chatter_continues_if_another_ball_would_interrupt_its_end() {
         let table = Table::preset("thesis").unwrap();
         let constants = Constants::of(&table);
         let contact = Contact::with_cushion(0, glam::DVec2::NEG_X);
@@ -333,7 +334,7 @@ mod tests {
 
     /// A ball that is pressed into a corner and bounces on both cushions: one bounce has just ended, the other contact is in flight.
     #[test]
-    fn a_chatter_ends_without_the_contact_that_is_in_flight() {
+    fn end_of_a_chatter_excludes_contacts_in_flight() {
         let table = Table::preset("thesis").unwrap();
         let constants = Constants::of(&table);
         let contact = Contact::with_cushion(0, glam::DVec2::NEG_X);

@@ -72,7 +72,7 @@ pub fn cushion_gap(constants: &Constants, normal: DVec2, place: DVec2) -> f64 {
 /// Moves a ball exactly to the cushion with this normal: the rounding of a prediction must not leave a gap through which the ball could
 /// pass.
 #[inline(always)]
-pub fn put_at_cushion(constants: &Constants, normal: DVec2, position: &mut DVec2) {
+pub fn move_to_cushion(constants: &Constants, normal: DVec2, position: &mut DVec2) {
     *position += (-normal.abs().dot(constants.reach) - position.dot(normal)) * normal;
 }
 

@@ -2,7 +2,7 @@
 
 use super::{
     Constants, Rail, Segment,
-    predict::{Ahead, lesser},
+    predict::{Prediction, lesser},
     savings::Savings,
     tolerance::Tolerance,
 };
@@ -12,10 +12,10 @@ use crate::physics::Motion;
 ///
 /// The processor cannot predict the direction of a ball, so that all four cushions are computed without branches.
 #[inline(always)]
-pub fn cushion_ahead<S: Savings>(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
+pub fn next_cushion_impact<S: Savings>(constants: &Constants, segment: &Segment, horizon: f64) -> (Prediction, Rail) {
     // On a slope, the path of a rolling ball is curved.
     if segment.motion == Motion::Rolling && constants.level {
-        return cushion_ahead_of_rolling::<S>(constants, segment, horizon);
+        return next_cushion_impact_of_rolling::<S>(constants, segment, horizon);
     }
     let (p, v, k) = (segment.position, segment.velocity, segment.half_acceleration);
     let reach = constants.reach;
@@ -24,23 +24,23 @@ pub fn cushion_ahead<S: Savings>(constants: &Constants, segment: &Segment, horiz
         // its start moves away from it.
         let bend = (p + 0.5 * horizon * v).abs();
         let end = (p + horizon * (v + horizon * k)).abs();
-        let inside = |bend: f64, end: f64, reach: f64| -lesser(-bend, -end) < reach - constants.tolerance.surely_apart;
+        let inside = |bend: f64, end: f64, reach: f64| -lesser(-bend, -end) < reach - constants.tolerance.certain_gap;
         if inside(bend.x, end.x, reach.x) & inside(bend.y, end.y, reach.y) {
-            return (Ahead::Nothing, Rail::Left);
+            return (Prediction::Nothing, Rail::Left);
         }
     }
     let tolerance = &constants.tolerance;
-    let across = axis_ahead(tolerance, reach.x, p.x, v.x, k.x);
-    let along = axis_ahead(tolerance, reach.y, p.y, v.y, k.y);
+    let across = next_impact_on_axis(tolerance, reach.x, p.x, v.x, k.x);
+    let along = next_impact_on_axis(tolerance, reach.y, p.y, v.y, k.y);
     let along_first = along.time < across.time;
     let time = lesser(along.time, across.time);
     let rail = rail_of(across.upwards, along.upwards, along_first);
     if time == PRESSED {
-        (Ahead::Pressed, rail)
+        (Prediction::Pressed, rail)
     } else if time < horizon {
-        (Ahead::Meeting(time), rail)
+        (Prediction::Impact(time), rail)
     } else {
-        (Ahead::Nothing, rail)
+        (Prediction::Nothing, rail)
     }
 }
 
@@ -51,10 +51,14 @@ fn rail_of(right: bool, top: bool, on_y: bool) -> Rail {
     Rail::ALL[x ^ ((x ^ y) * usize::from(on_y))]
 }
 
-/// As [`cushion_ahead`] for a ball that rolls straight: the cushion whose line it would cross first without deceleration, selected by the
-/// signs of the velocity.
+/// As [`next_cushion_impact`] for a ball that rolls straight: the cushion whose line it would cross first without deceleration, selected by
+/// the signs of the velocity.
 #[inline(always)]
-fn cushion_ahead_of_rolling<S: Savings>(constants: &Constants, segment: &Segment, horizon: f64) -> (Ahead, Rail) {
+fn next_cushion_impact_of_rolling<S: Savings>(
+    constants: &Constants,
+    segment: &Segment,
+    horizon: f64,
+) -> (Prediction, Rail) {
     let (p, v, reach) = (segment.position, segment.velocity, constants.reach);
     let tolerance = &constants.tolerance;
     let ahead = |reach: f64, p: f64, v: f64| at_full_speed(tolerance, reach - p * 1.0_f64.copysign(v), v.abs());
@@ -71,7 +75,11 @@ fn cushion_ahead_of_rolling<S: Savings>(constants: &Constants, segment: &Segment
     let stop = if banded { -0.5 * v.length_squared() / v.dot(segment.half_acceleration) } else { horizon };
     let share = 1.0 - 2.0 * straight / stop;
     let time = 2.0 * straight / (1.0 + share.sqrt());
-    if share > 0.0 && (!banded || time < horizon) { (Ahead::Meeting(time), rail) } else { (Ahead::Nothing, rail) }
+    if share > 0.0 && (!banded || time < horizon) {
+        (Prediction::Impact(time), rail)
+    } else {
+        (Prediction::Nothing, rail)
+    }
 }
 
 /// Returns when a ball of constant speed closes a gap, s; infinity if it touches the cushion and does not move towards it.
@@ -93,7 +101,7 @@ const PRESSED: f64 = -1.0;
 
 /// Returns the first impact on two opposite cushions, at `±reach`, of a ball with the coordinate `p + v t + k t²`.
 #[inline(always)]
-fn axis_ahead(tolerance: &Tolerance, reach: f64, p: f64, v: f64, k: f64) -> OnAxis {
+fn next_impact_on_axis(tolerance: &Tolerance, reach: f64, p: f64, v: f64, k: f64) -> OnAxis {
     let sign = 1.0_f64.copysign(v);
     let (p, v, k) = (sign * p, v.abs(), sign * k);
     let (forward_gap, backward_gap) = (reach - p, reach + p);
@@ -156,20 +164,20 @@ fn gap_closes(tolerance: &Tolerance, gap: f64, speed: f64, half_acceleration: f6
 mod tests {
     use glam::{DVec2, DVec3};
 
-    use super::{super::savings::All, *};
+    use super::{super::savings::AllSavings, *};
     use crate::{physics::BallState, table::Table};
 
     /// Returns the first cushion impact of a ball with this velocity and spin, and the ball's position then.
-    fn first_cushion(position: DVec2, velocity: DVec2, spin: DVec3) -> (Ahead, Rail, DVec2) {
+    fn first_cushion(position: DVec2, velocity: DVec2, spin: DVec3) -> (Prediction, Rail, DVec2) {
         let constants = Constants::of(&Table::default());
-        let (segment, lasts) = Segment::free(&constants, 0.0, &BallState { position, velocity, spin });
-        let (ahead, rail) = cushion_ahead::<All>(&constants, &segment, lasts);
-        let at = if let Ahead::Meeting(time) = ahead { segment.position_after(time) } else { position };
+        let (segment, duration) = Segment::free(&constants, 0.0, &BallState { position, velocity, spin });
+        let (ahead, rail) = next_cushion_impact::<AllSavings>(&constants, &segment, duration);
+        let at = if let Prediction::Impact(time) = ahead { segment.position_after(time) } else { position };
         (ahead, rail, at)
     }
 
     #[test]
-    fn a_rolling_ball_meets_the_cushion_that_its_line_crosses_first() {
+    fn rolling_ball_hits_the_first_cushion_on_its_line() {
         let constants = Constants::of(&Table::default());
         for (velocity, expected) in [
             (DVec2::new(1.0, 0.1), Rail::Right),
@@ -187,23 +195,23 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_that_is_drawn_back_returns_to_the_cushion_that_it_leaves() {
+    fn drawn_ball_returns_to_the_cushion_it_left() {
         let reach = Constants::of(&Table::default()).reach;
         let from = DVec2::new(reach.x, 0.0);
         let (ahead, rail, at) = first_cushion(from, DVec2::new(-0.1, 0.0), DVec3::new(0.0, 30.0, 0.0));
-        assert!(matches!(ahead, Ahead::Meeting(time) if time > 0.05), "{ahead:?}");
+        assert!(matches!(ahead, Prediction::Impact(time) if time > 0.05), "{ahead:?}");
         assert_eq!(rail, Rail::Right);
         assert!((at.x - reach.x).abs() < 1e-15);
     }
 
     #[test]
-    fn a_ball_that_stops_short_meets_nothing() {
+    fn ball_that_stops_short_hits_no_cushion() {
         let (ahead, ..) = first_cushion(DVec2::ZERO, DVec2::new(0.1, 0.1), DVec3::ZERO);
-        assert_eq!(ahead, Ahead::Nothing);
+        assert_eq!(ahead, Prediction::Nothing);
     }
 
     #[test]
-    fn a_ball_that_leaves_the_cushion_it_touches_does_not_hit_it() {
+    fn ball_leaving_a_touching_cushion_does_not_hit_it() {
         let tolerance = Constants::of(&Table::default()).tolerance;
         assert_eq!(gap_closes(&tolerance, 0.0, -1.0, 0.0), f64::INFINITY);
         assert_eq!(gap_closes(&tolerance, 0.0, -1.0, 0.5), 2.0);

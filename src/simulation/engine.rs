@@ -9,7 +9,7 @@ use super::{
     chatter::Chatters,
     guards::{AIR_BUDGET, BUDGET_WITHOUT_REST, MAX_ITERATIONS, MAX_ITERATIONS_WITHOUT_REST, RESTING_BUDGET},
     resting::Resting,
-    savings::{All, Savings},
+    savings::{AllSavings, Savings},
 };
 use crate::{
     physics::{BallState, Cloth, Effort, ImpactLaw, Impulse, Motion},
@@ -42,7 +42,7 @@ impl End {
 ///
 /// Deterministic: every run of the same shot gives identical bits.
 pub fn simulate(table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut dyn Observer) -> End {
-    simulate_with::<All, _>(table, layout, impulse, observer)
+    simulate_with::<AllSavings, _>(table, layout, impulse, observer)
 }
 
 /// As [`simulate`], monomorphized for one type of observer, which is faster: for callers that play millions of shots. `S` disables
@@ -60,7 +60,7 @@ pub fn simulate_with<S: Savings, O: Observer + ?Sized>(
 
 /// As [`simulate`], only for the observer's events: the final state is not computed.
 pub fn watch(table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut dyn Observer) {
-    watch_with::<All, _>(table, layout, impulse, observer);
+    watch_with::<AllSavings, _>(table, layout, impulse, observer);
 }
 
 /// As [`watch`], monomorphized for one type of observer.
@@ -89,7 +89,7 @@ pub(super) enum ContactMode {
 pub(super) struct Ball {
     pub(super) segment: Segment,
     /// Duration of the motion, s after the segment's start.
-    pub(super) lasts: f64,
+    pub(super) duration: f64,
     /// When the ball hits `rail`, s after the segment's start; infinity if never.
     pub(super) rail_after: f64,
     pub(super) rail: Rail,
@@ -98,16 +98,16 @@ pub(super) struct Ball {
 
 /// Predicted collision of a pair: `after` seconds after `since`. Both are stored, because their sum is rounded.
 #[derive(Clone, Copy)]
-pub(super) struct Meeting {
+pub(super) struct PairPrediction {
     pub(super) since: f64,
     pub(super) after: f64,
     /// Whether a resting contact of the pair was possible when this was predicted.
     pub(super) may_rest: bool,
 }
 
-impl Meeting {
+impl PairPrediction {
     /// No collision is known at `since`.
-    pub(super) const fn unseen(since: f64, may_rest: bool) -> Self {
+    pub(super) const fn none(since: f64, may_rest: bool) -> Self {
         Self { since, after: f64::INFINITY, may_rest }
     }
 }
@@ -122,7 +122,7 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     pub(super) cloth: Option<Cloth>,
     pub(super) observer: &'a mut O,
     pub(super) balls: [Ball; BALLS],
-    pub(super) pairs: [Meeting; PAIRS.len()],
+    pub(super) pairs: [PairPrediction; PAIRS.len()],
     /// Time of the next event of each ball, then of each pair, s; infinity for none.
     pub(super) times: [f64; BALLS + PAIRS.len()],
     pub(super) resting: Option<Box<Resting>>,
@@ -159,7 +159,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             cloth: Cloth::of(table),
             observer,
             balls: layout.balls.map(Ball::at_rest),
-            pairs: [Meeting::unseen(0.0, false); PAIRS.len()],
+            pairs: [PairPrediction::none(0.0, false); PAIRS.len()],
             times: [f64::INFINITY; BALLS + PAIRS.len()],
             resting: None,
             ended: None,
@@ -187,17 +187,17 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             self.launch(0, 0.0, &cue_ball);
         }
         if flow.is_continue() {
-            flow = self.look_ahead_of(0.0, 0);
+            flow = self.predict_ball(0.0, 0);
         }
-        self.play_on(flow)
+        self.run_events(flow)
     }
 
     /// Runs the event loop from the stroke to the end. Returns the time of the last event.
     #[inline(always)]
-    pub(super) fn play_on(&mut self, mut flow: ControlFlow<()>) -> f64 {
+    pub(super) fn run_events(&mut self, mut flow: ControlFlow<()>) -> f64 {
         let mut now = 0.0;
-        if S::ALONE && S::KEPT_PREDICTIONS && flow.is_continue() && self.moves_alone(0) {
-            flow = self.play_alone(0, &mut now);
+        if S::LONE_BALL && S::KEPT_PREDICTIONS && flow.is_continue() && self.is_only_moving_ball(0) {
+            flow = self.play_lone_ball(0, &mut now);
         }
         let mut max_iterations = MAX_ITERATIONS;
         while flow.is_continue() && self.iterations < max_iterations {
@@ -230,9 +230,9 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             }
             flow = match source.checked_sub(BALLS) {
                 Some(pair) => self.collide(pair, next),
-                None if self.balls[source].rail_after < self.balls[source].lasts => self.rebound(source, next),
+                None if self.balls[source].rail_after < self.balls[source].duration => self.rebound(source, next),
                 None => match self.balls[source].segment.motion {
-                    Motion::Resting => self.rest_on(next),
+                    Motion::Resting => self.continue_resting(next),
                     Motion::Flying => self.stay_on_cloth(source, &mut next),
                     _ => self.change_motion(source, next),
                 },
@@ -257,7 +257,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     fn change_motion(&mut self, index: usize, now: f64) -> ControlFlow<()> {
         let ball = &self.balls[index];
         let ended = ball.segment.motion;
-        let (mut segment, lasts) = ball.segment.successor(&self.constants, ball.lasts);
+        let (mut segment, duration) = ball.segment.successor(&self.constants, ball.duration);
         segment.start = now;
         self.end_segment(index, now);
         // For a bouncing ball, this is reported when its contact is known to have ended.
@@ -268,20 +268,20 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         if segment.motion == Motion::Stationary && !bounces {
             self.report(now, EventKind::RollingStationary(index))?;
         }
-        self.set(index, segment, lasts);
-        self.look_ahead_of(now, index)
+        self.set(index, segment, duration);
+        self.predict_ball(now, index)
     }
 
     /// Starts the free trajectory of a ball from its state.
     #[inline(always)]
     pub(super) fn launch(&mut self, index: usize, now: f64, state: &BallState) {
-        let (segment, lasts) = if self.is_exhausted() {
+        let (segment, duration) = if self.is_exhausted() {
             let spin = glam::DVec3::new(0.0, 0.0, state.spin.z);
             Segment::free(&self.constants, now, &BallState { velocity: DVec2::ZERO, spin, ..*state })
         } else {
             Segment::free(&self.constants, now, state)
         };
-        self.set(index, segment, lasts);
+        self.set(index, segment, duration);
     }
 
     /// Ends the present trajectories of the selected balls and starts free ones from these states.
@@ -363,6 +363,6 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
     }
 }
 
-pub(super) fn only(index: usize) -> [bool; BALLS] {
+pub(super) fn only_ball(index: usize) -> [bool; BALLS] {
     std::array::from_fn(|other| other == index)
 }

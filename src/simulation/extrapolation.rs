@@ -104,12 +104,12 @@ impl Phase {
 
 /// Error of a step of the proposed length as a share of the tolerance, and limits of the ratio of successive step lengths.
 const CAUTION: f64 = 0.25;
-const MOST_GROWTH: f64 = 4.0;
-const LEAST_GROWTH: f64 = 0.1;
+const MAX_GROWTH: f64 = 4.0;
+const MIN_GROWTH: f64 = 0.1;
 
 /// Least ratio of the next step length after a step that was given up early: few stages give a poor estimate of the right length, and a
 /// trial is cheap.
-const LEAST_GROWTH_AFTER_FEW_ROUNDS: f64 = 0.25;
+const MIN_GROWTH_AFTER_FEW_ROUNDS: f64 = 0.25;
 
 /// Whether the error remains above the tolerance after `rounds` more stages, even if each reduces it by the square of the last reduction
 /// factor. If the slope jumps within the step, nothing converges. The first error has no predecessor to compare with.
@@ -130,7 +130,7 @@ pub fn extrapolate(
 ) -> Step {
     // The last row of the Aitken-Neville table, with the highest order first.
     let mut row = [Phase::ZERO; ROUNDS];
-    let mut best = Step { end: *begin, error: f64::INFINITY, best_length: LEAST_GROWTH * length };
+    let mut best = Step { end: *begin, error: f64::INFINITY, best_length: MIN_GROWTH * length };
     let (mut least_work, mut done) = (f64::INFINITY, 0.0);
     let counts = if stiff.is_some() { STIFF_COUNTS } else { COUNTS };
     for (round, &count) in counts.iter().enumerate() {
@@ -150,7 +150,7 @@ pub fn extrapolate(
             // The error of this stage is proportional to the power 2 round + 1 of the length.
             best.error = distance(&row[0], &row[1], radius);
             let room = CAUTION * tolerance / best.error.max(f64::MIN_POSITIVE);
-            let growth = libm::pow(room, 1.0 / (2 * round + 1) as f64).clamp(LEAST_GROWTH, MOST_GROWTH);
+            let growth = libm::pow(room, 1.0 / (2 * round + 1) as f64).clamp(MIN_GROWTH, MAX_GROWTH);
             let work = done / growth;
             if work < least_work {
                 // If another stage would also have been worthwhile, it is tried next time.
@@ -159,14 +159,14 @@ pub fn extrapolate(
                 } else {
                     1.0
                 };
-                (least_work, best.best_length) = (work, (growth * more).min(MOST_GROWTH) * length);
+                (least_work, best.best_length) = (work, (growth * more).min(MAX_GROWTH) * length);
             }
         }
         if best.error <= tolerance {
             break;
         }
         if is_hopeless(best.error, error_before, ROUNDS - 1 - round, tolerance) {
-            best.best_length = best.best_length.max(LEAST_GROWTH_AFTER_FEW_ROUNDS * length);
+            best.best_length = best.best_length.max(MIN_GROWTH_AFTER_FEW_ROUNDS * length);
             break;
         }
     }
@@ -234,7 +234,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_pendulum_swings_as_the_cosine() {
+    fn extrapolated_pendulum_follows_the_cosine() {
         let slope = |phase: &Phase| Phase {
             balls: std::array::from_fn(|ball| BallState {
                 position: phase.balls[ball].velocity,

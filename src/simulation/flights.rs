@@ -7,8 +7,8 @@ use super::{
     aloft::Nose,
     chatter::Chatters,
     contacts::PAIRS_OF,
-    engine::{Ball, ContactMode, Engine, Meeting, only},
-    guards::IMPACT_IN_THE_AIR,
+    engine::{Ball, ContactMode, Engine, PairPrediction, only_ball},
+    guards::AIR_IMPACT_COST,
     hops::Hops,
     savings::Savings,
     segment::Course,
@@ -43,7 +43,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let cloth = match self.cloth.filter(|_| !given_up) {
             Some(cloth) if !low || state.velocity.z > self.constants.tolerance.slowest_in_air => cloth,
             _ => {
-                self.launch(index, now, &state.seen_from_above());
+                self.launch(index, now, &state.horizontal_state());
                 return if was_low { ControlFlow::Continue(()) } else { self.report_landing(index, now) };
             }
         };
@@ -89,16 +89,16 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.end_segment(index, now);
         self.launch(index, now, &end);
         self.report_landing(index, now)?;
-        self.look_ahead_of(now, index)?;
-        if S::ALONE && S::KEPT_PREDICTIONS && self.moves_alone(index) {
-            return self.play_alone(index, time);
+        self.predict_ball(now, index)?;
+        if S::LONE_BALL && S::KEPT_PREDICTIONS && self.is_only_moving_ball(index) {
+            return self.play_lone_ball(index, time);
         }
         ControlFlow::Continue(())
     }
 
     /// Handles a ball that a cushion has lifted.
     #[cold]
-    pub(super) fn climb(
+    pub(super) fn climb_cushion(
         &mut self,
         index: usize,
         now: f64,
@@ -110,7 +110,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let rail = self.balls[index].rail;
         self.report(now, EventKind::BallRail(index, rail))?;
         self.lift(index, now, state, climb)?;
-        self.look_ahead(now, self.with_freed(freed, only(index)))
+        self.predict_changed(now, self.with_freed(freed, only_ball(index)))
     }
 
     /// Starts a flight with the upward velocity `climb`, m/s.
@@ -123,50 +123,50 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Handles a ball in the air that hits the nose of a cushion or lands behind it.
     #[cold]
     pub(super) fn rebound_in_space(&mut self, index: usize, now: f64) -> ControlFlow<()> {
-        self.effort_in_air.add(IMPACT_IN_THE_AIR);
+        self.effort_in_air.add(AIR_IMPACT_COST);
         let Ball { rail_after, rail, .. } = self.balls[index];
         let c = self.constants;
         let mut state = self.balls[index].segment.spatial_after(&c, rail_after);
-        self.land_first(now, &mut state);
+        self.land_before_impact(now, &mut state);
         self.end_segment(index, now);
         let cushion = *self.law.cushions.at(rail);
-        let to_nose = Nose::of(&cushion, c.radius).way_from(&c, rail, state.position);
+        let to_nose = Nose::of(&cushion, c.radius).vector_from(&c, rail, state.position);
         if to_nose.truncate().dot(rail.normal()) >= 0.0 {
             let segment =
-                Segment { start: now, motion: Motion::OffTable, ..Segment::at_rest(state.seen_from_above().position) };
+                Segment { start: now, motion: Motion::OffTable, ..Segment::at_rest(state.horizontal_state().position) };
             self.set(index, segment, f64::INFINITY);
             self.report(now, EventKind::LeavesTable(index))?;
-            return self.look_ahead_of(now, index);
+            return self.predict_ball(now, index);
         }
         let slowest = c.tolerance.slowest_in_air;
         let approach = cushion.resolve_in_space(c.radius, slowest, to_nose.normalize(), &mut state);
-        self.answer(&mut state);
+        self.resolve_cloth_impact(&mut state);
         let contact = Contact::with_cushion(index, rail.normal());
         let reported = self.is_reported(now, &contact, approach);
         self.report_impact(now, EventKind::BallRail(index, rail), reported)?;
         self.launch_in_space(index, now, &state)?;
-        self.look_ahead_of(now, index)
+        self.predict_ball(now, index)
     }
 
     /// Handles a collision of two balls, at least one of which is in the air.
     #[cold]
     pub(super) fn collide_in_space(&mut self, pair: usize, now: f64) -> ControlFlow<()> {
-        self.effort_in_air.add(IMPACT_IN_THE_AIR);
+        self.effort_in_air.add(AIR_IMPACT_COST);
         let (first, second) = PAIRS[pair];
-        let Meeting { since, after, .. } = self.pairs[pair];
-        let mut changed = only(first);
+        let PairPrediction { since, after, .. } = self.pairs[pair];
+        let mut changed = only_ball(first);
         changed[second] = true;
         let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
         let c = self.constants;
         let [mut one, mut other] = [first, second].map(|index| match &freed {
-            Some(states) if self.freed_members()[index] => SpatialState::from(states[index]),
+            Some(states) if self.resting_members()[index] => SpatialState::from(states[index]),
             _ => {
                 let segment = &self.balls[index].segment;
                 segment.spatial_after(&c, (since - segment.start) + after)
             }
         });
-        self.land_first(now, &mut one);
-        self.land_first(now, &mut other);
+        self.land_before_impact(now, &mut one);
+        self.land_before_impact(now, &mut other);
         let slowest = c.tolerance.slowest_in_air;
         // If a ball is in the air, there is a cloth that it has left.
         let Some(cloth) = self.cloth else { return ControlFlow::Continue(()) };
@@ -182,7 +182,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 self.begin_contact(index, now)?;
             }
         }
-        self.look_ahead(now, self.with_freed(freed.is_some(), changed))
+        self.predict_changed(now, self.with_freed(freed.is_some(), changed))
     }
 
     /// Whether an impact in the air is reported. It is not if it is one of many by which a ball slides off another one or off a nose.
@@ -193,12 +193,12 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
     /// Makes a ball that reaches the cloth at the moment of an impact land before it: otherwise rounding would decide whether its state is
     /// from before or after the landing. If the ball would rise too slowly to fly, it stays on the cloth.
-    fn land_first(&self, now: f64, state: &mut SpatialState) {
+    fn land_before_impact(&self, now: f64, state: &mut SpatialState) {
         let falls = -state.velocity.z;
         let rounding = if falls > 0.0 { f64::EPSILON * (self.constants.radius + MOMENT * now * falls) } else { 0.0 };
         if state.position.z <= rounding {
             state.position.z = 0.0;
-            self.answer(state);
+            self.resolve_cloth_impact(state);
             if state.velocity.z <= self.constants.tolerance.slowest_in_air {
                 state.velocity.z = 0.0;
             }
@@ -206,9 +206,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 
     /// Applies the response of the cloth to a ball on it that was struck downwards.
-    fn answer(&self, state: &mut SpatialState) {
+    fn resolve_cloth_impact(&self, state: &mut SpatialState) {
         if let Some(cloth) = self.cloth.filter(|_| state.position.z <= 0.0) {
-            cloth.answer(self.constants.radius, state);
+            cloth.resolve(self.constants.radius, state);
         }
     }
 }
@@ -219,7 +219,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        simulation::{All, Constants, End, Event, guards::MAX_ITERATIONS},
+        simulation::{AllSavings, Constants, End, Event, guards::MAX_ITERATIONS},
         table::{Flight, Layout, Table},
     };
 
@@ -243,7 +243,7 @@ mod tests {
         let table = Table { flight: Some(Flight::default()), ..Table::default() };
         let layout = Layout::new([DVec2::ZERO, DVec2::new(0.5, 0.1), DVec2::new(-0.5, 0.1)]);
         let mut reported = Events::default();
-        let mut engine = Engine::<All, Events>::new(&table, &layout, &mut reported);
+        let mut engine = Engine::<AllSavings, Events>::new(&table, &layout, &mut reported);
         let velocity = DVec3::new(0.3, 0.0, -0.2);
         let state = SpatialState { position: place.extend(0.05), velocity, spin: DVec3::ZERO };
         assert!(engine.launch_in_space(0, 0.0, &state).is_continue());
@@ -258,12 +258,12 @@ mod tests {
         let other = DVec2::new(0.3, 0.2);
         let layout = Layout::new([DVec2::ZERO, other, DVec2::new(-0.5, 0.1)]);
         let mut reported = Events::default();
-        let mut engine = Engine::<All, Events>::new(table, &layout, &mut reported);
+        let mut engine = Engine::<AllSavings, Events>::new(table, &layout, &mut reported);
         let n = DVec3::new(angle.sin(), 0.0, angle.cos());
         let position = other.extend(0.0) + 2.0 * table.radius * n;
         let flow = engine.launch_in_space(0, 0.0, &SpatialState { position, velocity: velocity(n), spin: DVec3::ZERO });
-        assert!(flow.is_continue() && engine.look_ahead_of(0.0, 0).is_continue());
-        let time = engine.play_on(flow);
+        assert!(flow.is_continue() && engine.predict_ball(0.0, 0).is_continue());
+        let time = engine.run_events(flow);
         let end = engine.finish(time);
         (reported.0.len(), end)
     }
@@ -271,7 +271,7 @@ mod tests {
     /// If the cloth absorbed the speed that a soft blow gives the lower ball, and the upper ball's rising speed were taken from its
     /// tangential motion, it would stay there, in ever shorter bounces without end.
     #[test]
-    fn a_ball_slides_off_anothers_top_however_softly_it_comes_to_lie_there() {
+    fn ball_slides_off_another_after_any_soft_landing() {
         for (preset, restitution) in
             [("match", 0.5), ("textbook", 0.5), ("thesis", 0.5), ("match", 0.0), ("match", 0.99)]
         {
@@ -294,7 +294,7 @@ mod tests {
 
     /// Without any motion there is no energy for rising: the bounces fade until the resolution of time is reached.
     #[test]
-    fn a_ball_that_is_put_on_anothers_top_ends_the_shot_where_it_is() {
+    fn ball_placed_on_top_of_another_ends_the_shot() {
         let (count, end) = let_go(&Table::default(), 1e-9, |_| DVec3::ZERO);
         let [upper, lower, _] = end.balls;
         assert!(count < MAX_ITERATIONS as usize && end.time < 1.0, "{count} {end:?}");
@@ -303,7 +303,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_in_the_air_is_let_down_when_a_shot_is_given_up_but_not_on_another() {
+    fn aborted_shot_lowers_flying_balls_except_onto_others() {
         let jumps = EventKind::Jumps(0);
         let let_down = [jumps, EventKind::Lands(0), EventKind::RollingStationary(0)];
         assert_eq!(given_up_at(DVec2::new(0.2, 0.0)), let_down);

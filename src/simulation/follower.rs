@@ -11,8 +11,8 @@ use crate::{
 };
 
 /// Returns a layout with the object balls far outside the table.
-pub fn alone(place: DVec2) -> Layout {
-    Layout::new([place, DVec2::new(1e3, 1e3), DVec2::new(-1e3, 1e3)])
+pub fn lone_ball_layout(position: DVec2) -> Layout {
+    Layout::new([position, DVec2::new(1e3, 1e3), DVec2::new(-1e3, 1e3)])
 }
 
 /// Observer that follows the cue ball.
@@ -21,7 +21,7 @@ pub struct Follower<'a> {
     times: &'a [f64],
     end: DVec2,
     /// Positions at the times that have passed, m.
-    pub places: Vec<DVec2>,
+    pub positions: Vec<DVec2>,
     /// Time, rail and centre of the ball for each rail impact.
     pub hits: Vec<(f64, Rail, DVec2)>,
     most_hits: usize,
@@ -30,15 +30,15 @@ pub struct Follower<'a> {
 impl<'a> Follower<'a> {
     /// Follows the ball until all `times`, in ascending order, have passed and `most_hits` rails have been hit.
     pub fn new(times: &'a [f64], most_hits: usize) -> Self {
-        Self { times, end: DVec2::ZERO, places: Vec::with_capacity(times.len()), hits: Vec::new(), most_hits }
+        Self { times, end: DVec2::ZERO, positions: Vec::with_capacity(times.len()), hits: Vec::new(), most_hits }
     }
 
     /// Plays a shot. If the ball comes to rest before the last time, its position remains constant.
     #[must_use]
-    pub fn of(mut self, table: &Table, layout: &Layout, impulse: &Impulse) -> Self {
+    pub fn follow(mut self, table: &Table, layout: &Layout, impulse: &Impulse) -> Self {
         self.end = layout.balls[0];
         watch(table, layout, impulse, &mut self);
-        self.places.resize(self.times.len(), self.end);
+        self.positions.resize(self.times.len(), self.end);
         self
     }
 }
@@ -57,7 +57,7 @@ impl Observer for Follower<'_> {
         if let EventKind::BallRail(0, rail) = event.kind {
             self.hits.push((event.time, rail, self.end));
         }
-        if self.places.len() >= self.times.len() && self.hits.len() >= self.most_hits {
+        if self.positions.len() >= self.times.len() && self.hits.len() >= self.most_hits {
             return ControlFlow::Break(());
         }
         ControlFlow::Continue(())
@@ -67,8 +67,8 @@ impl Observer for Follower<'_> {
         if ball != 0 {
             return;
         }
-        while let Some(&time) = self.times.get(self.places.len()).filter(|&&time| time < end) {
-            self.places.push(segment.position_after(time - segment.start));
+        while let Some(&time) = self.times.get(self.positions.len()).filter(|&&time| time < end) {
+            self.positions.push(segment.position_after(time - segment.start));
         }
         self.end = segment.position_after(end - segment.start);
     }

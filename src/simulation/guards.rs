@@ -4,10 +4,10 @@
 //! second. Of 10⁵ random shots on "thesis", fewer than ten exceed the budget of resting contacts, as a test here verifies.
 
 /// Multiplications for the contact forces of a known active set, per square of the number of contacts.
-pub const HELD: u64 = 700;
+pub const KNOWN_SET_COST: u64 = 700;
 
 /// Multiplications for everything else in a step of a resting contact, including the root finding of its predictions.
-pub const STEP: u64 = 14_000;
+pub const STEP_COST: u64 = 14_000;
 
 /// Budget of a step of a resting contact. When it is spent, all resting contacts of the shot are given up. Most steps take about a
 /// hundredth of it.
@@ -25,21 +25,21 @@ pub const AIR_BUDGET: u64 = 85_000_000;
 
 /// Multiplications for the bounce of a chatter. If bounces lose nothing, a pressed ball bounces until its spin has decayed; these bounces
 /// and their iterations of the general loop must fit into the budget of resting contacts.
-pub const BOUNCE: u64 = 1600;
+pub const BOUNCE_COST: u64 = 1600;
 
 /// Multiplications for an impact in the air.
-pub const IMPACT_IN_THE_AIR: u64 = 3300;
+pub const AIR_IMPACT_COST: u64 = 3300;
 
 /// Iterations of the event loops after which a shot ends where it is: ends of motion phases, impacts, and unreported bounces and steps of
 /// resting contacts. This is a guard, not physics, for motion in the air that repeats without end. A shot takes about ten iterations, one
 /// with a chatter about a hundred. A bounce takes up to five: its own, and the ends of sliding and of rolling of two balls. A smaller limit
 /// would end shots before resting contacts are disabled.
 pub const MAX_ITERATIONS: u32 = 120_000;
-const _: () = assert!(MAX_ITERATIONS as u64 > 5 * RESTING_BUDGET / BOUNCE);
+const _: () = assert!(MAX_ITERATIONS as u64 > 5 * RESTING_BUDGET / BOUNCE_COST);
 
 /// The same limit after resting contacts are disabled.
 pub const MAX_ITERATIONS_WITHOUT_REST: u32 = 250_000;
-const _: () = assert!(MAX_ITERATIONS_WITHOUT_REST as u64 > 5 * BUDGET_WITHOUT_REST / BOUNCE);
+const _: () = assert!(MAX_ITERATIONS_WITHOUT_REST as u64 > 5 * BUDGET_WITHOUT_REST / BOUNCE_COST);
 
 #[cfg(test)]
 mod tests {
@@ -50,7 +50,7 @@ mod tests {
 
     use crate::{
         physics::{CueInputs, strike},
-        simulation::{Event, Observer, engine::Engine, savings::All},
+        simulation::{Event, Observer, engine::Engine, savings::AllSavings},
         table::{Layout, Table},
     };
 
@@ -65,7 +65,7 @@ mod tests {
 
     /// `cargo test --profile quick --lib fewer_than_ten -- --nocapture`
     #[test]
-    fn of_a_hundred_thousand_random_shots_fewer_than_ten_let_nothing_rest() {
+    fn fewer_than_ten_of_100_000_shots_disable_resting_contacts() {
         let table = Table::preset("thesis").unwrap();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
         let mut of_these = 0;
@@ -75,7 +75,7 @@ mod tests {
             let (theta, phi) = (rng.random_range(0.0..0.35), rng.random_range(0.0..std::f64::consts::TAU));
             let cue = CueInputs { a, b, theta, phi, speed: rng.random_range(0.5..6.0) };
             let mut nobody = Nobody;
-            let mut engine = Engine::<All, _>::new(&table, &layout, &mut nobody);
+            let mut engine = Engine::<AllSavings, _>::new(&table, &layout, &mut nobody);
             engine.run(&strike(&table, &cue));
             of_these += u32::from(engine.micro_collisions.is_some() || engine.is_exhausted());
         }

@@ -7,7 +7,7 @@
 use glam::{DVec2, DVec3};
 
 use super::Constants;
-use crate::physics::{BallState, Cloth, SpatialState, rolling_spin, slip, turned_by_cloth};
+use crate::physics::{BallState, Cloth, SpatialState, rolling_spin, slip, spin_change_by_cloth};
 
 /// Number of landings up to which powers are multiplied; an exponential costs the same.
 const FEW: u32 = 8;
@@ -77,7 +77,7 @@ impl Hops {
         hops.duration = hops.first + hops.per_speed() * landing * e / (1.0 - e);
         hops.last_velocity = match hops.sticks {
             Some(_) => hops.rolling(),
-            None => hops.rubbed(friction_impulse / (1.0 - e)).0,
+            None => hops.motion_after_friction(friction_impulse / (1.0 - e)).0,
         };
         hops
     }
@@ -143,7 +143,7 @@ impl Hops {
         if self.sticks.is_some_and(|last| landings > last) {
             return self.rolls();
         }
-        self.rubbed(self.friction_impulse * self.powers(landings))
+        self.motion_after_friction(self.friction_impulse * self.powers(landings))
     }
 
     fn rolls(&self) -> (DVec2, DVec3) {
@@ -151,20 +151,23 @@ impl Hops {
         (velocity, rolling_spin(self.radius, velocity).extend(self.start.spin.z))
     }
 
-    /// Returns velocity along the cloth and spin after a total friction impulse per mass of `rubbed`, m/s.
-    fn rubbed(&self, rubbed: f64) -> (DVec2, DVec3) {
-        let impulse = -rubbed * self.direction;
-        (self.start.velocity.truncate() + impulse, self.start.spin + turned_by_cloth(self.radius, impulse).extend(0.0))
+    /// Returns velocity along the cloth and spin after a total friction impulse per mass of `friction`, m/s.
+    fn motion_after_friction(&self, friction: f64) -> (DVec2, DVec3) {
+        let impulse = -friction * self.direction;
+        (
+            self.start.velocity.truncate() + impulse,
+            self.start.spin + spin_change_by_cloth(self.radius, impulse).extend(0.0),
+        )
     }
 
     /// Returns the centre at the landing with this index, m.
-    fn place(&self, landing: u32) -> DVec2 {
+    fn landing_position(&self, landing: u32) -> DVec2 {
         let e = self.cloth.restitution;
         let velocity = self.start.velocity.truncate();
         let slides = self.sticks.map_or(landing, |last| last.min(landing));
         let sum = self.powers(slides);
-        let rubbed = self.friction_impulse * sum * self.powers(slides + 1) / (1.0 + e);
-        let mut displacement = e * (sum * velocity - rubbed * self.direction);
+        let friction = self.friction_impulse * sum * self.powers(slides + 1) / (1.0 + e);
+        let mut displacement = e * (sum * velocity - friction * self.direction);
         if landing > slides {
             displacement += self.decayed(slides + 1) * self.powers(landing - slides) * self.rolling();
         }
@@ -181,14 +184,14 @@ impl Hops {
         let e = self.cloth.restitution;
         let (position, (velocity, spin)) = if let Some(last) = self.sticks {
             let rest = self.decayed(last + 1) / (1.0 - e);
-            (self.place(last) + self.per_speed() * self.landing * rest * self.rolling(), self.rolls())
+            (self.landing_position(last) + self.per_speed() * self.landing * rest * self.rolling(), self.rolls())
         } else {
             let sum = 1.0 / (1.0 - e);
             let displacement =
                 e * sum * (self.start.velocity.truncate() - self.friction_impulse * sum / (1.0 + e) * self.direction);
             (
                 self.touchdown() + self.per_speed() * self.landing * displacement,
-                self.rubbed(self.friction_impulse * sum),
+                self.motion_after_friction(self.friction_impulse * sum),
             )
         };
         BallState { position, velocity, spin }
@@ -205,7 +208,7 @@ impl Hops {
         Arc {
             begin,
             end: begin + self.per_speed() * climb,
-            position: self.place(landings - 1).extend(0.0),
+            position: self.landing_position(landings - 1).extend(0.0),
             velocity: self.motion(landings).0.extend(climb),
         }
     }
@@ -265,7 +268,7 @@ mod tests {
             let flight = (ball.velocity.z + speed) / cloth.gravity;
             ball.position += (flight * ball.velocity.truncate()).extend(-ball.position.z);
             ball.velocity.z = -speed;
-            cloth.answer(constants.radius, &mut ball);
+            cloth.resolve(constants.radius, &mut ball);
             time += flight;
         }
         (time, ball)
@@ -281,7 +284,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_sums_are_what_landing_after_landing_gives(
+        fn closed_form_sums_equal_stepwise_landings(
             height in prop_oneof![Just(0.0), 0.0..0.3f64],
             velocity in [-5.0..5.0f64, -5.0..5.0, -3.0..4.0],
             spin in [-150.0..150.0f64, -150.0..150.0, -99.0..99.0],
@@ -304,7 +307,7 @@ mod tests {
         }
 
         #[test]
-        fn arcs_follow_one_another_and_the_state_lies_on_them(
+        fn arcs_are_contiguous_and_contain_the_state(
             velocity in [-5.0..5.0f64, -5.0..5.0, 0.1..4.0],
             spin in [-150.0..150.0f64, -150.0..150.0, -99.0..99.0],
             restitution in prop_oneof![Just(0.5), Just(0.99), 0.1..0.95f64],
@@ -326,7 +329,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_that_is_let_fall_without_slip_comes_down_where_it_is() {
+    fn ball_dropped_without_slip_lands_in_place() {
         let constants = constants();
         let cloth = Cloth { restitution: 0.5, friction: 0.2, gravity: 9.81 };
         let hops = Hops::new(&constants, &cloth, &started(0.05, [0.0; 3], [0.0, 0.0, 20.0]));

@@ -5,9 +5,9 @@ use std::ops::ControlFlow;
 use super::{
     Event, EventKind, Observer, Rail,
     chatter::{Chatters, chatter_end},
-    contacts::{PAIRS_OF, close_gaps, is_in_corner, put_at_cushion, touching},
-    engine::{Ball, ContactMode, Engine, Meeting, SAME_TIME, only},
-    guards::BOUNCE,
+    contacts::{PAIRS_OF, close_gaps, is_in_corner, move_to_cushion, touching},
+    engine::{Ball, ContactMode, Engine, PairPrediction, SAME_TIME, only_ball},
+    guards::BOUNCE_COST,
     savings::Savings,
 };
 use crate::{
@@ -20,11 +20,11 @@ use crate::{
 
 /// Number of impacts at one moment after which further ones are solved without restitution. Three touching balls against a cushion need
 /// some dozens; an inelastic collapse would need infinitely many.
-const MOST_ROUNDS: u32 = 64;
+const MAX_ROUNDS: u32 = 64;
 
 /// Number of impacts at one moment after which balls count as jammed between cushions. A ball that rolls past others in a row that fills
 /// the table needs more room than rounding leaves, until it has passed, and no impulse creates that room.
-const JAMMED_ROUNDS: u32 = 2 * MOST_ROUNDS;
+const JAMMED_ROUNDS: u32 = 2 * MAX_ROUNDS;
 
 /// Room behind a cushion for a jammed ball, in units of the touching tolerance: large enough for the next impact to come later.
 const ROOM_FOR_JAMMED: f64 = 4.0;
@@ -38,25 +38,27 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let Ball { rail_after, rail, segment, .. } = &self.balls[index];
         let (rail_after, rail, meets_two) =
             (*rail_after, *rail, is_in_corner(&self.constants, segment.position_after(*rail_after)));
-        if (self.is_crowded(now) || meets_two || self.touches_another(index, now)) && self.collide_at_once(now)? {
+        if (self.may_be_simultaneous(now) || meets_two || self.touches_another(index, now))
+            && self.collide_simultaneously(now)?
+        {
             return ControlFlow::Continue(());
         }
         let n = rail.normal();
-        let freed = if self.resting.is_some() { self.release(now, only(index)) } else { None };
+        let freed = if self.resting.is_some() { self.release(now, only_ball(index)) } else { None };
         let mut state = match &freed {
             Some(states) => states[index],
             None => self.balls[index].segment.state_after(&self.constants, rail_after),
         };
-        put_at_cushion(&self.constants, n, &mut state.position);
+        move_to_cushion(&self.constants, n, &mut state.position);
         let c = &self.constants;
         let before = state;
         let approach = -state.velocity.dot(n);
         let impulse = self.law_at(approach).cushions.at(rail).resolve(c.radius, n, &mut state);
         if self.micro_collisions.is_some() {
-            state.position += c.tolerance.micro_room * n;
+            state.position += c.tolerance.micro_gap * n;
         }
         if impulse.climb > c.lifts {
-            return self.climb(index, now, state, impulse.climb, freed.is_some());
+            return self.climb_cushion(index, now, state, impulse.climb, freed.is_some());
         }
         let mut reported = true;
         if state.velocity.dot(n) <= c.tolerance.slow_bounce {
@@ -81,26 +83,26 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.launch(index, now, &state);
         self.report_impact(now, EventKind::BallRail(index, rail), reported)?;
         if freed.is_some() {
-            self.look_ahead(now, self.with_freed(true, only(index)))
+            self.predict_changed(now, self.with_freed(true, only_ball(index)))
         } else {
-            self.look_ahead_of(now, index)
+            self.predict_ball(now, index)
         }
     }
 
     pub(super) fn collide(&mut self, pair: usize, now: f64) -> ControlFlow<()> {
-        if self.is_crowded(now) && self.collide_at_once(now)? {
+        if self.may_be_simultaneous(now) && self.collide_simultaneously(now)? {
             return ControlFlow::Continue(());
         }
         let (first, second) = PAIRS[pair];
         if !self.is_on_cloth(first) || !self.is_on_cloth(second) {
             return self.collide_in_space(pair, now);
         }
-        let Meeting { since, after, .. } = self.pairs[pair];
-        let mut changed = only(first);
+        let PairPrediction { since, after, .. } = self.pairs[pair];
+        let mut changed = only_ball(first);
         changed[second] = true;
         let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
         let state_of = |index: usize| match &freed {
-            Some(states) if self.freed_members()[index] => states[index],
+            Some(states) if self.resting_members()[index] => states[index],
             _ => {
                 let segment = &self.balls[index].segment;
                 segment.state_after(&self.constants, (since - segment.start) + after)
@@ -131,7 +133,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.launch(first, now, &a);
         self.launch(second, now, &b);
         self.report_impact(now, EventKind::BallBall(first, second), reported)?;
-        self.look_ahead(now, self.with_freed(freed.is_some(), changed))
+        self.predict_changed(now, self.with_freed(freed.is_some(), changed))
     }
 
     /// Whether a ball that hits a cushion touches another ball: they may collide a rounding error later, which no prediction contains.
@@ -151,21 +153,21 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
     /// Whether other impacts may happen at this moment, or too many have happened.
     #[inline(always)]
-    pub(super) fn is_crowded(&mut self, now: f64) -> bool {
+    pub(super) fn may_be_simultaneous(&mut self, now: f64) -> bool {
         self.rounds = if now - self.last_impact <= SAME_TIME { self.rounds + 1 } else { 0 };
         self.last_impact = now;
         let mut at_once = 0;
         for time in self.times {
             at_once += u32::from(time <= now + self.constants.tolerance.moment);
         }
-        at_once > 1 || self.inelastic || self.rounds > MOST_ROUNDS
+        at_once > 1 || self.inelastic || self.rounds > MAX_ROUNDS
     }
 
     /// Resolves all contacts that close now together, if there are several. Returns whether they have collided.
     #[cold]
-    pub(super) fn collide_at_once(&mut self, now: f64) -> ControlFlow<(), bool> {
-        self.effort.add(BOUNCE);
-        let members = self.freed_members();
+    pub(super) fn collide_simultaneously(&mut self, now: f64) -> ControlFlow<(), bool> {
+        self.effort.add(BOUNCE_COST);
+        let members = self.resting_members();
         let held = self.resting.as_ref().map(|resting| resting.after(self.table, now - resting.start));
         let mut states: [BallState; BALLS] = std::array::from_fn(|index| match &held {
             Some(states) if members[index] => states[index],
@@ -173,7 +175,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         });
         let c = self.constants;
         // Without restitution the rounds would never end; their limit is one impact of all touching contacts.
-        let collapsed = (self.inelastic && self.micro_collisions.is_none()) || self.rounds > MOST_ROUNDS;
+        let collapsed = (self.inelastic && self.micro_collisions.is_none()) || self.rounds > MAX_ROUNDS;
         let contacts = touching(&c, &states, self.on_cloth(), |opening| {
             opening < -c.tolerance.opening || (collapsed && opening <= 0.0)
         });
@@ -182,11 +184,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
         let mut changed = [false; BALLS];
         for (ball, changed) in changed.iter_mut().enumerate() {
-            *changed = contacts.hold(ball);
+            *changed = contacts.involve(ball);
         }
         // In a micro-collision, a ball crosses a small gap before it bounces again; a jammed ball gets room behind the cushion.
         let room = match self.micro_collisions {
-            Some(_) => c.tolerance.micro_room,
+            Some(_) => c.tolerance.micro_gap,
             None if self.rounds > JAMMED_ROUNDS => -ROOM_FOR_JAMMED * c.tolerance.touching,
             None => 0.0,
         };
@@ -220,7 +222,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         for (contact, impulse) in met().filter(|(_, impulse)| climbs(impulse)) {
             self.lift(contact.first, now, states[contact.first], impulse.climb)?;
         }
-        self.look_ahead(now, self.with_freed(freed.is_some(), changed))?;
+        self.predict_changed(now, self.with_freed(freed.is_some(), changed))?;
         ControlFlow::Continue(true)
     }
 
@@ -237,7 +239,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Records a slow bounce: reports the beginning of a chatter once, and returns whether the bounce itself is reported.
     #[cold]
     pub(super) fn slow_bounce(&mut self, now: f64, contact: &Contact) -> ControlFlow<(), bool> {
-        self.effort.add(BOUNCE);
+        self.effort.add(BOUNCE_COST);
         let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
         if !chatters.bounce(contact, now) && self.micro_collisions.is_none() {
             return ControlFlow::Continue(true);
@@ -261,11 +263,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if self.micro_collisions.is_some() {
             return None;
         }
-        let shrinking = self.chatters.as_ref().map_or(0.0, |chatters| chatters.shrinking(contact));
+        let flight_ratio = self.chatters.as_ref().map_or(0.0, |chatters| chatters.flight_ratio(contact));
         let states = self.states_with(now, freed, bounced);
-        let bounces = (self.law.restitution(contact), shrinking);
+        let bounces = (self.law.restitution(contact), flight_ratio);
         let end = chatter_end(self.table, &self.constants, contact, &states, self.on_cloth(), bounces, &self.effort)?;
-        (now + end.lasts < self.next_meeting_aloft()).then_some(end.contacts)
+        (now + end.duration < self.next_meeting_aloft()).then_some(end.contacts)
     }
 
     /// Returns the next collision time of two balls, at least one of which is in the air, s: it may throw others back into the contacts
@@ -286,7 +288,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         given: &[(usize, BallState)],
     ) -> [BallState; BALLS] {
         let mut balls = std::array::from_fn(|index| match freed {
-            Some(states) if self.freed_members()[index] => states[index],
+            Some(states) if self.resting_members()[index] => states[index],
             _ => self.state(index, now),
         });
         for (index, state) in given {
@@ -313,7 +315,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         close_gaps(&c, &mut states, contacts);
         let law = self.law.with_restitution(0.0);
         let mut given = [0.0; MAX_CONTACTS];
-        for round in 0..MOST_ROUNDS {
+        for round in 0..MAX_ROUNDS {
             // The contact that has closed takes part however slowly it closes: balls that never slip lose their slip.
             if round > 0 && !contacts.iter().any(|contact| contact.opening_speed(&states) < -0.1 * c.tolerance.opening)
             {
@@ -331,7 +333,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             }
         }
         stop_by_impulses(self.table, &mut states, &ended, &ActiveSet::SLIPPING, &given_there);
-        let changed = std::array::from_fn(|ball| rests.hold(ball));
+        let changed = std::array::from_fn(|ball| rests.involve(ball));
         self.relaunch(now, changed, &states);
         self.report_impact(now, impact, reported)?;
         for (contact, _) in
@@ -340,7 +342,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             let reported = self.slow_bounce(now, contact)?;
             self.report_impact(now, kind(contact), reported)?;
         }
-        self.look_ahead(now, self.with_freed(freed.is_some(), changed))
+        self.predict_changed(now, self.with_freed(freed.is_some(), changed))
     }
 }
 

@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// Height from which a hop is reported, m. Every stroke over a rail and every rail impact causes lower hops, which are invisible.
-pub const TOLD_HEIGHT: f64 = 0.002;
+pub const REPORTED_HEIGHT: f64 = 0.002;
 
 /// A ball's flight, from leaving the cloth until it stays on it or leaves the table, including hops.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,12 +28,12 @@ pub struct Jump {
 
 impl Jump {
     /// Whether the flight is high enough to be reported.
-    pub fn is_told(&self) -> bool {
-        self.height >= TOLD_HEIGHT
+    pub fn is_reported(&self) -> bool {
+        self.height >= REPORTED_HEIGHT
     }
 
     /// Whether the ball is in the air at `time`.
-    pub fn is_at(&self, time: f64) -> bool {
+    pub fn is_airborne_at(&self, time: f64) -> bool {
         (self.start..=self.end).contains(&time)
     }
 }
@@ -97,18 +97,18 @@ impl Recording {
         let inside = (0..pieces.len()).filter(|&n| pieces[n].start >= start && pieces[n].start < end).filter(flying);
         for n in inside {
             let Some(hops) = pieces[n].hops() else { continue };
-            let lasts = pieces.get(n + 1).map_or(end, |next| next.start) - pieces[n].start;
+            let duration = pieces.get(n + 1).map_or(end, |next| next.start) - pieces[n].start;
             let first = hops.arc(0);
             // A later arc is not higher than the height from which it falls.
-            let top = (first.velocity.z / hops.cloth.gravity).clamp(0.0, lasts);
+            let top = (first.velocity.z / hops.cloth.gravity).clamp(0.0, duration);
             height = height.max(hops.state_after(top).position.z);
-            distance.get_or_insert_with(|| first.velocity.truncate().length() * first.end.min(lasts));
+            distance.get_or_insert_with(|| first.velocity.truncate().length() * first.end.min(duration));
         }
         Jump { ball, start, end, height, distance: distance.unwrap_or_default() }
     }
 
     /// Returns the flight that starts with an event; `None` for other events.
-    pub fn jump_begun_by(&self, event: &Event) -> Option<Jump> {
+    pub fn jump_started_by(&self, event: &Event) -> Option<Jump> {
         matches!(event.kind, EventKind::Jumps(_)).then(|| self.jump_of(event))?
     }
 
@@ -121,10 +121,10 @@ impl Recording {
     }
 
     /// Whether an event is reported by default: contacts, flights above the least height, and balls that leave the table.
-    pub fn is_told(&self, event: &Event) -> bool {
+    pub fn is_reported(&self, event: &Event) -> bool {
         match event.kind {
             EventKind::LeavesTable(_) => true,
-            EventKind::Jumps(_) | EventKind::Lands(_) => self.jump_of(event).is_some_and(|jump| jump.is_told()),
+            EventKind::Jumps(_) | EventKind::Lands(_) => self.jump_of(event).is_some_and(|jump| jump.is_reported()),
             kind => kind.is_contact(),
         }
     }
@@ -146,12 +146,12 @@ mod tests {
     }
 
     #[test]
-    fn a_jump_is_as_high_and_far_as_the_ball_is_seen_to_fly() {
+    fn jump_height_and_distance_match_the_trajectory() {
         let shot = play("-0.5,0 0.3,0.4 0.9,0.5", "0,0,45,0,5");
         let jump = shot.jumps()[0];
         let seen = (0..=1000).map(|n| shot.height(0, jump.start + (jump.end - jump.start) * f64::from(n) / 1000.0));
         let highest = seen.fold(0.0, f64::max);
-        assert!(jump.is_told() && (jump.height - highest).abs() < 1e-4 * highest, "{jump:?} {highest}");
+        assert!(jump.is_reported() && (jump.height - highest).abs() < 1e-4 * highest, "{jump:?} {highest}");
         let down = shot.segments(0)[0].hops().unwrap().arc(0).end;
         assert!(shot.height(0, down) < 1e-9 && shot.height(0, 0.9 * down) > 0.01);
         let way = shot.state(0, down).position.distance(shot.state(0, 0.0).position);
@@ -159,19 +159,19 @@ mod tests {
     }
 
     #[test]
-    fn an_invisible_hop_is_not_reported_and_a_jump_is_with_its_landing() {
+    fn low_hops_are_not_reported_but_jumps_and_landings_are() {
         let low = play("-1,0 0.9,-0.5 0.9,0.5", "0,0,3,0,2");
         assert!(low.events().iter().any(|event| event.kind == EventKind::Jumps(0)));
-        assert!(low.events().iter().filter(|event| low.is_told(event)).all(|event| event.kind.is_contact()));
+        assert!(low.events().iter().filter(|event| low.is_reported(event)).all(|event| event.kind.is_contact()));
         let high = play("-0.5,0 0.3,0.4 0.9,0.5", "0,0,45,0,3");
         let reported: Vec<_> =
-            high.events().iter().filter(|event| high.is_told(event)).map(|event| event.kind).collect();
+            high.events().iter().filter(|event| high.is_reported(event)).map(|event| event.kind).collect();
         assert_eq!(reported[0], EventKind::Jumps(0));
         assert!(reported.contains(&EventKind::Lands(0)), "{reported:?}");
     }
 
     #[test]
-    fn a_ball_leaves_over_the_rail_that_it_was_shot_at_and_comes_back_on_a_spot() {
+    fn ball_off_the_table_reports_its_rail_and_spot() {
         let table = flying();
         for (layout, cue, over) in [
             ("0.9,0 0,0.3 0,-0.3", "0,0,30,0,9", Rail::Right),

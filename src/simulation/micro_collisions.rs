@@ -23,7 +23,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     #[cold]
     pub(super) fn begin_micro_collisions(&mut self, now: f64) -> ControlFlow<()> {
         self.micro_collisions = Some(Box::new(self.law.with_restitution(1.0)));
-        self.cut(now);
+        self.end_step(now);
         self.effort = Effort::default();
         self.ended = None;
         if let Some(resting) = self.resting.take() {
@@ -32,7 +32,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 ball.mode = ContactMode::Bouncing;
             }
         }
-        self.look_ahead(now, [true; BALLS])
+        self.predict_changed(now, [true; BALLS])
     }
 
     /// Returns the laws of an impact with this approach speed, m/s.
@@ -59,7 +59,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     pub(super) fn separate(&self, first: &mut BallState, second: &mut BallState) {
         let relative = first.position - second.position;
         let gap = relative.length() - self.constants.diameter;
-        let moves = 0.5 * (self.constants.tolerance.micro_room - gap) * relative.normalize();
+        let moves = 0.5 * (self.constants.tolerance.micro_gap - gap) * relative.normalize();
         first.position += moves;
         second.position -= moves;
     }

@@ -6,7 +6,6 @@
 
 mod active_set;
 mod aloft;
-mod alone;
 mod ball_ball;
 mod bounded;
 mod chatter;
@@ -22,6 +21,7 @@ mod guards;
 mod hops;
 mod impacts;
 mod jumps;
+mod lone_ball;
 mod micro_collisions;
 mod playback;
 mod predict;
@@ -39,14 +39,14 @@ mod tests;
 
 pub use crate::table::Rail;
 pub use aloft::Nose;
-pub use bounded::Bounded;
+pub use bounded::BoundedRecorder;
 pub use constants::Constants;
 pub use engine::{End, simulate, simulate_with, watch, watch_with};
 pub use events::{Event, EventKind, Observer, StepBudget};
-pub use follower::{Follower, alone};
+pub use follower::{Follower, lone_ball_layout};
 pub use hops::{Arc, Hops};
-pub use jumps::{Jump, OffTable, TOLD_HEIGHT};
+pub use jumps::{Jump, OffTable, REPORTED_HEIGHT};
 pub use playback::{Recorder, Recording, ShotError, Start};
-pub use savings::{All, Savings};
+pub use savings::{AllSavings, Savings};
 pub use segment::{Course, Curve, Segment};
 pub use tolerance::Tolerance;

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use glam::DVec2;
 
-use super::{All, Constants, End, Event, Observer, Segment, simulate_with};
+use super::{AllSavings, Constants, End, Event, Observer, Segment, simulate_with};
 use crate::{
     physics::{BallState, CueError, CueInputs, Impulse, ImpulseError, Motion, SpatialState, strike},
     table::{BALLS, Layout, LayoutError, Table},
@@ -70,8 +70,9 @@ impl Recording {
     }
 
     fn simulated(table: &Table, layout: &Layout, start: Start<'_>) -> Result<Self, ShotError> {
-        let play = |impulse: &Impulse, kept: &mut Recorder| (simulate_with::<All, _>(table, layout, impulse, kept), ());
-        Ok(Self::played_by(table, layout, start, play)?.0)
+        let play =
+            |impulse: &Impulse, kept: &mut Recorder| (simulate_with::<AllSavings, _>(table, layout, impulse, kept), ());
+        Ok(Self::record_with(table, layout, start, play)?.0)
     }
 
     /// Checks a shot and plays it by the function `play`, which can use any method. It receives the motion of the cue ball and a recorder
@@ -79,14 +80,14 @@ impl Recording {
     ///
     /// # Errors
     /// The first problem of the layout, the stroke or the motion.
-    pub fn played_by<T>(
+    pub fn record_with<T>(
         table: &Table,
         layout: &Layout,
         start: Start<'_>,
         play: impl FnOnce(&Impulse, &mut Recorder) -> (End, T),
     ) -> Result<(Self, T), ShotError> {
         layout.validate(table)?;
-        let (impulse, mut kept) = (start.impulse(table)?, Recorder::with_room());
+        let (impulse, mut kept) = (start.impulse(table)?, Recorder::with_capacity());
         let (end, more) = play(&impulse, &mut kept);
         for (ball, segments) in kept.segments.iter_mut().enumerate() {
             let BallState { position, spin, .. } = end.balls[ball];
@@ -177,7 +178,7 @@ pub struct Recorder {
 
 impl Recorder {
     /// Creates a recorder with capacity for an ordinary shot: a dozen events, most of them of the cue ball.
-    fn with_room() -> Self {
+    fn with_capacity() -> Self {
         Self { events: Vec::with_capacity(16), segments: [16, 4, 4].map(Vec::with_capacity) }
     }
 }
@@ -208,7 +209,7 @@ mod tests {
     use glam::DVec3;
 
     #[test]
-    fn the_motion_that_a_stroke_gives_plays_as_the_stroke_does_bit_for_bit() {
+    fn motion_of_a_stroke_plays_bit_identically_to_the_stroke() {
         let table = Table::default();
         let layout = Layout::parse("-1,0 0,0.02 0.6,0.1", &table).unwrap();
         let cue = CueInputs::parse("0.2,0.3,4,1,4").unwrap();
@@ -221,20 +222,20 @@ mod tests {
 
     /// On a ball of 1 mm, a stroke causes a spin beyond the limit of an initial motion. No method may refuse it.
     #[test]
-    fn a_stroke_is_played_whatever_it_gives_by_whatever_method() {
+    fn strokes_may_exceed_the_limits_of_given_motions() {
         let table = Table { radius: 0.001, ..Table::preset("thesis").unwrap() };
         let layout = Layout::opening(&table);
         let cue = CueInputs::parse("0,0.45,0,0,25").unwrap();
         let shot = Recording::new(&table, &layout, &cue).unwrap();
         let play = |impulse: &Impulse, kept: &mut Recorder| (simulate(&table, &layout, impulse, kept), ());
-        let (same, ()) = Recording::played_by(&table, &layout, Start::Stroke(&cue), play).unwrap();
+        let (same, ()) = Recording::record_with(&table, &layout, Start::Stroke(&cue), play).unwrap();
         assert_eq!(same.events(), shot.events());
-        let refused = Recording::played_by(&table, &layout, Start::Motion(shot.impulse()), play);
+        let refused = Recording::record_with(&table, &layout, Start::Motion(shot.impulse()), play);
         assert!(matches!(refused, Err(ShotError::Impulse(ImpulseError::Spin(_)))), "{refused:?}");
     }
 
     #[test]
-    fn a_ball_that_only_spins_is_played_and_an_impossible_motion_or_layout_is_refused() {
+    fn spinning_ball_plays_and_impossible_motion_or_layout_is_refused() {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let impulse = Impulse::on_cloth;

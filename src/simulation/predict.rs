@@ -13,11 +13,11 @@ use super::{
 
 /// Predicted event of a ball, or of two balls.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ahead {
+pub enum Prediction {
     /// No impact within the given time.
     Nothing,
     /// An impact after this many seconds.
-    Meeting(f64),
+    Impact(f64),
     /// They touch without relative normal velocity and are pressed together: a resting contact.
     Pressed,
 }
@@ -30,14 +30,14 @@ pub fn lesser(a: f64, b: f64) -> f64 {
 
 /// Returns the first cushion impact of a ball on a curved trajectory, a polynomial of degree five, within `horizon` seconds of the
 /// segment's start. Cushions for which `holds` returns true are part of the resting contact and are skipped.
-pub fn curved_cushion_ahead(
+pub fn next_cushion_impact_on_curve(
     constants: &Constants,
     segment: &Segment,
     horizon: f64,
     holds: impl Fn(Rail) -> bool,
-) -> (Ahead, Rail) {
+) -> (Prediction, Rail) {
     let tolerance = &constants.tolerance;
-    let mut nearest = (Ahead::Nothing, Rail::Left);
+    let mut nearest = (Prediction::Nothing, Rail::Left);
     let mut earliest = horizon;
     let course = segment.coefficients();
     for rail in Rail::ALL.into_iter().filter(|&rail| !holds(rail)) {
@@ -47,9 +47,11 @@ pub fn curved_cushion_ahead(
         if gap[0] > tolerance.touching + travel(&gap.map(f64::abs), earliest) {
             continue;
         }
-        if let Ahead::Meeting(time) = polynomial_closes(tolerance, &gap, gap[0] <= tolerance.touching, 1.0, earliest) {
+        if let Prediction::Impact(time) =
+            polynomial_closes(tolerance, &gap, gap[0] <= tolerance.touching, 1.0, earliest)
+        {
             earliest = time;
-            nearest = (Ahead::Meeting(time), rail);
+            nearest = (Prediction::Impact(time), rail);
         }
     }
     nearest
@@ -57,7 +59,13 @@ pub fn curved_cushion_ahead(
 
 /// Returns the next collision of two balls, at least one of which is in a resting contact. Pairs that rest against each other are handled
 /// by the contact itself and are not passed to this function.
-pub fn curved_balls_ahead(constants: &Constants, first: &Segment, second: &Segment, now: f64, horizon: f64) -> Ahead {
+pub fn next_collision_on_curve(
+    constants: &Constants,
+    first: &Segment,
+    second: &Segment,
+    now: f64,
+    horizon: f64,
+) -> Prediction {
     let (c1, c2) = (shifted(first, now), shifted(second, now));
     let mut d = [DVec2::ZERO; 6];
     for power in 0..6 {
@@ -67,7 +75,7 @@ pub fn curved_balls_ahead(constants: &Constants, first: &Segment, second: &Segme
     // Most pairs are too far apart to collide in such a short time.
     let tolerance = &constants.tolerance;
     if d[0].length() - diameter > tolerance.touching + travel(&d.map(DVec2::length), horizon) {
-        return Ahead::Nothing;
+        return Prediction::Nothing;
     }
     let mut gap = [0.0; MAX_DEGREE + 1];
     for i in 0..6 {
@@ -88,14 +96,14 @@ pub fn travel(sizes: &[f64; 6], time: f64) -> f64 {
 /// Returns when the gap with these coefficients, in units of `scale` times metres, closes. The gap of touching balls is divided by the
 /// time, because its root at zero is the present contact. If they stay together for now, they collide when the gap has closed by more than
 /// the touching tolerance.
-pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], touching: bool, scale: f64, horizon: f64) -> Ahead {
+pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], touching: bool, scale: f64, horizon: f64) -> Prediction {
     let mut work = [0.0; MAX_DEGREE + 1];
     let mut count = gap.len();
     work[..count].copy_from_slice(gap);
     if touching {
         let opening = gap[1] / scale;
         if opening < -tolerance.opening {
-            return Ahead::Meeting(0.0);
+            return Prediction::Impact(0.0);
         }
         if opening > tolerance.opening {
             work.copy_within(1.., 0);
@@ -109,7 +117,7 @@ pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], touching: bool, sca
     for power in 1..count {
         slope[power - 1] = power as f64 * work[power];
     }
-    first_crossing(|t| horner(work, t), &slope[..count - 1], horizon).map_or(Ahead::Nothing, Ahead::Meeting)
+    first_crossing(|t| horner(work, t), &slope[..count - 1], horizon).map_or(Prediction::Nothing, Prediction::Impact)
 }
 
 /// Returns a segment's coefficients about the time `now`.
@@ -134,7 +142,7 @@ mod tests {
     use crate::physics::Motion;
 
     #[test]
-    fn shifting_a_course_in_time_keeps_its_places() {
+    fn shifting_a_course_in_time_keeps_its_positions() {
         let curve = super::super::segment::Curve {
             position: [DVec2::new(0.3, -0.2), DVec2::new(-0.1, 0.4), DVec2::new(0.05, 0.01)],
             spin: [glam::DVec3::ZERO; 3],

@@ -6,7 +6,7 @@ use super::{
     EventKind, Observer, Segment,
     chatter::Chatters,
     contacts::PAIRS_OF,
-    engine::{ContactMode, Engine, only},
+    engine::{ContactMode, Engine, only_ball},
     resting::{Outcome, Resting},
     savings::Savings,
     segment::Course,
@@ -19,12 +19,12 @@ use crate::{
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Handles the next step of the balls in resting contact.
     #[cold]
-    pub(super) fn rest_on(&mut self, now: f64) -> ControlFlow<()> {
+    pub(super) fn continue_resting(&mut self, now: f64) -> ControlFlow<()> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
         if self.is_out_of_reach(|index| self.state(index, now)) {
             return ControlFlow::Break(());
         }
-        if !self.is_exhausted() && resting.go_on(self.table) {
+        if !self.is_exhausted() && resting.continue_step(self.table) {
             self.effort.absorb(&resting.effort);
             self.observer.contact_step()?;
             let members = resting.members;
@@ -32,7 +32,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             for index in (0..BALLS).filter(|&index| members[index]) {
                 self.rest(index, now);
             }
-            self.look_ahead_of_pressed(now, members);
+            self.predict_pressed(now, members);
             return ControlFlow::Continue(());
         }
         // A ball that another one strikes repeatedly is this slow only between two impacts.
@@ -45,7 +45,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.pressed = true;
         // Termination guard: a ball in another contact stands still, and its contact restarts.
         self.ended = (!self.is_exhausted()).then_some(resting);
-        self.look_ahead(now, members)
+        self.predict_changed(now, members)
     }
 
     /// Whether a moving ball that is not one of the `members` touches one of them.
@@ -70,7 +70,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             return None;
         }
         let members = resting.members;
-        self.cut(now);
+        self.end_step(now);
         let states = self.resting.as_ref()?.end;
         self.relaunch(now, std::array::from_fn(|index| members[index] && !changed[index]), &states);
         self.pressed = true;
@@ -79,13 +79,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
     /// Ends the present step of the resting contacts at `now`.
     #[cold]
-    pub(super) fn cut(&mut self, now: f64) {
+    pub(super) fn end_step(&mut self, now: f64) {
         let Some(resting) = &mut self.resting else { return };
         let time = now - resting.start;
         if time >= resting.step {
             return;
         }
-        resting.cut(self.table, time);
+        resting.shorten(self.table, time);
         self.next_step = resting.next_step;
         for index in (0..BALLS).filter(|&index| resting.members[index] && time > 0.0) {
             let segment = &mut self.balls[index].segment;
@@ -98,13 +98,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 
     /// Returns the members of the stored resting contact.
-    pub(super) fn freed_members(&self) -> [bool; BALLS] {
+    pub(super) fn resting_members(&self) -> [bool; BALLS] {
         self.resting.as_ref().map_or([false; BALLS], |resting| resting.members)
     }
 
     /// Returns the `changed` balls, together with the members of the stored resting contact if it has been `freed`.
     pub(super) fn with_freed(&self, freed: bool, changed: [bool; BALLS]) -> [bool; BALLS] {
-        let members = self.freed_members();
+        let members = self.resting_members();
         std::array::from_fn(|index| changed[index] || (freed && members[index]))
     }
 
@@ -117,7 +117,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         {
             return ControlFlow::Continue(());
         }
-        self.cut(now);
+        self.end_step(now);
         // Other members of a continuing contact are part of the new one.
         let mut states: [BallState; BALLS] = match &self.resting {
             Some(resting) if resting.start < now => std::array::from_fn(|index| {
@@ -170,7 +170,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         // A slip that ends here has ended for good.
         self.relaunch(now, moved, &states);
         *changed = std::array::from_fn(|index| changed[index] || moved[index]);
-        let members = self.freed_members();
+        let members = self.resting_members();
         for index in 0..BALLS {
             let was = self.balls[index].mode;
             if members[index] {
@@ -184,7 +184,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 self.balls[index].mode = ContactMode::Bouncing;
                 // A ball whose contact ended because of another ball is still on the common trajectory.
                 if self.balls[index].segment.motion == Motion::Resting {
-                    self.relaunch(now, only(index), &states);
+                    self.relaunch(now, only_ball(index), &states);
                     changed[index] = true;
                 }
             }
@@ -212,7 +212,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// chatters, is early enough. In micro-collisions, any event may make it bounce again.
     fn may_bounce(&self, index: usize) -> bool {
         let Some(chatters) = &self.chatters else { return false };
-        let (ends, own) = (chatters.ends(index, self.longest_pause()), self.times[index]);
+        let (ends, own) = (chatters.end_times(index, self.longest_pause()), self.times[index]);
         if self.micro_collisions.is_some() {
             return self.times.iter().any(|time| ends.iter().any(|end| time <= end));
         }

@@ -118,15 +118,15 @@ mod tests {
     }
 
     #[test]
-    fn balls_come_hardly_farther_than_by_rolling() {
+    fn paths_hardly_exceed_the_rolling_path() {
         let largest = largest_of(10_000, any_table);
         assert!((1.0..0.5 * MARGIN).contains(&largest), "{largest}");
     }
 
-    /// `cargo test --release --lib balls_come_hardly -- --ignored`
+    /// `cargo test --release --lib paths_hardly_exceed -- --ignored`
     #[test]
     #[ignore = "takes four minutes"]
-    fn balls_come_hardly_farther_than_by_rolling_in_many_shots() {
+    fn paths_hardly_exceed_the_rolling_path_in_many_shots() {
         let largest = largest_of(3_000_000, any_table);
         let on_thesis = largest_of(3_000_000, |_| Table::preset("thesis").unwrap());
         println!("{largest}, on thesis {on_thesis}");

@@ -17,7 +17,7 @@ use super::{
     active_set::{Ended, find_active_set, remove_rounding, transient_pressing, without_ending_slips},
     contacts::{close_gaps, touching},
     extrapolation::{Phase, State, Step, extrapolate},
-    guards::{HELD, RESTING_BUDGET, STEP, STEP_BUDGET},
+    guards::{KNOWN_SET_COST, RESTING_BUDGET, STEP_BUDGET, STEP_COST},
     tolerance::Tolerance,
 };
 use crate::{
@@ -40,17 +40,17 @@ const LONGEST_CURVE: f64 = 0.08;
 const STIFF: f64 = 4.0;
 
 /// Largest initial turn rate of a slip times the length of an implicit step, rad.
-const MOST_TURN: f64 = 0.03;
+const MAX_TURN: f64 = 0.03;
 
 /// A law that breaks within this share of a step breaks immediately: the forces of jammed balls stay at the edge of the admissible set.
 const AT_ONCE: f64 = 1e-3;
 
 /// Number of consecutive such steps after which the forces are determined by the solver in every state.
-const MOST_SHORT_STEPS: u32 = 16;
+const MAX_SHORT_STEPS: u32 = 16;
 
 /// Number of consecutive restarts after which non-unique forces are sought near the previous ones. A search from zero may find forces at
 /// the edge of a law that break it immediately, in every step.
-const MOST_RESTARTS: u32 = 8;
+const MAX_RESTARTS: u32 = 8;
 
 /// Ratio of the next trial step to one in which a state has no forces.
 const WITHOUT_FORCES: f64 = 0.1;
@@ -63,7 +63,7 @@ type Accelerations<'a> = (&'a [DVec2; BALLS], &'a [DVec3; BALLS]);
 
 /// Location of a slip: a ball on the cloth, its centre, or a contact, by index.
 #[derive(Clone, Copy, Debug)]
-enum Place {
+enum SlipLocation {
     Cloth(usize),
     Roll(usize),
     Contact(usize),
@@ -86,7 +86,7 @@ pub struct Resting {
     pub(super) set: ActiveSet,
     /// The slip that ends first, which defines the rescaled time, and its magnitude at the start, m/s; `None` if no slip ends soon and time
     /// is not rescaled.
-    time_scale: Option<(Place, f64)>,
+    time_scale: Option<(SlipLocation, f64)>,
     first: Forces,
     pub(super) last: Forces,
     shared: bool,
@@ -95,7 +95,7 @@ pub struct Resting {
     /// Number of consecutive restarts.
     restarts: u32,
     /// Whether the active set at the end is still that of the start.
-    goes_on: bool,
+    keeps_set: bool,
     /// Work that the engine has not yet counted.
     pub(super) effort: Effort,
     /// Whether another event has ended the step.
@@ -115,7 +115,7 @@ struct Trial {
 
 impl Trial {
     /// Whether one of its states has no forces.
-    fn is_lost(&self) -> bool {
+    fn has_no_forces(&self) -> bool {
         self.step.error == f64::INFINITY
     }
 }
@@ -140,12 +140,12 @@ impl Resting {
         previous: Option<&Self>,
         next_step: f64,
     ) -> Outcome {
-        let Tolerance { slack, .. } = constants.tolerance;
+        let Tolerance { force_error, .. } = constants.tolerance;
         let mut contacts =
             touching(constants, balls, on_cloth, |opening| opening.abs() <= 2.0 * constants.tolerance.opening);
         let (mut free, effort) = (*balls, Effort::default());
-        effort.add(STEP);
-        let least_push = slack + transient_pressing(constants, balls, &contacts);
+        effort.add(STEP_COST);
+        let least_push = force_error + transient_pressing(constants, balls, &contacts);
         let Some((begin, resolved)) =
             find_active_set(table, constants, &mut free, &mut contacts, least_push, previous.map(Self::ended), &effort)
         else {
@@ -154,7 +154,7 @@ impl Resting {
         };
         let Resolved { contacts, set, forces, shared, .. } = resolved;
         let mut resting = Self {
-            members: std::array::from_fn(|ball| contacts.hold(ball)),
+            members: std::array::from_fn(|ball| contacts.involve(ball)),
             start,
             step: 0.0,
             end: begin,
@@ -167,7 +167,7 @@ impl Resting {
             shared,
             short_steps: previous.map_or(0, |previous| previous.short_steps),
             restarts: previous.map_or(0, |previous| previous.restarts + 1),
-            goes_on: false,
+            keeps_set: false,
             effort,
             interrupted: false,
             next_step,
@@ -184,16 +184,16 @@ impl Resting {
             set: &self.set,
             forces: &self.last,
             interrupted: self.interrupted,
-            repeats: self.restarts > MOST_RESTARTS,
+            repeats: self.restarts > MAX_RESTARTS,
         }
     }
 
     /// Takes the next step if the active set has not changed at the end of this one. Returns whether it has done so.
-    pub fn go_on(&mut self, table: &Table) -> bool {
-        if self.goes_on && !self.is_still() {
+    pub fn continue_step(&mut self, table: &Table) -> bool {
+        if self.keeps_set && !self.is_still() {
             (self.start, self.begin, self.first) = (self.start + self.step, self.end, self.last);
             self.restarts = 0;
-            self.effort.add(STEP);
+            self.effort.add(STEP_COST);
             self.advance(table);
             return true;
         }
@@ -203,11 +203,11 @@ impl Resting {
     /// Chooses the step length and takes the step.
     fn advance(&mut self, table: &Table) {
         let shortest = self.constants.tolerance.shortest_step;
-        let begin = self.beginning();
+        let begin = self.initial_trial();
         let mut span = self.longest_step(table.radius).min(self.next_step).max(shortest);
         let (trial, broken) = loop {
             let mut trial = self.attempt(table, &begin, span);
-            if trial.is_lost() {
+            if trial.has_no_forces() {
                 if span <= shortest {
                     // The active set has ended.
                     break (trial, true);
@@ -220,14 +220,14 @@ impl Resting {
             trial.step.best_length = trial.step.best_length.min(course);
             let Some(shorter) = self.shorter(table, &trial, course).filter(|_| span > shortest) else {
                 let trial = self.breaking_half(table, &begin, &trial, &middle).unwrap_or(trial);
-                let doubtful = trial.forces.slack < -self.constants.tolerance.slack || self.shared;
-                let broken = doubtful && !self.holds(table, &trial);
+                let doubtful = trial.forces.slack < -self.constants.tolerance.force_error || self.shared;
+                let broken = doubtful && !self.satisfies_laws(table, &trial);
                 break (if broken { self.until_a_law_breaks(table, &begin, &trial) } else { trial }, broken);
             };
             span = shorter.max(shortest);
         };
         if !self.uses_solver() {
-            let at_once = broken && (trial.is_lost() || trial.span < AT_ONCE * span);
+            let at_once = broken && (trial.has_no_forces() || trial.span < AT_ONCE * span);
             self.short_steps = if at_once { self.short_steps + 1 } else { 0 };
             if self.uses_solver() {
                 self.advance(table);
@@ -237,12 +237,12 @@ impl Resting {
         self.end_if_given_up();
         if self.is_given_up() || trial.step.end.time.is_nan() || trial.step.end.time <= 0.0 {
             // Nothing can be computed: time advances without motion.
-            (self.step, self.end, self.goes_on) = (shortest, self.begin, false);
+            (self.step, self.end, self.keeps_set) = (shortest, self.begin, false);
             return;
         }
         let mut end = trial.step.end;
-        let goes_on = !broken && !self.shared && self.set.lasts();
-        let ends = if goes_on { self.slips_end_after(table, &end.balls, &trial.forces) } else { None };
+        let keeps_set = !broken && !self.shared && self.set.begins_no_slip();
+        let ends = if keeps_set { self.slips_end_after(table, &end.balls, &trial.forces) } else { None };
         if let Some(time) = ends {
             for (ball, state) in end.balls.iter_mut().enumerate().filter(|(ball, _)| self.members[*ball]) {
                 let linear = trial.forces.linear[ball];
@@ -252,11 +252,11 @@ impl Resting {
             }
             end.time += time;
         }
-        (self.step, self.last, self.goes_on) = (end.time, trial.forces, goes_on && ends.is_none());
+        (self.step, self.last, self.keeps_set) = (end.time, trial.forces, keeps_set && ends.is_none());
         let changes = broken || ends.is_some();
         let rate = self.time_rate(table.radius, &end.balls);
         self.next_step = if changes { f64::INFINITY } else { trial.step.best_length * rate };
-        self.end = if self.goes_on {
+        self.end = if self.keeps_set {
             close_gaps(&self.constants, &mut end.balls, &self.contacts);
             end.balls
         } else {
@@ -293,12 +293,12 @@ impl Resting {
     fn turns_over(&self, radius: f64, ball: usize, spin: f64) -> bool {
         match self.set.spin[ball] {
             Friction::Slips(sign) => radius * spin * sign.x < -self.constants.tolerance.slip,
-            Friction::Sticks | Friction::Yields | Friction::Eases => false,
+            Friction::Sticks | Friction::Yields | Friction::Filippov => false,
         }
     }
 
     /// Passes every slip of this active set and its rate to `each`.
-    fn slips(&self, radius: f64, balls: &State, forces: &Forces, mut each: impl FnMut(Place, DVec2, DVec2)) {
+    fn slips(&self, radius: f64, balls: &State, forces: &Forces, mut each: impl FnMut(SlipLocation, DVec2, DVec2)) {
         let rates: State = std::array::from_fn(|ball| BallState {
             position: balls[ball].position,
             velocity: forces.linear[ball],
@@ -309,21 +309,21 @@ impl Resting {
             let (state, rate) = (&balls[ball], &rates[ball]);
             let slip = |state: &BallState| slip(radius, state.velocity, state.spin);
             if slips(self.set.cloth[ball]) {
-                each(Place::Cloth(ball), slip(state), slip(rate));
-            } else if slips(self.set.roll[ball]) || self.set.roll[ball] == Friction::Eases {
-                each(Place::Roll(ball), state.velocity, rate.velocity);
+                each(SlipLocation::Cloth(ball), slip(state), slip(rate));
+            } else if slips(self.set.roll[ball]) || self.set.roll[ball] == Friction::Filippov {
+                each(SlipLocation::Roll(ball), state.velocity, rate.velocity);
             }
         }
         for (index, contact) in self.contacts.iter().enumerate() {
             if slips(self.set.contact[index]) {
-                each(Place::Contact(index), contact.slip(radius, balls), contact.slip(radius, &rates));
+                each(SlipLocation::Contact(index), contact.slip(radius, balls), contact.slip(radius, &rates));
             }
         }
     }
 
     /// Whether the solver determines the forces in every state, because the active sets found before have repeatedly not lasted.
     const fn uses_solver(&self) -> bool {
-        self.short_steps > MOST_SHORT_STEPS
+        self.short_steps > MAX_SHORT_STEPS
     }
 
     /// Whether the step has exceeded its work budget.
@@ -339,7 +339,7 @@ impl Resting {
     }
 
     /// Returns the start of the step.
-    const fn beginning(&self) -> Trial {
+    const fn initial_trial(&self) -> Trial {
         let step = Step { end: Phase { balls: self.begin, time: 0.0 }, error: 0.0, best_length: 0.0 };
         Trial { span: 0.0, step, forces: self.first }
     }
@@ -348,19 +348,19 @@ impl Resting {
     fn attempt(&self, table: &Table, from: &Trial, span: f64) -> Trial {
         let begin = &from.step.end;
         let mut last = from.forces;
-        let (yields, mut is_lost) = (self.set.yields() || self.uses_solver(), false);
+        let (yields, mut has_no_forces) = (self.set.yields() || self.uses_solver(), false);
         let slope = |phase: &Phase| {
-            let held = if yields || is_lost {
+            let held = if yields || has_no_forces {
                 None
             } else {
-                self.effort.add(HELD * self.contacts.len().pow(2) as u64);
+                self.effort.add(KNOWN_SET_COST * self.contacts.len().pow(2) as u64);
                 self.scene(table, &phase.balls).accelerations(&self.first)
             };
             let (linear, angular) = held.unwrap_or_else(|| {
                 // Without forces, the step has failed.
-                if !is_lost {
+                if !has_no_forces {
                     last = self.search_forces(self.scene(table, &phase.balls), &last, !yields);
-                    is_lost = !yields && !last.converged;
+                    has_no_forces = !yields && !last.converged;
                 }
                 (last.linear, last.angular)
             });
@@ -372,25 +372,25 @@ impl Resting {
         let mut step = extrapolate(begin, &first, slope, stiff.as_ref(), length, (table.radius, tolerance));
         let forces = self.forces(self.scene(table, &step.end.balls), &from.forces);
         // If a friction yields, forces are at the edge of the laws and rarely converge to rounding; only the error of the step counts then.
-        if is_lost || !yields && !forces.converged {
+        if has_no_forces || !yields && !forces.converged {
             (step.error, step.best_length) = (f64::INFINITY, WITHOUT_FORCES * length);
         }
         Trial { span, step, forces }
     }
 
     /// Whether the forces at a step's end obey all laws.
-    fn holds(&self, table: &Table, trial: &Trial) -> bool {
+    fn satisfies_laws(&self, table: &Table, trial: &Trial) -> bool {
         let end = &trial.step.end.balls;
         let turned = |ball: usize| self.members[ball] && self.turns_over(table.radius, ball, end[ball].spin.z);
         if self.is_given_up() || (0..BALLS).any(turned) {
             return false;
         }
-        let slack = self.constants.tolerance.slack;
-        let lawful = self.scene(table, end).resolve(slack, Some(&trial.forces), &self.effort);
+        let force_error = self.constants.tolerance.force_error;
+        let lawful = self.scene(table, end).resolve(force_error, Some(&trial.forces), &self.effort);
         lawful.is_some_and(|lawful| {
-            trial.forces.distance(&lawful.forces, table.radius) <= 1e3 * slack
+            trial.forces.distance(&lawful.forces, table.radius) <= 1e3 * force_error
                 && lawful.contacts[..] == self.contacts[..]
-                && !lawful.set.lets_go(&self.set)
+                && !lawful.set.releases(&self.set)
         })
     }
 
@@ -413,7 +413,7 @@ impl Resting {
             longest = longest.min(strays(length / rate.length()));
             // An implicit step requires a direction that already follows the forces; before that, it turns fast.
             let turning = (slip.perp_dot(rate) / (length * length)).abs();
-            longest = longest.min((STIFF * length / (3.5 * sliding)).max(MOST_TURN / turning));
+            longest = longest.min((STIFF * length / (3.5 * sliding)).max(MAX_TURN / turning));
             let falls = -length * length / rate.dot(slip);
             if falls > 0.0 && falls < soonest {
                 (soonest, time_scale) = (falls, Some((place, length)));
@@ -432,9 +432,9 @@ impl Resting {
     fn time_rate(&self, radius: f64, balls: &State) -> f64 {
         let Some((place, from)) = self.time_scale else { return 1.0 };
         let slip = match place {
-            Place::Cloth(ball) => slip(radius, balls[ball].velocity, balls[ball].spin),
-            Place::Roll(ball) => balls[ball].velocity,
-            Place::Contact(index) => self.contacts[index].slip(radius, balls),
+            SlipLocation::Cloth(ball) => slip(radius, balls[ball].velocity, balls[ball].spin),
+            SlipLocation::Roll(ball) => balls[ball].velocity,
+            SlipLocation::Contact(index) => self.contacts[index].slip(radius, balls),
         };
         slip.length() / from
     }
@@ -442,7 +442,8 @@ impl Resting {
     /// Returns a later state without rounding errors.
     fn without_rounding(&self, table: &Table, mut balls: State) -> State {
         let contacts = &self.contacts;
-        let set = ActiveSet::of(table, &balls, contacts, self.constants.tolerance.slip).slipping_where(&self.set);
+        let set =
+            ActiveSet::of(table, &balls, contacts, self.constants.tolerance.slip).with_yielding_as_slipping(&self.set);
         remove_rounding(table, &self.constants, &mut balls, contacts, &set);
         balls
     }
@@ -458,7 +459,7 @@ impl Resting {
         if scene.set.yields() || self.uses_solver() {
             return self.search_forces(scene, near, false);
         }
-        self.effort.add(HELD * self.contacts.len().pow(2) as u64);
+        self.effort.add(KNOWN_SET_COST * self.contacts.len().pow(2) as u64);
         scene.forces(Some(&self.first)).unwrap_or_else(|| self.search_forces(scene, near, true))
     }
 
@@ -480,12 +481,12 @@ impl Resting {
     }
 
     /// Whether these two balls press each other.
-    pub fn holds_together(&self, (first, second): (usize, usize)) -> bool {
+    pub fn presses_together(&self, (first, second): (usize, usize)) -> bool {
         self.contacts.iter().any(|contact| (contact.first, contact.second) == (first, Some(second)))
     }
 
     /// Whether this cushion holds the ball.
-    pub fn holds_at(&self, ball: usize, rail: Rail) -> bool {
+    pub fn presses_cushion(&self, ball: usize, rail: Rail) -> bool {
         self.contacts.contains(&Contact::with_cushion(ball, rail.normal()))
     }
 }

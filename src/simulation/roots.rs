@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn a_root_at_the_very_end_counts_and_one_behind_it_does_not() {
+    fn root_at_the_interval_end_counts_and_later_ones_do_not() {
         let line = |t: f64| 1.0 - t;
         assert_eq!(first_crossing(line, &[-1.0], 1.0 - 1e-9), None);
         assert!((first_crossing(line, &[-1.0], 1.0 + 1e-9).unwrap() - 1.0).abs() < 1e-15);

@@ -13,10 +13,10 @@ pub trait Savings {
     /// Only cushions that a ball can reach before its motion ends are solved for.
     const CUSHIONS_IN_REACH: bool = true;
     /// No root is sought for two balls whose trajectories are separated by a line.
-    const COURSES_APART: bool = true;
+    const SEPARATED_COURSES: bool = true;
     /// While the cue ball moves alone, a specialized loop follows it, which compares no event times and does not store the trajectory in
     /// memory. It keeps predictions, and is therefore off if [`Savings::KEPT_PREDICTIONS`] is off.
-    const ALONE: bool = true;
+    const LONE_BALL: bool = true;
     /// A ball that only rolls to rest is not simulated if the observer does not need the end.
     const LAST_ROLLS: bool = true;
     /// The simulation ends when the observer breaks, because the outcome is decided.
@@ -28,6 +28,6 @@ pub trait Savings {
 
 /// All optimizations; used by [`super::simulate`].
 #[derive(Clone, Copy, Debug)]
-pub struct All;
+pub struct AllSavings;
 
-impl Savings for All {}
+impl Savings for AllSavings {}

@@ -277,7 +277,7 @@ mod tests {
     use crate::{physics::rolling_spin, table::Table};
 
     #[test]
-    fn a_sliding_ball_rolls_exactly_when_its_slip_is_used_up() {
+    fn sliding_ends_exactly_when_the_slip_is_zero() {
         let constants = Constants::of(&Table::preset("textbook").unwrap());
         let state =
             BallState { position: DVec2::ZERO, velocity: DVec2::new(2.0, -1.0), spin: DVec3::new(30.0, -70.0, 20.0) };

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     physics::{BallState, CueInputs, Impulse, Motion, Rolling, rolling_deceleration, rolling_spin, slip, strike},
-    table::{Layout, OneRail, RailModel, Rails, Table},
+    table::{Layout, RailModel, RailOverrides, Rails, Table},
 };
 
 /// Returns the final position of the cue ball on `match` with a nose of this restitution, which draw makes the ball climb.
@@ -24,7 +24,7 @@ fn end_at_a_dead_nose(rail_restitution: f64) -> DVec2 {
 }
 
 #[test]
-fn a_nose_that_just_throws_a_ball_back_and_one_that_just_does_not_differ_little() {
+fn end_position_is_continuous_at_the_rebound_limit_of_the_nose() {
     // A nose that stops the ball presses it down and hits it again until its approach speed is zero.
     let ends = [0.0955, 0.096, 0.0965].map(end_at_a_dead_nose);
     assert!(ends[0].distance(ends[1]) < 1.2 * ends[1].distance(ends[2]), "{ends:?}");
@@ -75,13 +75,13 @@ fn rolled(table: &Table, from: DVec2, velocity: DVec2) -> (Course, DVec2) {
 
 #[test]
 fn each_rail_has_its_own_constants() {
-    let own = |e, mu| Some(OneRail { e: Some(e), mu: Some(mu), height: None });
+    let own = |e, mu| Some(RailOverrides { e: Some(e), mu: Some(mu), height: None });
     let (left, right, bottom, top) = (own(0.6, 0.0), own(0.7, 0.01), own(0.8, 0.02), own(0.9, 0.03));
     for model in [RailModel::Equator, RailModel::Nose] {
         let rail = Rails { model, left, right, bottom, top, ..Rails::default() };
         let table = Table { rail, ..Table::default() };
         for (rail, own) in Rail::ALL.into_iter().zip([left, right, bottom, top]) {
-            let OneRail { e, mu, .. } = own.unwrap();
+            let RailOverrides { e, mu, .. } = own.unwrap();
             // Straight at the rail, with enough sidespin for friction at its limit.
             let from = -0.5 * rail.normal() * table.reach();
             let (course, _) = played(&table, from, -rail.normal(), DVec3::new(0.0, 0.0, 80.0), None);
@@ -102,7 +102,7 @@ fn each_rail_has_its_own_constants() {
 }
 
 #[test]
-fn a_bands_edge_right_at_a_cushion_changes_nothing() {
+fn edge_of_a_band_at_a_cushion_changes_nothing() {
     let table = Table::default();
     let rolling = Rolling::of(&table);
     let speed = 1.0;
@@ -141,7 +141,7 @@ fn slow_balls_stop_where_the_law_says() {
 }
 
 #[test]
-fn the_last_band_stops_a_ball_where_it_is() {
+fn last_band_stops_a_ball_without_a_jump() {
     // A ball that stops in a band that ends close to rest must not be moved back by its remaining speed. The last band starts here.
     let table = Table::default();
     for step in 0..2000 {
@@ -154,7 +154,7 @@ fn the_last_band_stops_a_ball_where_it_is() {
 }
 
 #[test]
-fn on_a_slope_a_course_has_no_jumps_and_ends_in_rest() {
+fn course_on_a_slope_is_continuous_and_ends_at_rest() {
     for name in ["match", "textbook"] {
         let table = Table { tilt: DVec2::new(-6e-4, 8e-4), ..Table::preset(name).unwrap() };
         let (velocity, spin) = (DVec2::new(0.9, 0.1), DVec3::new(20.0, -10.0, 30.0));
@@ -176,7 +176,7 @@ fn on_a_slope_a_course_has_no_jumps_and_ends_in_rest() {
 }
 
 #[test]
-fn a_ball_that_rolls_down_a_slope_meets_another_at_its_surface() {
+fn ball_rolling_down_a_slope_collides_at_the_surface() {
     // The path of the roll bends by some centimetres: on a straight line, the ball would hit the other one elsewhere or not at all.
     let table = Table { tilt: DVec2::new(0.0, 1e-3), ..Table::preset("textbook").unwrap() };
     for aside in [0.0, 0.01, 0.03, 0.05] {
@@ -231,7 +231,7 @@ fn on_a_slope_no_energy_is_gained() {
 }
 
 #[test]
-fn a_mirrored_shot_on_a_mirrored_slope_ends_at_the_mirrored_place() {
+fn mirrored_shot_on_a_mirrored_slope_ends_mirrored() {
     let tilt = DVec2::new(-6e-4, 8e-4);
     let mirror = DVec2::new(1.0, -1.0);
     for name in ["match", "textbook"] {
@@ -255,7 +255,7 @@ fn a_mirrored_shot_on_a_mirrored_slope_ends_at_the_mirrored_place() {
 }
 
 #[test]
-fn a_ball_that_rolls_along_the_rail_that_the_table_leans_to_comes_to_rest() {
+fn ball_rolling_along_the_lower_rail_comes_to_rest() {
     for name in ["match", "textbook", "thesis"] {
         let table = Table { tilt: DVec2::new(0.0, 2e-3), ..Table::preset(name).unwrap() };
         let reach = table.reach();
@@ -276,7 +276,7 @@ fn a_ball_that_rolls_along_the_rail_that_the_table_leans_to_comes_to_rest() {
 /// If two balls hit opposite cushions at the same moment, the second impact, which is as slow as the end of a chatter, must not be absorbed
 /// by the resting contact of the first.
 #[test]
-fn a_contact_that_closes_faster_than_the_tolerance_does_not_rest_yet() {
+fn contact_closing_faster_than_the_tolerance_does_not_rest() {
     let table = Table::preset("thesis").unwrap();
     let constants = Constants::of(&table);
     let rests = |closing: f64| {
@@ -311,7 +311,7 @@ impl Observer for Steps {
 /// A ball presses two others into a corner, and one of them begins to roll extremely slowly. No forces are found that obey all laws to
 /// rounding, and each search costs as much as hundreds of bounces. In micro-collisions, they roll on until they come to rest.
 #[test]
-fn a_shot_whose_forces_are_not_found_goes_on_in_micro_collisions() {
+fn shot_without_known_forces_continues_in_micro_collisions() {
     let table = Table { ball_restitution: 0.3, rail_restitution: 0.3, ..Table::preset("textbook").unwrap() };
     let balls = [
         DVec2::new(0.887_635_992_145_478_8, 0.229_628_755_329_131_96),
@@ -334,7 +334,7 @@ fn a_shot_whose_forces_are_not_found_goes_on_in_micro_collisions() {
 /// Three balls in a row fill the table except for 1e-10 m, and the cue ball returns into the row. Just before it has passed the middle, the
 /// row needs 7e-16 m more than there is, which no impulse creates.
 #[test]
-fn a_row_that_rounding_jams_lets_the_ball_pass() {
+fn row_jammed_by_rounding_lets_the_ball_pass() {
     let preset = Table::preset("textbook").unwrap();
     let (length, width) = (6.0 * preset.radius, 6.0 * preset.radius);
     let table = Table { length, width, opening_offset: 2.0 * preset.radius, ..preset };
@@ -359,7 +359,7 @@ fn a_row_that_rounding_jams_lets_the_ball_pass() {
 /// A ball that rolls exactly into the corner of a square table hits both cushions at once, independent of their numbering: mirrored at the
 /// diagonal, with the opposite sidespin, the shot is the same.
 #[test]
-fn a_ball_in_a_corner_meets_both_cushions_together() {
+fn ball_in_a_corner_hits_both_cushions_together() {
     let table = Table { length: 1.5, width: 1.5, rail_friction: 0.2, ..Table::preset("thesis").unwrap() };
     let velocity = DVec2::splat(1.0);
     let ends = [90.0, -90.0].map(|side| {

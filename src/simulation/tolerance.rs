@@ -18,7 +18,7 @@ pub struct Tolerance {
     pub moment: f64,
     /// A gap that stays above this cannot be closed by rounding, m. Smaller: a prediction with other rounding than the test could be
     /// missed. Larger: roots are sought needlessly.
-    pub surely_apart: f64,
+    pub certain_gap: f64,
     /// Bounces that are given up together with others are lower than this, m: a ball may be moved by this much at the end of a chatter. A
     /// moving ball nearer than this touches resting balls. Larger: trajectories jump. Smaller: coupled contacts end their chatters one at a
     /// time.
@@ -50,7 +50,7 @@ pub struct Tolerance {
     /// Accepted estimated error of a step of a resting contact, in m, m/s, or R times rad/s. A contact takes some tens of steps.
     pub step: f64,
     /// Violations or differences of forces per mass below this count as rounding errors, m/s².
-    pub slack: f64,
+    pub force_error: f64,
     /// Bounces slower than this may be the end of a chatter, m/s; for faster ones the test is skipped, because it cannot matter. Scales
     /// with the number of bounces of a chatter.
     pub slow_bounce: f64,
@@ -73,7 +73,7 @@ pub struct Tolerance {
     pub fastest_micro_collision: f64,
     /// Gap that such a bounce creates between balls and cushions, m: balls that start from rest gain some speed by crossing it. Larger:
     /// trajectories jump. Smaller: more bounces are needed.
-    pub micro_room: f64,
+    pub micro_gap: f64,
     /// First bounce speed of balls that never slip in a state without consistent forces, m/s: above the slowest bounce, so that the chatter
     /// does not end at once.
     pub first_bounce: f64,
@@ -102,7 +102,7 @@ impl Tolerance {
         Self {
             touching: 16.0 * f64::EPSILON * table.length.max(table.width),
             moment: 800.0 * f64::EPSILON * table.length.max(table.width) / speed,
-            surely_apart: 1.6e5 * f64::EPSILON * table.length.max(table.width),
+            certain_gap: 1.6e5 * f64::EPSILON * table.length.max(table.width),
             coupled_gap: 1.6e4 * f64::EPSILON * table.length.max(table.width),
             opening: 2e-11 * speed,
             pressing: 1e-14 * table.gravity.min(5.0 * friction),
@@ -113,14 +113,14 @@ impl Tolerance {
             shortest_step: (8e-13 * speed / friction).min(1e-13),
             shortest_quintic: 8.7e10 * f64::EPSILON * table.length.max(table.width) / speed,
             step: 2e-13 * speed.max(table.radius),
-            slack: 1e-12 * table.gravity.min(5.0 * friction),
+            force_error: 1e-12 * table.gravity.min(5.0 * friction),
             slow_bounce: 2e-2 * speed * liveliness(table),
             least_lift: 2e-2 * speed,
             slowest_bounce: 2e-10 * speed,
             slowest_lossless_bounce: 2e-8 * speed,
             slowest_in_air: 4e-3 * speed,
             fastest_micro_collision: 1e-3 * speed,
-            micro_room: 7e5 * f64::EPSILON * table.length.max(table.width),
+            micro_gap: 7e5 * f64::EPSILON * table.length.max(table.width),
             first_bounce: FIRST_BOUNCE * speed,
             shortest_parting: 4.0 * FIRST_BOUNCE * speed / (table.sliding_friction * table.gravity),
             slowest_coupled_bounce: 2e-8 * speed,

@@ -13,7 +13,7 @@ use plotters::{
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// Result of a drawing operation.
-pub type Drawn<T = ()> = Result<T, DrawingAreaErrorKind<io::Error>>;
+pub type DrawResult<T = ()> = Result<T, DrawingAreaErrorKind<io::Error>>;
 
 /// Colour of text.
 pub const INK: RGBColor = RGBColor(0x24, 0x29, 0x2f);
@@ -196,7 +196,7 @@ impl Chart {
         legend
     }
 
-    fn panel(&self, area: &Area<'_>, panel: &Panel) -> Drawn {
+    fn panel(&self, area: &Area<'_>, panel: &Panel) -> DrawResult {
         let mut chart = ChartBuilder::on(area)
             .margin(TEXT / 2)
             .margin_right(TEXT)
@@ -253,7 +253,7 @@ impl Chart {
 
 impl Series {
     /// Draws the legend entry, marker and name, at a position in pixels.
-    fn in_legend(&self, area: &Area<'_>, (x, y): (i32, i32)) -> Drawn {
+    fn in_legend(&self, area: &Area<'_>, (x, y): (i32, i32)) -> DrawResult {
         let reach = TEXT;
         let line = self.color.stroke_width(3);
         match (self.mark, self.mark.corners()) {
@@ -295,7 +295,7 @@ impl Mark {
 ///
 /// # Errors
 /// Fails if the picture cannot be drawn.
-pub fn svg([width, height]: [u32; 2], draw: impl FnOnce(&Area<'_>) -> Drawn) -> io::Result<String> {
+pub fn svg([width, height]: [u32; 2], draw: impl FnOnce(&Area<'_>) -> DrawResult) -> io::Result<String> {
     let mut svg = String::new();
     let area = SVGBackend::with_string(&mut svg, (width, height)).into_drawing_area();
     area.fill(&WHITE).and_then(|()| draw(&area)).and_then(|()| area.present()).map_err(io::Error::other)?;
@@ -321,7 +321,7 @@ mod tests {
     }
 
     #[test]
-    fn values_are_named_as_people_write_them() {
+    fn tick_labels_are_written_as_people_write_numbers() {
         let powers = Axis::decades("", [1e-12, 1.0].into_iter(), -20, 6);
         assert_eq!([powers.tick_label(-12.0), powers.tick_label(0.0)], ["10⁻¹²", "10⁰"]);
         let plain = Axis { is_logarithmic: false, ..powers };

@@ -8,7 +8,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::{
     physics::Impulse,
-    simulation::{All, Event, Observer, Savings, simulate_with},
+    simulation::{AllSavings, Event, Observer, Savings, simulate_with},
     table::{BALLS, Layout, Table},
 };
 
@@ -72,7 +72,7 @@ pub fn hash(table: &Table, lift: f64) -> u64 {
     }
     shots
         .iter()
-        .flat_map(|(layout, impulse)| trace::<All>(table, layout, impulse).bits)
+        .flat_map(|(layout, impulse)| trace::<AllSavings>(table, layout, impulse).bits)
         .flat_map(u64::to_le_bytes)
         .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }

@@ -43,7 +43,7 @@ impl Method {
     }
 
     /// Returns the name of the method's family in reports.
-    pub const fn words(self) -> &'static str {
+    pub const fn description(self) -> &'static str {
         match self {
             Self::Extrema => "reference engine (64 bits), extrema",
             Self::ClosedForm => "reference engine (64 bits), Ferrari",

@@ -40,7 +40,7 @@ pub fn error_against_time(studies: &[Study]) -> io::Result<String> {
         let series = STYLES.iter().filter_map(|&(family, color, mark)| {
             let rows = || study.rows.iter().filter(|row| row.method == family);
             let points: Vec<_> = rows().filter_map(point_of).collect();
-            let name = rows().next()?.words.to_owned();
+            let name = rows().next()?.description.to_owned();
             (!points.is_empty()).then_some(Series { name, color, mark, points })
         });
         Panel { title: title(study), series: series.collect() }
@@ -97,7 +97,7 @@ fn dots(study: &Study, family: &str, dt: Option<f64>) -> Option<Series> {
     let points = study.points[index].iter().take(MAX_DOTS);
     let points =
         points.map(|point| Spot { x: point.condition, y: point.rest.max(SMALLEST_ERROR), ..Spot::default() }).collect();
-    let words = study.rows[index].words;
-    let name = dt.map_or_else(|| words.to_owned(), |dt| format!("{words}, dt {dt:e} s"));
+    let description = study.rows[index].description;
+    let name = dt.map_or_else(|| description.to_owned(), |dt| format!("{description}, dt {dt:e} s"));
     Some(Series { name, color, mark: Mark::Dots, points })
 }

@@ -7,8 +7,8 @@ use super::{
     errors::Errors,
     methods::{Method, Run},
     reference_engine::Unjudged,
-    shots::{Steepest, StudyShot},
-    statistics::{Share, Spread},
+    shots::{MaxElevation, StudyShot},
+    statistics::{Proportion, Spread},
     truth::Truth,
 };
 use crate::table::Table;
@@ -29,9 +29,9 @@ pub struct Plan {
     /// The table.
     pub table: Table,
     /// The name or path by which `--table` finds the table.
-    pub found_by: String,
+    pub table_argument: String,
     /// Greatest cue elevation of the shots.
-    pub steepest: Steepest,
+    pub max_elevation: MaxElevation,
     /// The shots.
     pub shots: Vec<StudyShot>,
     /// The methods.
@@ -53,7 +53,8 @@ pub struct Row {
     pub method: &'static str,
     /// The method's family in reports.
     #[serde(skip)]
-    pub words: &'static str,
+    #[serde(rename = "words")]
+    pub description: &'static str,
     /// The time step, s; `None` for event-driven methods.
     pub dt: Option<f64>,
     /// Number of shots played.
@@ -69,21 +70,21 @@ pub struct Row {
     /// `rest_m` in units of `(1 + condition) 2^-53`.
     pub rest_units: Option<Spread>,
     /// Shots with an error at rest of more than 1e-9 m.
-    pub beyond_1e_9_m: Share,
+    pub beyond_1e_9_m: Proportion,
     /// Error of the event times, s.
     pub time_s: Option<Spread>,
     /// `time_s` in units of `(1 + condition) 2^-53`.
     pub time_units: Option<Spread>,
     /// Shots with a wrong sequence of events.
-    pub wrong_sequence: Share,
+    pub wrong_sequence: Proportion,
     /// Median index of the first event that differs, over the shots with a wrong sequence.
     pub first_wrong: Option<f64>,
     /// Unexplained energy as a share of the initial energy.
     pub energy: Option<Spread>,
     /// Shots whose outcome is wrong under straight rail.
-    pub flips_straight: Share,
+    pub flips_straight: Proportion,
     /// Shots whose outcome is wrong under three-cushion.
-    pub flips_three_cushion: Share,
+    pub flips_three_cushion: Proportion,
     /// The shot with the largest error in units, as a command line.
     pub worst_shot: String,
 }
@@ -132,11 +133,11 @@ pub struct Summary {
     /// Greatest cue elevation, degrees.
     pub steepest_deg: f64,
     /// Share of the judged shots in which a ball leaves the cloth.
-    pub flies: Share,
+    pub flies: Proportion,
     /// Shots whose truth is known; all others are neither judged nor timed.
-    pub judged: Share,
+    pub judged: Proportion,
     /// Share of the judged shots in which balls chatter or rest against something while they move.
-    pub chatters: Share,
+    pub chatters: Proportion,
     /// Condition of the judged shots, m.
     pub condition_m: Option<Spread>,
     /// Error of the truth's own energy balance, as a share of the initial energy.
@@ -212,10 +213,10 @@ impl Plan {
         };
         let summary = Summary {
             table: self.table.name.clone(),
-            steepest_deg: self.steepest.degrees(),
-            flies: Share::of(known().map(Truth::flies)),
-            judged: Share::of(truths.iter().map(Result::is_ok)),
-            chatters: Share::of(known().map(|truth| truth.chatters)),
+            steepest_deg: self.max_elevation.degrees(),
+            flies: Proportion::of(known().map(Truth::flies)),
+            judged: Proportion::of(truths.iter().map(Result::is_ok)),
+            chatters: Proportion::of(known().map(|truth| truth.chatters)),
             condition_m: Spread::of(known().map(|truth| truth.condition)),
             truth_energy: Spread::of(known().map(|truth| truth.unaccounted.abs())),
             truth_cost_us: 1e6 * truth_cost / truths.len().max(1) as f64,
@@ -239,9 +240,9 @@ impl Plan {
         });
         Row {
             table: self.table.name.clone(),
-            steepest_deg: self.steepest.degrees(),
+            steepest_deg: self.max_elevation.degrees(),
             method: method.family(),
-            words: method.words(),
+            description: method.description(),
             dt: method.time_step(),
             shots: gathered.shots.len(),
             failed: gathered.shots.iter().filter(|(_, errors, _)| errors.is_none()).count(),
@@ -249,16 +250,17 @@ impl Plan {
             cost_spread_us: Spread::of(gathered.blocks.iter().copied()),
             rest_m: Spread::of(errors().map(|errors| errors.rest)),
             rest_units: Spread::of(errors().map(|errors| errors.rest_units)),
-            beyond_1e_9_m: Share::of(errors().map(|errors| errors.rest > 1e-9)),
+            beyond_1e_9_m: Proportion::of(errors().map(|errors| errors.rest > 1e-9)),
             time_s: Spread::of(timed().map(|(_, time)| time)),
             time_units: Spread::of(timed().map(|(shot, time)| time / unit(shot))),
-            wrong_sequence: Share::of(errors().map(|errors| errors.differs_at.is_some())),
+            wrong_sequence: Proportion::of(errors().map(|errors| errors.differs_at.is_some())),
             first_wrong: Spread::of(errors().filter_map(|errors| errors.differs_at).map(|index| index as f64))
                 .map(|spread| spread.median),
             energy: Spread::of(gathered.shots.iter().filter_map(|(_, _, energy)| *energy)),
-            flips_straight: Share::of(errors().map(|errors| errors.flips[0])),
-            flips_three_cushion: Share::of(errors().map(|errors| errors.flips[1])),
-            worst_shot: worst.map_or_else(String::new, |(shot, ..)| self.shots[*shot].command_line(&self.found_by)),
+            flips_straight: Proportion::of(errors().map(|errors| errors.flips[0])),
+            flips_three_cushion: Proportion::of(errors().map(|errors| errors.flips[1])),
+            worst_shot: worst
+                .map_or_else(String::new, |(shot, ..)| self.shots[*shot].command_line(&self.table_argument)),
         }
     }
 }

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::{
     reference_engine::{DoubleDouble, Real},
-    shots::{Reference, ReferenceEvent, references},
-    statistics::{Share, Spread},
+    shots::{ReferenceEvent, ReferenceShot, references},
+    statistics::{Proportion, Spread},
     truth::Truth,
 };
 use crate::{
@@ -36,13 +36,13 @@ pub struct ReferenceRow {
     /// `truth_m` in units of `(1 + condition) 2^-53`, for shots whose condition is in the file.
     pub truth_units: Option<Spread>,
     /// Shots in which the truth has a different sequence of events.
-    pub truth_wrong: Share,
+    pub truth_wrong: Proportion,
     /// Distance between the engine's final positions and the file's, m.
     pub engine_m: Option<Spread>,
     /// `engine_m` in units of `(1 + condition) 2^-53`.
     pub engine_units: Option<Spread>,
     /// Shots in which the engine has a different sequence of events.
-    pub engine_wrong: Share,
+    pub engine_wrong: Proportion,
     /// The largest error of an event time in each shot with a correct sequence, s. Shots with a condition of a million or more
     /// are excluded.
     pub engine_time_s: Option<Spread>,
@@ -69,7 +69,7 @@ struct Checked {
     engine_to_truth: Option<f64>,
 }
 
-fn row(file: &'static str, shots: &[Reference]) -> ReferenceRow {
+fn row(file: &'static str, shots: &[ReferenceShot]) -> ReferenceRow {
     let checked: Vec<Checked> = shots.iter().map(check).collect();
     let in_units = |error: fn(&Checked) -> Option<f64>| {
         Spread::of(checked.iter().filter_map(move |shot| Some(error(shot)? / shot.unit?)))
@@ -80,19 +80,19 @@ fn row(file: &'static str, shots: &[Reference]) -> ReferenceRow {
         unjudged: checked.iter().filter(|shot| shot.truth.is_none()).count(),
         truth_m: Spread::of(checked.iter().filter_map(|shot| shot.truth)),
         truth_units: in_units(|shot| shot.truth),
-        truth_wrong: Share::of(checked.iter().filter_map(|shot| shot.truth_wrong)),
+        truth_wrong: Proportion::of(checked.iter().filter_map(|shot| shot.truth_wrong)),
         engine_m: Spread::of(checked.iter().map(|shot| shot.engine)),
         engine_units: in_units(|shot| Some(shot.engine)),
-        engine_wrong: Share::of(checked.iter().filter_map(|shot| shot.engine_wrong)),
+        engine_wrong: Proportion::of(checked.iter().filter_map(|shot| shot.engine_wrong)),
         engine_time_s: Spread::of(checked.iter().filter_map(|shot| shot.engine_time)),
         engine_duration_s: Spread::of(checked.iter().filter_map(|shot| shot.engine_duration)),
         engine_to_truth_m: Spread::of(checked.iter().filter_map(|shot| shot.engine_to_truth)),
     }
 }
 
-fn check(reference: &Reference) -> Checked {
+fn check(reference: &ReferenceShot) -> Checked {
     let table = reference.table();
-    let known_end = table.as_ref().map_or(reference.end, |table| reference.end_on(table));
+    let known_end = table.as_ref().map_or(reference.end, |table| reference.final_layout(table));
     let truth = table.as_ref().and_then(|table| Truth::of_reference(table, reference).ok());
     let recording = table.and_then(|table| Recording::new(&table, &reference.layout, &reference.cue.into()).ok());
     let has_events = !reference.events.is_empty();

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::{
     precision::{Row, Study, Summary},
     reference_check::{GOAL_MEDIAN, GOAL_P99, ReferenceRow},
-    statistics::{Share, Spread},
+    statistics::{Proportion, Spread},
 };
 use crate::platform::CLOCK_NAME;
 
@@ -39,7 +39,7 @@ fn references_text(out: &mut String, rows: &[ReferenceRow]) {
             spread(row.truth_m),
             spread(row.engine_m),
             units(row.engine_units),
-            if row.engine_wrong.of == 0 { "-".to_owned() } else { wrong(row.engine_wrong) },
+            if row.engine_wrong.total == 0 { "-".to_owned() } else { wrong(row.engine_wrong) },
         );
         if let (Some(engine), true) = (row.engine_to_truth_m, row.file == "contact") {
             let _ = writeln!(out, "{:17}engine to truth: {} m", "", spread(Some(engine)));
@@ -62,7 +62,7 @@ fn study_text(out: &mut String, study: &Study) {
     let _ = writeln!(
         out,
         "Table \"{table}\": {} random shots, the cue raised up to {steepest_deg:.0} degrees, the same for every method.",
-        judged.of
+        judged.total
     );
     if flies.count > 0 {
         let _ = writeln!(out, "Balls leave the cloth in {:.1} % of them.", percent(*flies));
@@ -70,7 +70,7 @@ fn study_text(out: &mut String, study: &Study) {
     let _ = writeln!(
         out,
         "Not judged and not timed, since the truth does not cover them: {} ({:.1} %){}{}",
-        judged.of - judged.count,
+        judged.total - judged.count,
         100.0 - percent(*judged),
         if study.unjudged.is_empty() { "" } else { ": " },
         study.why_unjudged()
@@ -155,7 +155,7 @@ const SPREAD_HEADER: &str = "median    p99     worst";
 
 /// Returns a method's name with its time step.
 pub fn name(row: &Row) -> String {
-    row.dt.map_or_else(|| row.words.to_owned(), |dt| format!("{}, dt {dt:.0e} s", row.words))
+    row.dt.map_or_else(|| row.description.to_owned(), |dt| format!("{}, dt {dt:.0e} s", row.description))
 }
 
 fn spread(spread: Option<Spread>) -> String {
@@ -172,15 +172,15 @@ fn units(spread: Option<Spread>) -> String {
     )
 }
 
-fn percent(share: Share) -> f64 {
-    100.0 * share.count as f64 / share.of.max(1) as f64
+fn percent(share: Proportion) -> f64 {
+    100.0 * share.count as f64 / share.total.max(1) as f64
 }
 
-fn wrong(share: Share) -> String {
-    format!("{}/{}", share.count, share.of)
+fn wrong(share: Proportion) -> String {
+    format!("{}/{}", share.count, share.total)
 }
 
-fn flips(share: Share) -> String {
+fn flips(share: Proportion) -> String {
     format!("{} ({:.2} % to {:.2} %)", wrong(share), 100.0 * share.low, 100.0 * share.high)
 }
 
@@ -214,7 +214,7 @@ pub fn csv(studies: &[Study]) -> String {
             };
         }
         for share in [row.beyond_1e_9_m, row.wrong_sequence, row.flips_straight, row.flips_three_cushion] {
-            let _ = write!(out, ",{},{},{:.5},{:.5}", share.count, share.of, share.low, share.high);
+            let _ = write!(out, ",{},{},{:.5},{:.5}", share.count, share.total, share.low, share.high);
         }
         out.push('\n');
     }

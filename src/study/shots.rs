@@ -15,9 +15,9 @@ use crate::{
 
 /// The greatest cue elevation of random shots.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Steepest(f64);
+pub struct MaxElevation(f64);
 
-impl Steepest {
+impl MaxElevation {
     /// Usual strokes: 20 degrees.
     pub const USUAL: Self = Self(0.35);
     /// Jumps and massés: 60 degrees.
@@ -68,14 +68,14 @@ impl StudyShot {
     }
 }
 
-/// Draws `count` shots from `seed`: balls anywhere, the tip within the miscue limit, the cue raised up to `steepest`, aimed at
+/// Draws `count` shots from `seed`: balls anywhere, the tip within the miscue limit, the cue raised up to `max_elevation`, aimed at
 /// a random part of an object ball.
-pub fn random_shots(table: &Table, count: usize, seed: u64, steepest: Steepest) -> Vec<StudyShot> {
+pub fn random_shots(table: &Table, count: usize, seed: u64, max_elevation: MaxElevation) -> Vec<StudyShot> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-    (0..count).map(|_| random_shot(table, steepest, &mut rng)).collect()
+    (0..count).map(|_| random_shot(table, max_elevation, &mut rng)).collect()
 }
 
-fn random_shot(table: &Table, steepest: Steepest, rng: &mut impl Rng) -> StudyShot {
+fn random_shot(table: &Table, max_elevation: MaxElevation, rng: &mut impl Rng) -> StudyShot {
     let layout = Layout::random(table, rng);
     let [cue_ball, target, _] = if rng.random() {
         layout.balls
@@ -91,7 +91,7 @@ fn random_shot(table: &Table, steepest: Steepest, rng: &mut impl Rng) -> StudySh
     // Rounded to digits that a person could type, so that the command line reproduces the same bits.
     let digits = |x: f64| (1e6 * x).round() / 1e6;
     let degrees = |x: f64| digits(x.to_degrees()).to_radians();
-    let theta = degrees(rng.random_range(0.0..steepest.0));
+    let theta = degrees(rng.random_range(0.0..max_elevation.0));
     let phi = degrees(line.to_angle() + thin.asin());
     let cue = CueInputs { a: digits(a), b: digits(b), theta, phi, speed: digits(rng.random_range(SPEEDS)) };
     StudyShot::new(table, layout, cue)
@@ -99,7 +99,7 @@ fn random_shot(table: &Table, steepest: Steepest, rng: &mut impl Rng) -> StudySh
 
 /// A shot computed by an independent program with 50 digits; its numbers are rounded to `f64` in the file.
 #[derive(Clone, Debug, Deserialize)]
-pub struct Reference {
+pub struct ReferenceShot {
     /// Name of the table preset.
     pub preset: String,
     /// Initial positions of the balls.
@@ -131,7 +131,7 @@ pub struct ReferenceEvent {
     pub rail: Option<String>,
 }
 
-impl Reference {
+impl ReferenceShot {
     /// Returns the table of the shot, `None` if there is no preset of that name. If a ball leaves the cloth, the table gets the
     /// default flight parameters.
     pub fn table(&self) -> Option<Table> {
@@ -141,7 +141,7 @@ impl Reference {
     }
 
     /// Returns the final positions; a ball that left the table is on its spot.
-    pub fn end_on(&self, table: &Table) -> Layout {
+    pub fn final_layout(&self, table: &Table) -> Layout {
         let leaves = |ball| {
             let is_it =
                 |event: &ReferenceEvent| event.balls == [ball] && event.kind == EventKind::LeavesTable(ball).name();
@@ -152,7 +152,7 @@ impl Reference {
 }
 
 /// Returns the reference files by name: ordinary shots, hard ones, resting contacts, and flights.
-pub fn references() -> [(&'static str, Vec<Reference>); 4] {
+pub fn references() -> [(&'static str, Vec<ReferenceShot>); 4] {
     let read = |text: &str| {
         let line = |line| serde_json::from_str(line).expect("the bundled reference shots are valid: a test reads them");
         text.lines().map(line).collect()
@@ -172,7 +172,7 @@ mod tests {
     #[test]
     fn every_drawn_shot_can_be_played_again_from_its_command_line() {
         let table = Table::preset("textbook").unwrap();
-        for shot in random_shots(&table, 200, 5, Steepest::USUAL) {
+        for shot in random_shots(&table, 200, 5, MaxElevation::USUAL) {
             shot.cue.validate().unwrap();
             shot.cue.validate_tip(table.miscue_limit + 1e-6).unwrap();
             let line = shot.command_line(&table.name);

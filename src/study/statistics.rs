@@ -30,27 +30,28 @@ impl Spread {
 
 /// A share of the shots and its 95 % confidence interval (Wilson's).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Share {
+pub struct Proportion {
     /// Number of shots that count.
     pub count: usize,
     /// Number of all shots.
-    pub of: usize,
+    #[serde(rename = "of")]
+    pub total: usize,
     /// Lower bound of the interval.
     pub low: f64,
     /// Upper bound of the interval.
     pub high: f64,
 }
 
-impl Share {
+impl Proportion {
     /// Computes the share of `true` values.
     pub fn of(holds: impl IntoIterator<Item = bool>) -> Self {
-        let (mut count, mut of) = (0, 0);
+        let (mut count, mut total) = (0, 0);
         for one in holds {
             count += usize::from(one);
-            of += 1;
+            total += 1;
         }
-        let SuccessRate { low, high, .. } = SuccessRate::new(count, of);
-        Self { count, of, low, high }
+        let SuccessRate { low, high, .. } = SuccessRate::new(count, total);
+        Self { count, total, low, high }
     }
 }
 
@@ -59,7 +60,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_spread_is_by_nearest_rank_and_not_a_number_is_worst() {
+    fn spread_uses_nearest_rank_and_nan_counts_as_worst() {
         let spread = Spread::of((1..=200).map(f64::from)).unwrap();
         assert_eq!((spread.median, spread.p99, spread.worst), (100.0, 198.0, 200.0));
         assert_eq!(Spread::of([1.0, f64::NAN]).unwrap().worst, f64::INFINITY);
@@ -67,9 +68,9 @@ mod tests {
     }
 
     #[test]
-    fn a_share_of_none_still_has_an_upper_end() {
-        let share = Share::of([false; 100]);
-        assert_eq!((share.count, share.of, share.low), (0, 100, 0.0));
+    fn proportion_of_zero_has_an_upper_bound() {
+        let share = Proportion::of([false; 100]);
+        assert_eq!((share.count, share.total, share.low), (0, 100, 0.0));
         assert!(share.high > 0.03 && share.high < 0.04);
     }
 }

@@ -46,7 +46,8 @@ const SEED: u64 = 7;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Figure {
     /// The counted operation.
-    pub what: &'static str,
+    #[serde(rename = "what")]
+    pub operation: &'static str,
     /// Layers, batch size and operations, for network updates.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sizes: Option<String>,
@@ -88,8 +89,8 @@ impl Machine {
 /// Fails if the networks cannot be used.
 pub fn measure(time: Duration, mut report: impl FnMut(&Figure)) -> candle_core::Result<Vec<Figure>> {
     let mut figures = Vec::new();
-    let mut note = |what, sizes: Option<String>, table: &Table, threads, per_second| {
-        let figure = Figure { what, sizes, table: table.name.clone(), threads, per_second };
+    let mut note = |operation, sizes: Option<String>, table: &Table, threads, per_second| {
+        let figure = Figure { operation, sizes, table: table.name.clone(), threads, per_second };
         report(&figure);
         figures.push(figure);
     };
@@ -112,8 +113,8 @@ pub fn measure(time: Duration, mut report: impl FnMut(&Figure)) -> candle_core::
     note("network decisions", None, coach.table(), 1, rate(time, &layouts, decide));
     for (operations, how) in OPERATIONS {
         for update in THESIS_UPDATES {
-            let what = format!("{}: {how}", update.0);
-            note("network updates", Some(what), coach.table(), 1, thesis_updates(time, update, operations)?);
+            let size = format!("{}: {how}", update.0);
+            note("network updates", Some(size), coach.table(), 1, thesis_updates(time, update, operations)?);
         }
         let per_second = coach_updates(time, coach.table(), operations)?;
         note("network updates", Some(format!("the networks that coach: {how}")), coach.table(), 1, per_second);

@@ -3,7 +3,7 @@
 
 use super::{
     reference_engine::{DoubleDouble, Motion, Numbers, Real, Shot, Stroke, Unjudged, Vector, by_extrema, play, strike},
-    shots::{Reference, StudyShot},
+    shots::{ReferenceShot, StudyShot},
 };
 use crate::{
     simulation::EventKind,
@@ -60,7 +60,7 @@ impl Truth {
     ///
     /// # Errors
     /// [`Unjudged`] if the truth cannot be computed.
-    pub fn of_reference(table: &Table, reference: &Reference) -> Result<Self, Unjudged> {
+    pub fn of_reference(table: &Table, reference: &ReferenceShot) -> Result<Self, Unjudged> {
         let numbers = Numbers::of(table);
         let of = DoubleDouble::of;
         let turn = |degrees: f64| (of(degrees) * DoubleDouble::PI / of(180.0)).sin_cos();
@@ -133,7 +133,7 @@ mod tests {
     use crate::{
         physics,
         study::{
-            shots::{Steepest, random_shots},
+            shots::{MaxElevation, random_shots},
             stability::adversarial,
         },
     };
@@ -144,7 +144,7 @@ mod tests {
             play(&Numbers::of(table), positions(&shot.layout), velocity, spin, by_extrema).unwrap();
         };
         for table in ["thesis", "textbook"].map(|name| Table::preset(name).unwrap()) {
-            for shot in random_shots(&table, random, 1, Steepest::USUAL) {
+            for shot in random_shots(&table, random, 1, MaxElevation::USUAL) {
                 judge(&table, &shot);
             }
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);

@@ -38,7 +38,7 @@ impl CueBall {
     }
 
     /// Reorders values from the order white, yellow, red to the order of a layout's balls. The same call converts back.
-    pub fn ordered<T>(self, mut colours: [T; BALLS]) -> [T; BALLS] {
+    pub fn to_ball_order<T>(self, mut colours: [T; BALLS]) -> [T; BALLS] {
         if self == Self::Yellow {
             colours.swap(0, 1);
         }
@@ -82,14 +82,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_follow_the_player_and_names_are_read_back() {
+    fn ball_order_follows_the_player_and_names_parse() {
         assert_eq!(CueBall::White.names(), BALL_NAMES);
         assert_eq!(CueBall::Yellow.names(), ["yellow", "white", "red"]);
         for ball in [CueBall::White, CueBall::Yellow] {
             assert_eq!(ball.name().parse(), Ok(ball));
             assert_eq!(ball.other().other(), ball);
-            assert_eq!(ball.ordered(BALL_NAMES), ball.names());
-            assert_eq!(ball.ordered(ball.names()), BALL_NAMES);
+            assert_eq!(ball.to_ball_order(BALL_NAMES), ball.names());
+            assert_eq!(ball.to_ball_order(ball.names()), BALL_NAMES);
         }
         assert!("red".parse::<CueBall>().unwrap_err().to_string().contains("red"));
     }

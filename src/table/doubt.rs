@@ -4,7 +4,7 @@ use std::{collections::BTreeMap, sync::LazyLock};
 
 use serde::{Deserialize, Serialize};
 
-use super::{JUDGED, OneRail, Rail, RailModel, Table, flaws::max_sliding_friction};
+use super::{Rail, RailModel, RailOverrides, THESIS_PRESETS, Table, flaws::max_sliding_friction};
 use crate::statistics::cholesky;
 
 const MATCH: &str = include_str!("match_doubt.toml");
@@ -23,13 +23,13 @@ pub struct TableDoubt {
     pub correlations: Vec<(String, String, f64)>,
     /// Rail models that the real rails may follow instead of the table's own model.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub laws: Vec<OtherLaw>,
+    pub laws: Vec<AlternativeLaw>,
 }
 
 /// A rail model that the real rails may follow instead of the table's own.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct OtherLaw {
+pub struct AlternativeLaw {
     /// The model.
     pub model: RailModel,
     /// Probability of this model. The table's own model has the rest, up to a total of 1.
@@ -139,14 +139,14 @@ const fn constant(
 
 /// Returns the constant for the friction or the restitution of one single rail; `RAIL` is its index in [`Rail::ALL`].
 const fn single_rail<const RAIL: usize, const FRICTION: bool>(name: &'static str) -> Constant {
-    const fn field<const FRICTION: bool>(own: &mut OneRail) -> &mut Option<f64> {
+    const fn field<const FRICTION: bool>(own: &mut RailOverrides) -> &mut Option<f64> {
         if FRICTION { &mut own.mu } else { &mut own.e }
     }
     constant(
         name,
-        |table| *field::<FRICTION>(&mut table.rail.own(Rail::ALL[RAIL])),
+        |table| *field::<FRICTION>(&mut table.rail.overrides(Rail::ALL[RAIL])),
         |table, value| {
-            let own = table.rail.own_mut(Rail::ALL[RAIL]).get_or_insert_default();
+            let own = table.rail.overrides_mut(Rail::ALL[RAIL]).get_or_insert_default();
             *field::<FRICTION>(own) = Some(value);
         },
         (0.0, if FRICTION { 0.99 } else { 1.0 }),
@@ -184,7 +184,8 @@ impl TableDoubt {
     pub fn of(table: &Table) -> Self {
         // Parsed once, because the coach needs it for every query. A test parses all of them.
         static KNOWN: LazyLock<Vec<(Table, TableDoubt)>> = LazyLock::new(|| {
-            let judged = JUDGED.iter().filter_map(|name| Some((Table::preset(name).ok()?, TableDoubt::default())));
+            let judged =
+                THESIS_PRESETS.iter().filter_map(|name| Some((Table::preset(name).ok()?, TableDoubt::default())));
             judged.chain([(Table::default(), toml::from_str(MATCH).unwrap_or_default())]).collect()
         });
         static OTHER: LazyLock<TableDoubt> = LazyLock::new(|| toml::from_str(UNKNOWN).unwrap_or_default());
@@ -226,7 +227,7 @@ impl TableDoubt {
     }
 
     /// Returns `table` with the alternative rail model `law`, and the uncertainty of that table's constants.
-    pub(super) fn with_model(&self, law: &OtherLaw, table: &Table) -> (Table, Self) {
+    pub(super) fn with_model(&self, law: &AlternativeLaw, table: &Table) -> (Table, Self) {
         let mut other = table.clone();
         other.rail.model = law.model;
         other.sliding_friction = table.sliding_friction.min(max_sliding_friction(law.model));
@@ -340,7 +341,7 @@ mod tests {
         }
         for name in PRESETS {
             let table = Table::preset(name).unwrap();
-            assert_eq!(TableDoubt::of(&table).is_certain(), JUDGED.contains(&name), "{name}");
+            assert_eq!(TableDoubt::of(&table).is_certain(), THESIS_PRESETS.contains(&name), "{name}");
         }
         let own = Table { name: "ours".into(), rail_restitution: 0.8, ..Table::default() };
         assert_eq!(TableDoubt::of(&own), toml::from_str(UNKNOWN).unwrap());
@@ -368,7 +369,7 @@ mod tests {
     }
 
     #[test]
-    fn another_law_has_the_constants_that_the_tables_own_does_not_have() {
+    fn alternative_law_has_constants_that_the_table_lacks() {
         let mut table = Table::default();
         (table.rail.model, table.rail.kappa) = (RailModel::Nose, None);
         let text = "[[laws]]\nmodel = \"smooth\"\nweight = 0.5\nvalues = { \"rail.kappa\" = 1.2 }";

@@ -4,7 +4,7 @@ use super::{Rail, RailModel, Table, models::Fade};
 
 /// Steepest accepted slope, as a share of `mu_r g` and of `mu_s g`. At `mu_r g` balls would start to roll by themselves; at `mu_s g` a
 /// slide would never end.
-const STEEPEST: f64 = 0.2;
+const MAX_TILT_SHARE: f64 = 0.2;
 
 /// Whether `value` is an acceptable coefficient of friction of a cushion or between two balls.
 ///
@@ -26,11 +26,11 @@ pub(super) const fn max_sliding_friction(model: RailModel) -> f64 {
 
 /// Returns the steepest accepted slope, m/s².
 pub fn steepest_tilt(table: &Table) -> f64 {
-    STEEPEST * table.rolling_friction.min(table.sliding_friction) * table.gravity
+    MAX_TILT_SHARE * table.rolling_friction.min(table.sliding_friction) * table.gravity
 }
 
 /// TOML keys of the constants that a single rail can override.
-const OWN: [(Rail, [&str; 3]); 4] = [
+const OVERRIDES: [(Rail, [&str; 3]); 4] = [
     (Rail::Left, ["rail.left.e", "rail.left.mu", "rail.left.height"]),
     (Rail::Right, ["rail.right.e", "rail.right.mu", "rail.right.height"]),
     (Rail::Bottom, ["rail.bottom.e", "rail.bottom.mu", "rail.bottom.height"]),
@@ -69,8 +69,8 @@ pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> 
     if let Some(value) = rail.height {
         checks.push(("rail.height", value, height(value), "from R to 1.6 R, in metres"));
     }
-    for (which, [e, mu, high]) in OWN {
-        let own = rail.own(which);
+    for (which, [e, mu, high]) in OVERRIDES {
+        let own = rail.overrides(which);
         checks.extend(own.e.map(|value| (e, value, restitution(value), "0 to 1")));
         checks.extend(own.mu.map(|value| (mu, value, is_accepted_friction(value), ACCEPTED_FRICTION)));
         checks.extend(own.height.map(|value| (high, value, height(value), "from R to 1.6 R, in metres")));

@@ -25,7 +25,7 @@ impl Flight {
     /// Returns the first invalid value, with its key and the accepted range.
     pub(super) fn flaw(&self) -> Option<(&'static str, f64, &'static str)> {
         let (e, mu) = (self.restitution, self.friction.unwrap_or(0.0));
-        if !(0.0..=MOST_RESTITUTION).contains(&e) {
+        if !(0.0..=MAX_RESTITUTION).contains(&e) {
             return Some(("flight.e_c", e, "0 to 0.99: a ball that loses nothing would hop forever"));
         }
         (!(0.0..=1e3).contains(&mu)).then_some(("flight.mu_c", mu, "0 to 1000"))
@@ -33,7 +33,7 @@ impl Flight {
 }
 
 /// Largest accepted restitution of the cloth: hops that lose less than a hundredth of their speed last for minutes.
-const MOST_RESTITUTION: f64 = 0.99;
+const MAX_RESTITUTION: f64 = 0.99;
 
 #[cfg(test)]
 mod tests {
@@ -47,7 +47,7 @@ mod tests {
     }
 
     #[test]
-    fn a_section_names_what_it_changes_and_no_section_keeps_balls_on_the_cloth() {
+    fn flight_section_overrides_defaults_and_its_absence_disables_flight() {
         assert_eq!(table("").unwrap().flight, None);
         assert_eq!(table("[flight]").unwrap().flight, Some(Flight::default()));
         let hard = table("[flight]\ne_c = 0.7\nmu_c = 0.15").unwrap();
@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cloth_that_gives_back_all_or_more_is_refused_by_name_and_value() {
+    fn cloth_restitution_of_one_or_more_is_refused() {
         for (line, says) in [
             ("e_c = 1.0", "flight.e_c = 1; accepted is 0 to 0.99"),
             ("e_c = -0.1", "flight.e_c = -0.1"),

@@ -88,8 +88,8 @@ pub enum LayoutError {
 impl LayoutError {
     /// Returns the same error with the ball colours for a player whose cue ball, ball 0, is `cue_ball`.
     #[must_use]
-    pub fn told_to(mut self, cue_ball: CueBall) -> Self {
-        let colours = cue_ball.ordered([0, 1, 2]);
+    pub fn for_player(mut self, cue_ball: CueBall) -> Self {
+        let colours = cue_ball.to_ball_order([0, 1, 2]);
         match &mut self {
             Self::NotFinite { ball, .. } | Self::Outside { ball, .. } => *ball = colours[*ball],
             Self::Overlap { first, second, .. } => (*first, *second) = (colours[*first], colours[*second]),
@@ -229,16 +229,16 @@ impl Layout {
         let mut balls = [DVec2::ZERO; BALLS];
         let mut words = text.split_whitespace();
         for ball in &mut balls {
-            *ball = words.next().and_then(|word| place(word, table)).ok_or_else(refuse)?;
+            *ball = words.next().and_then(|word| parse_position(word, table)).ok_or_else(refuse)?;
         }
         if words.next().is_some() { Err(refuse()) } else { Ok(Self::new(balls)) }
     }
 }
 
 /// Parses one position `"x,y"` as [`Layout::parse`] does.
-fn place(word: &str, table: &Table) -> Option<DVec2> {
+fn parse_position(word: &str, table: &Table) -> Option<DVec2> {
     let [x, y] = coordinates(word)?[..] else { return None };
-    between(x, y, table)
+    position_of(x, y, table)
 }
 
 /// A number of a typed position, and whether its unit is the diamond.
@@ -263,7 +263,7 @@ pub(super) fn coordinates(word: &str) -> Option<Vec<Coordinate>> {
 }
 
 /// Returns the position of two coordinates, m from the middle; `None` if only one of them is in diamonds.
-pub(super) fn between(x: Coordinate, y: Coordinate, table: &Table) -> Option<DVec2> {
+pub(super) fn position_of(x: Coordinate, y: Coordinate, table: &Table) -> Option<DVec2> {
     if x.in_diamonds != y.in_diamonds {
         return None;
     }
@@ -293,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn by_umb_rules_the_opponents_ball_is_on_the_spot_and_the_cue_ball_on_either_side() {
+    fn umb_opening_has_the_opponents_ball_on_the_spot() {
         let thesis = Table { opening: Opening::Thesis, ..Table::default() };
         let umb = Table { opening: Opening::Umb, ..Table::default() };
         let (spot, d) = (0.25 * umb.length, umb.opening_offset);
@@ -339,7 +339,7 @@ mod tests {
     }
 
     #[test]
-    fn metres_and_diamonds_mean_the_same_place() {
+    fn metres_and_diamonds_give_the_same_position() {
         let table = Table::default();
         let metres = Layout::parse("-0.71,0 0.71,0 -0.71,0.355", &table).unwrap();
         let diamonds = Layout::parse("2d,2d 6d,2d 2d,3d", &table).unwrap();
@@ -349,7 +349,7 @@ mod tests {
     }
 
     #[test]
-    fn broken_text_and_impossible_places_name_the_value() {
+    fn layout_errors_name_invalid_text_and_positions() {
         let table = Table::default();
         for text in ["", "0,0", "0,0 1,0 0;1", "0,0 1,0 0,0.5 0,0.6", "a,0 1,0 0,0.5", "2d,2 6d,2d 2d,3d"] {
             assert_eq!(Layout::parse(text, &table), Err(LayoutError::Text(text.to_owned())));
@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_off_the_table_goes_on_its_spot_or_on_that_of_the_blocking_ball() {
+    fn ball_off_the_table_takes_its_or_the_blockers_spot() {
         let (length, radius) = (2.84, 0.03075);
         let [middle, near, far] = [0.0, -0.71, 0.71].map(|x| DVec2::new(x, 0.0));
         let (away, outside) = (DVec2::new(1.0, 0.5), DVec2::new(1.6, 0.0));

@@ -14,14 +14,14 @@ mod room;
 mod sampler;
 
 pub use cue_ball::{CueBall, UnknownCueBall};
-pub use doubt::{DoubtError, OtherLaw, TableDoubt};
+pub use doubt::{AlternativeLaw, DoubtError, TableDoubt};
 pub use flaws::steepest_tilt;
 pub use flight::Flight;
 pub use layout::{BALL_NAMES, BALLS, Layout, LayoutError, PAIRS, TOUCHING_TOLERANCE};
 pub(crate) use models::is_zero;
-pub use models::{Fade, OneRail, RailModel, Rails, SlipFriction};
+pub use models::{Fade, RailModel, RailOverrides, Rails, SlipFriction};
 pub use opening::{Opening, Side, UnknownSide};
-pub use parameters::{JUDGED, PRESETS, Table, TableError};
+pub use parameters::{PRESETS, THESIS_PRESETS, Table, TableError};
 pub use positions::PositionsError;
 pub use rail::Rail;
 pub use room::Room;

@@ -40,21 +40,21 @@ pub struct Rails {
     pub fade: Option<Fade>,
     /// Constants of the left rail that differ from the table's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub left: Option<OneRail>,
+    pub left: Option<RailOverrides>,
     /// Constants of the right rail that differ from the table's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub right: Option<OneRail>,
+    pub right: Option<RailOverrides>,
     /// Constants of the bottom rail that differ from the table's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub bottom: Option<OneRail>,
+    pub bottom: Option<RailOverrides>,
     /// Constants of the top rail that differ from the table's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub top: Option<OneRail>,
+    pub top: Option<RailOverrides>,
 }
 
 impl Rails {
     /// Returns the constants that `rail` overrides.
-    pub fn own(&self, rail: Rail) -> OneRail {
+    pub fn overrides(&self, rail: Rail) -> RailOverrides {
         let own = match rail {
             Rail::Left => self.left,
             Rail::Right => self.right,
@@ -65,7 +65,7 @@ impl Rails {
     }
 
     /// Returns the field with the overrides of `rail`.
-    pub const fn own_mut(&mut self, rail: Rail) -> &mut Option<OneRail> {
+    pub const fn overrides_mut(&mut self, rail: Rail) -> &mut Option<RailOverrides> {
         match rail {
             Rail::Left => &mut self.left,
             Rail::Right => &mut self.right,
@@ -75,7 +75,7 @@ impl Rails {
     }
 
     /// Returns the rails as a player at the other end sees them: opposite rails are exchanged.
-    pub(super) const fn turned(self) -> Self {
+    pub(super) const fn seen_from_other_end(self) -> Self {
         Self { left: self.right, right: self.left, bottom: self.top, top: self.bottom, ..self }
     }
 }
@@ -83,7 +83,7 @@ impl Rails {
 /// Constants of a single rail; `None` for the value that applies to all rails.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct OneRail {
+pub struct RailOverrides {
     /// Restitution, 0 to 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub e: Option<f64>,

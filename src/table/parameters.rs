@@ -15,10 +15,10 @@ use crate::{printing::number, storage::describe_toml_error};
 pub const PRESETS: [&str; 3] = ["match", "textbook", "thesis"];
 
 /// Longest accepted side of a table, m; more than twice the length of any billiard table.
-const LONGEST: f64 = 10.0;
+const MAX_SIDE: f64 = 10.0;
 
 /// Bundled tables that use the thesis' equations only: the numerical accuracy is judged on them.
-pub const JUDGED: [&str; 2] = ["textbook", "thesis"];
+pub const THESIS_PRESETS: [&str; 2] = ["textbook", "thesis"];
 
 // Contents of the preset files in [`PRESETS`].
 const MATCH: &str = include_str!("match.toml");
@@ -173,7 +173,7 @@ impl Table {
     /// As [`Table::from_toml`]; [`TableError::Value`] also for sides that are exchanged or given in centimetres.
     pub fn from_file(path: &Path, text: &str) -> Result<Self, TableError> {
         let table = Self::from_toml(text)?;
-        let flaw = if table.length > LONGEST {
+        let flaw = if table.length > MAX_SIDE {
             Some(("L", table.length, "at most 10 m"))
         } else {
             (table.width > table.length).then_some(("l", table.width, "at most L, the longer side"))
@@ -281,14 +281,14 @@ impl Table {
 
     /// Returns the largest restitution between two balls or at any rail.
     pub fn largest_restitution(&self) -> f64 {
-        let rails = Rail::ALL.map(|rail| self.rail.own(rail).e.unwrap_or(self.rail_restitution));
+        let rails = Rail::ALL.map(|rail| self.rail.overrides(rail).e.unwrap_or(self.rail_restitution));
         rails.into_iter().fold(self.ball_restitution, f64::max)
     }
 
     /// Returns the table as a player at its other end sees it.
     #[must_use]
-    pub fn turned(&self) -> Self {
-        Self { tilt: -self.tilt, rail: self.rail.turned(), ..self.clone() }
+    pub fn seen_from_other_end(&self) -> Self {
+        Self { tilt: -self.tilt, rail: self.rail.seen_from_other_end(), ..self.clone() }
     }
 
     /// Returns the distance between two neighbouring diamonds (sights), one eighth of the length, m.
@@ -323,7 +323,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_preset_reads_and_carries_its_name() {
+    fn every_preset_parses_with_its_name() {
         for name in PRESETS {
             assert_eq!(Table::preset(name).unwrap().name, name);
         }
@@ -357,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn friction_in_contacts_whose_forces_are_not_unique_is_refused_with_a_sentence() {
+    fn contact_friction_with_non_unique_forces_is_refused() {
         for (from, to) in [("mu_rail = 0.2", "mu_rail = 1"), ("mu_b = 0.06", "mu_b = 10")] {
             assert!(TEXTBOOK.contains(from));
             let message = Table::from_toml(&TEXTBOOK.replace(from, to)).unwrap_err().to_string();
@@ -367,13 +367,13 @@ mod tests {
     }
 
     #[test]
-    fn a_cloth_without_friction_on_which_no_shot_would_end_is_refused() {
+    fn frictionless_cloth_is_refused() {
         let text = TEXTBOOK.replace("mu_r = 0.010", "mu_r = 0");
         assert!(matches!(Table::from_toml(&text), Err(TableError::Value { key: "mu_r", .. })));
     }
 
     #[test]
-    fn a_slope_on_which_slides_would_not_end_is_refused() {
+    fn too_steep_a_slope_is_refused() {
         let (tilt, rolling_friction) = (DVec2::new(0.0588, 0.0), 0.03);
         let leaning = |sliding_friction| Table { sliding_friction, rolling_friction, tilt, ..Table::default() };
         assert!(leaning(0.03).validated().is_ok());
@@ -382,7 +382,7 @@ mod tests {
     }
 
     #[test]
-    fn masses_and_gravity_that_nobody_could_play_with_are_refused_by_name_and_value() {
+    fn unplayable_masses_and_gravity_are_refused_by_name() {
         let with = |from: &str, to: &str| {
             assert!(TEXTBOOK.contains(from), "{from}");
             Table::from_toml(&TEXTBOOK.replace(from, to)).map_err(|error| error.to_string())
@@ -413,7 +413,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_that_keeps_a_bundled_name_and_is_another_is_called_after_its_file() {
+    fn changed_table_with_a_preset_name_is_named_after_its_file() {
         let name = |path: &str, text: &str| Table::from_file(Path::new(path), text).unwrap().name;
         assert_eq!(name("mine.toml", TEXTBOOK), "textbook");
         let changed = TEXTBOOK.replace("mu_r = 0.010", "mu_r = 0.011");
@@ -423,7 +423,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_has_its_longer_side_first_and_is_no_field() {
+    fn table_length_is_the_longer_side_and_at_most_10_m() {
         let table = Table::preset("textbook").unwrap();
         let refused = |length: f64, width: f64| {
             let text = toml::to_string(&Table { length, width, ..table.clone() }).unwrap();

@@ -2,7 +2,7 @@
 
 use super::{
     CueBall, Layout, LayoutError, Table,
-    layout::{Coordinate, between, coordinates},
+    layout::{Coordinate, coordinates, position_of},
 };
 
 /// Why the typed text is refused.
@@ -81,7 +81,7 @@ impl Layout {
         // The numbers of each ball; the first entry has those without a colour.
         let mut typed: Vec<(Option<usize>, Vec<Coordinate>)> = vec![(None, Vec::new())];
         for word in &words {
-            match names.iter().position(|name| is_called(name, word)) {
+            match names.iter().position(|name| matches_name(name, word)) {
                 Some(ball) if typed.iter().any(|(other, _)| *other == Some(ball)) => {
                     return Err(PositionsError::Twice(names[ball]));
                 }
@@ -113,7 +113,7 @@ impl Layout {
                     });
                 };
                 let [x, y] = [x, y].map(|one| Coordinate { in_diamonds: one.in_diamonds || in_diamonds, ..one });
-                layout.balls[*ball] = between(x, y, table).ok_or_else(|| unknown(text.trim()))?;
+                layout.balls[*ball] = position_of(x, y, table).ok_or_else(|| unknown(text.trim()))?;
             }
             Ok(layout)
         };
@@ -130,14 +130,14 @@ impl Layout {
                 let [y, up] = [y, max_y].map(|y| (0.5 * table.width + y) / table.diamond());
                 PositionsError::Outside { name: names[ball], x, y, least, along, up }
             }
-            error => error.told_to(cue_ball).into(),
+            error => error.for_player(cue_ball).into(),
         })?;
         Ok(layout)
     }
 }
 
 /// Whether `word` is the name of a ball or its first letter, in upper or lower case, with or without a colon.
-fn is_called(name: &str, word: &str) -> bool {
+fn matches_name(name: &str, word: &str) -> bool {
     let word = word.trim_end_matches([':', '=']);
     word.eq_ignore_ascii_case(name) || word.eq_ignore_ascii_case(&name[..1])
 }
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn one_ball_some_or_all_are_put_where_they_are_typed() {
+    fn typed_positions_move_one_some_or_all_balls() {
         let table = Table::default();
         let opening = Layout::opening(&table);
         let all = Layout::parse("2d,0.5d 6d,2d 4d,3.5d", &table).unwrap();
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn commas_may_be_missing_or_be_decimal_and_numbers_beyond_the_table_in_metres_are_diamonds() {
+    fn commas_are_optional_or_decimal_and_large_numbers_are_diamonds() {
         let all = typed("2d,0.5d 6d,2d 4d,3.5d");
         for same in [
             "2d 0.5d 6d 2d 4d 3.5d",

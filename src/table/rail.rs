@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_image_lies_as_far_behind_the_cushion() {
+    fn mirror_image_is_equally_far_behind_the_cushion() {
         let (reach, place) = (DVec2::new(1.4, 0.7), DVec2::new(0.3, -0.2));
         let images = Rail::ALL.map(|rail| rail.image(reach, place));
         let expected = [(-2.8 - 0.3, -0.2), (2.8 - 0.3, -0.2), (0.3, -1.4 + 0.2), (0.3, 1.4 + 0.2)];

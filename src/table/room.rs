@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn a_section_names_what_it_changes_and_no_section_means_no_limits() {
+    fn room_section_overrides_defaults_and_its_absence_removes_limits() {
         assert_eq!(table("").unwrap().room, None);
         assert_eq!(table("[room]").unwrap().room, Some(Room::default()));
         let high = table("[room]\nnose = 0.04").unwrap();

@@ -11,14 +11,14 @@ use crate::statistics::normal_quantile;
 #[derive(Debug)]
 pub struct TableSampler {
     /// The table's own rail model, then the alternatives.
-    laws: Vec<Around>,
+    laws: Vec<Distribution>,
     /// Thresholds for a standard normal number: above the first the second rail model is chosen, above the second the third, and so on.
     bounds: Vec<f64>,
 }
 
 /// A distribution of tables that share one rail model.
 #[derive(Debug)]
-struct Around {
+struct Distribution {
     table: Table,
     constants: Vec<(&'static Constant, f64)>,
     factor: Vec<Vec<f64>>,
@@ -32,12 +32,12 @@ impl TableSampler {
             return None;
         }
         let table = Table { doubt: None, ..table.clone() };
-        let mut laws = vec![Around::new(&table, doubt, factor)?];
+        let mut laws = vec![Distribution::new(&table, doubt, factor)?];
         let mut bounds = Vec::new();
         let mut share = 1.0 - factor.min(1.0) * doubt.laws.iter().map(|law| law.weight).sum::<f64>();
         for law in &doubt.laws {
             let (table, doubt) = doubt.with_model(law, &table);
-            laws.push(Around::new(&table, &doubt, factor)?);
+            laws.push(Distribution::new(&table, &doubt, factor)?);
             bounds.push(normal_quantile(share));
             share += factor.min(1.0) * law.weight;
         }
@@ -57,7 +57,7 @@ impl TableSampler {
     }
 }
 
-impl Around {
+impl Distribution {
     fn new(table: &Table, doubt: &TableDoubt, factor: f64) -> Option<Self> {
         let in_doubt = |constant: &&Constant| doubt.deviations.get(constant.name).is_some_and(|value| *value > 0.0);
         let constants: Vec<_> = CONSTANTS
@@ -94,7 +94,7 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
-    fn a_value_beyond_those_that_are_drawn_stays_where_it_is() {
+    fn value_outside_the_draw_limits_is_kept() {
         let table = Table { tilt: glam::DVec2::new(0.0, 0.0098), sliding_friction: 0.0095, ..Table::default() };
         let deviations = [("tilt.y".to_owned(), 1e-9), ("mu_s".to_owned(), 1e-9)].into();
         let doubt = TableDoubt { deviations, laws: Vec::new(), correlations: Vec::new() };
@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn drawn_tables_are_valid_and_have_the_deviations_and_correlations_of_the_doubt() {
+    fn drawn_tables_are_valid_with_given_deviations_and_correlations() {
         let table = Table::default();
         let doubt = TableDoubt { laws: Vec::new(), ..TableDoubt::of(&table) };
         let sampler = TableSampler::new(&table, &doubt, 1.0).unwrap();
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn another_law_is_drawn_as_often_as_it_is_likely_with_its_own_constants() {
+    fn alternative_law_is_drawn_by_weight_with_its_constants() {
         let table = Table::default();
         let text = "deviations = { mu_rail = 0.02, \"rail.kappa\" = 0.1, mu_s = 0.01 }\n\
             [[laws]]\nmodel = \"mathavan\"\nweight = 0.3\nvalues = { mu_rail = 0.2 }\ndeviations = { mu_rail = 0.005 }";

@@ -12,7 +12,7 @@ fn the_reference_shots_are_met() {
     for ReferenceRow { file, engine_m, engine_units, engine_time_s, .. } in &rows {
         println!("{file}: {engine_m:?} m, {engine_units:?} units, {engine_time_s:?} s");
     }
-    let counts: Vec<_> = rows.iter().map(|row| (row.file, row.shots, row.engine_wrong.of, row.unjudged)).collect();
+    let counts: Vec<_> = rows.iter().map(|row| (row.file, row.shots, row.engine_wrong.total, row.unjudged)).collect();
     assert_eq!(counts, [("shots", 80, 80, 0), ("hard", 84, 84, 0), ("contact", 40, 0, 0), ("flights", 60, 60, 0)]);
     for row in &rows {
         assert_eq!((row.engine_wrong.count, row.truth_wrong.count), (0, 0), "{}", row.file);

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use carom::{
     game::{Referee, Tally},
     physics::{CueInputs, strike},
-    simulation::{All, Event, EventKind, Observer, Savings, Segment, watch, watch_with},
+    simulation::{AllSavings, Event, EventKind, Observer, Savings, Segment, watch, watch_with},
     study::{
         fingerprint::{TEXTBOOK, Trace, hash, shots, trace},
         stability::{Shot, adversarial, random},
@@ -22,7 +22,7 @@ fn changes_no_bit<S: Savings>() {
     for (name, count) in PLAYED {
         let table = Table::preset(name).unwrap();
         for (number, (layout, impulse)) in shots(&table, 1, count).iter().enumerate() {
-            let with = trace::<All>(&table, layout, impulse);
+            let with = trace::<AllSavings>(&table, layout, impulse);
             assert_eq!(trace::<S>(&table, layout, impulse), with, "shot {number} on {name}");
         }
     }
@@ -45,8 +45,8 @@ macro_rules! without {
 without!(predicting_for_balls_at_rest_changes_no_bit, BALLS_AT_REST);
 without!(predicting_everything_anew_changes_no_bit, KEPT_PREDICTIONS);
 without!(solving_for_every_cushion_changes_no_bit, CUSHIONS_IN_REACH);
-without!(seeking_roots_for_courses_apart_changes_no_bit, COURSES_APART);
-without!(following_a_lone_ball_like_any_other_changes_no_bit, ALONE);
+without!(seeking_roots_for_courses_apart_changes_no_bit, SEPARATED_COURSES);
+without!(following_a_lone_ball_like_any_other_changes_no_bit, LONE_BALL);
 without!(ignoring_a_decided_outcome_changes_no_bit, EARLY_END);
 
 #[test]
@@ -56,8 +56,8 @@ fn no_saving_at_all_changes_no_bit() {
         const BALLS_AT_REST: bool = false;
         const KEPT_PREDICTIONS: bool = false;
         const CUSHIONS_IN_REACH: bool = false;
-        const COURSES_APART: bool = false;
-        const ALONE: bool = false;
+        const SEPARATED_COURSES: bool = false;
+        const LONE_BALL: bool = false;
         const LAST_ROLLS: bool = false;
         const EARLY_END: bool = false;
         const OUT_OF_REACH: bool = false;
@@ -91,7 +91,7 @@ impl Observer for Courses {
 fn following_a_lone_ball_like_any_other_changes_no_course() {
     struct Without;
     impl Savings for Without {
-        const ALONE: bool = false;
+        const LONE_BALL: bool = false;
     }
     for (name, count) in PLAYED {
         let table = Table::preset(name).unwrap();
@@ -176,7 +176,7 @@ fn ends_out_of_reach(count: usize) -> usize {
     for number in 0..count {
         let shot = if number % 2 == 0 { random::shot(&table, &mut rng) } else { adversarial::shot(&table, &mut rng) };
         for enough in [1, 2] {
-            let (with, without) = (play::<All>(&table, &shot, enough), play::<Without>(&table, &shot, enough));
+            let (with, without) = (play::<AllSavings>(&table, &shot, enough), play::<Without>(&table, &shot, enough));
             assert_eq!(with.0, without.0, "{shot:?}");
             spared += usize::from(with.1 < without.1);
         }

@@ -22,7 +22,7 @@ fn hold(name: &str) {
             "{} of {} fail: {}\n{}",
             row.failed,
             row.figures.shots,
-            first.what,
+            first.description,
             serde_json::to_string(first).unwrap()
         );
     }

@@ -11,7 +11,7 @@ use super::{
     words::{TIP, table_lengths},
 };
 use crate::{
-    physics::{CueError, CueInputs, squirt, with_room},
+    physics::{CueError, CueInputs, raise_to_clear, squirt},
     simulation::ShotError,
     table::{CueBall, Layout, Table},
 };
@@ -163,7 +163,7 @@ impl SpokenStroke {
         cue.validate_tip(table.miscue_limit)?;
         let at = |phi: f64| {
             let cue = CueInputs { phi, ..cue };
-            with_room(table, layout, &cue).unwrap_or(cue)
+            raise_to_clear(table, layout, &cue).unwrap_or(cue)
         };
         let from = layout.balls[0];
         let (to, behind) = (self.to.map(|mark| mark.place(table)), self.from.map(|mark| mark.place(table)));
@@ -171,7 +171,7 @@ impl SpokenStroke {
         if let Some(way) = ways.into_iter().flatten().max_by(|one, other| one.length().total_cmp(&other.length())) {
             return Ok(at(way.to_angle()));
         }
-        let ball = self.colour.map(|colour| cue_ball.ordered([0, 1, 2])[colour]);
+        let ball = self.colour.map(|colour| cue_ball.to_ball_order([0, 1, 2])[colour]);
         if ball == Some(0) {
             return Err(SpokenError::CueBall(cue_ball));
         }

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::lines::{Line, diamonds, metres};
 use crate::{
     physics::{Impulse, rolling_spin},
-    simulation::{Follower, Rail, alone},
+    simulation::{Follower, Rail, lone_ball_layout},
     table::Table,
 };
 
@@ -38,7 +38,7 @@ impl Natural {
 
 /// Returns the first five cushions that a ball alone on the table hits, with its centre in diamonds.
 pub fn hits(table: &Table, from: DVec2, impulse: &Impulse) -> Vec<(Rail, DVec2)> {
-    let followed = Follower::new(&[], MOST).of(table, &alone(from), impulse);
+    let followed = Follower::new(&[], MOST).follow(table, &lone_ball_layout(from), impulse);
     followed.hits.into_iter().map(|(_, rail, place)| (rail, diamonds(table, place))).collect()
 }
 

@@ -17,7 +17,7 @@ pub fn flown_over(table: &Table, recording: &Recording) -> Option<usize> {
     let first = recording.events().iter().find(|event| is_contact(event.kind));
     let until = first.map_or(recording.duration(), |event| event.time);
     let reach = 2.0 * table.radius - INSIDE;
-    let of_cue_ball = recording.jumps().into_iter().filter(|jump| jump.ball == 0 && jump.is_told());
+    let of_cue_ball = recording.jumps().into_iter().filter(|jump| jump.ball == 0 && jump.is_reported());
     of_cue_ball.filter(|jump| jump.start < until).find_map(|jump| {
         let end = jump.end.min(until);
         let samples = ((end - jump.start) / SAMPLING_INTERVAL).ceil() as usize;

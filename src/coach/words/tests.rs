@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{
-    physics::with_room,
+    physics::raise_to_clear,
     table::{CueBall, Rail},
 };
 
@@ -53,7 +53,7 @@ fn a_cue_as_low_as_the_rail_behind_it_allows_is_level_but_one_over_a_near_rail_i
     let told = |layout: &str, raised: f64| {
         let layout = Layout::parse(layout, &table).unwrap();
         let level = CueInputs::parse("0,0,0,0,2").unwrap();
-        let low = with_room(&table, &layout, &level).unwrap();
+        let low = raise_to_clear(&table, &layout, &level).unwrap();
         assert!(low.theta > 0.0, "{low:?}");
         let cue = CueInputs { theta: low.theta + raised.to_radians(), ..low };
         ShotWords::of(&table, &layout, &cue).unwrap().sentence(CueBall::White, Units::default())

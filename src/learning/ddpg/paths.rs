@@ -10,7 +10,7 @@ use super::{
     rail_first::RailFirstPaths,
 };
 use crate::{
-    physics::{CueInputs, NoRoom, squirt, with_room},
+    physics::{CueInputs, NoRoom, raise_to_clear, squirt},
     table::{Layout, Table},
 };
 
@@ -82,7 +82,7 @@ pub fn playable(
     observation: &Observation,
     action: Action,
 ) -> Result<CueInputs, NoRoom> {
-    with_room(table, layout, &cue_inputs(table, observation, action))
+    raise_to_clear(table, layout, &cue_inputs(table, observation, action))
 }
 
 #[cfg(test)]

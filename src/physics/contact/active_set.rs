@@ -48,8 +48,8 @@ impl Contacts {
     }
 
     /// Whether `ball` takes part in any contact.
-    pub fn hold(&self, ball: usize) -> bool {
-        self.iter().any(|contact| contact.has(ball))
+    pub fn involve(&self, ball: usize) -> bool {
+        self.iter().any(|contact| contact.involves(ball))
     }
 }
 
@@ -74,7 +74,7 @@ pub enum Friction {
     Slips(DVec2),
     /// Filippov sliding mode of the rolling resistance: it acts only as far as the cloth's friction can hold the ball without sliding.
     /// Sliding would end at once, because a sliding ball has no rolling resistance (Filippov 1988).
-    Eases,
+    Filippov,
 }
 
 impl Friction {
@@ -88,13 +88,13 @@ impl Friction {
         match self {
             Self::Sticks | Self::Yields => None,
             Self::Slips(start) => Some((slip + start).normalize_or_zero()),
-            Self::Eases => Some(slip.normalize_or_zero()),
+            Self::Filippov => Some(slip.normalize_or_zero()),
         }
     }
 
     /// Whether a slip begins in this mode.
     pub(super) fn begins(self) -> bool {
-        !matches!(self, Self::Sticks | Self::Eases | Self::Slips(DVec2::ZERO))
+        !matches!(self, Self::Sticks | Self::Filippov | Self::Slips(DVec2::ZERO))
     }
 }
 
@@ -148,7 +148,7 @@ impl ActiveSet {
 
     /// Returns this set with slip wherever this set or the `other` yields, so that no speed is stopped there.
     #[must_use]
-    pub fn slipping_where(mut self, yields: &Self) -> Self {
+    pub fn with_yielding_as_slipping(mut self, yields: &Self) -> Self {
         let each = |mine: &mut [Friction], theirs: &[Friction]| {
             for (mine, theirs) in mine.iter_mut().zip(theirs) {
                 if *mine == Friction::Yields || *theirs == Friction::Yields {
@@ -163,20 +163,20 @@ impl ActiveSet {
     }
 
     /// Whether no slip begins: no friction yields, and no slip has a direction only.
-    pub fn lasts(&self) -> bool {
+    pub fn begins_no_slip(&self) -> bool {
         !self.cloth.iter().chain(&self.roll).chain(&self.contact).any(|friction| friction.begins())
     }
 
     /// Whether a ball slips, rolls or spins that is held in the set `held`.
-    pub fn lets_go(&self, held: &Self) -> bool {
+    pub fn releases(&self, held: &Self) -> bool {
         let pairs = [(&self.cloth, &held.cloth), (&self.roll, &held.roll), (&self.spin, &held.spin)];
-        let lets_go = |(now, before): (&Friction, &Friction)| *before == Friction::Sticks && *now != Friction::Sticks;
-        pairs.into_iter().any(|(now, before)| now.iter().zip(before).any(lets_go))
+        let releases = |(now, before): (&Friction, &Friction)| *before == Friction::Sticks && *now != Friction::Sticks;
+        pairs.into_iter().any(|(now, before)| now.iter().zip(before).any(releases))
     }
 
     /// Returns the first ball whose rolling resistance is in Filippov mode, if any.
-    pub(super) fn eased(&self) -> Option<usize> {
-        self.roll.iter().position(|friction| *friction == Friction::Eases)
+    pub(super) fn filippov_ball(&self) -> Option<usize> {
+        self.roll.iter().position(|friction| *friction == Friction::Filippov)
     }
 
     /// Returns the friction of an unknown; `None` for a normal force.

@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3};
 use super::{
     ActiveSet, Contact, Contacts, Effort, Friction, MAX_CONTACTS, Scene,
     margin::{rates, with_margin},
-    problem::{ForceKind, GYRATION, Limit, NO_SIZES, Problem, Row, Sizes, Unknown, coefficient},
-    solve::{Side, Solution, solve, solve_near},
+    problem::{ForceKind, GYRATION, Limit, Problem, Row, Unknown, Values, ZERO_VALUES, coefficient},
+    solve::{Branch, Solution, solve, solve_near},
 };
 use crate::table::{BALLS, Table};
 
@@ -72,18 +72,18 @@ impl Resolved {
 }
 
 /// A solver of the problem that starts from a guess.
-type Seek = fn(&Problem, &Sizes, &Effort) -> Solution;
+type Seek = fn(&Problem, &Values, &Effort) -> Solution;
 
 impl Scene<'_> {
     /// Returns the problem and its solution. The friction of balls that never slip has no limit, unless no forces obey all laws then.
     pub(super) fn solved(self, similar: Option<&Forces>, seek: Seek, effort: &Effort) -> (Problem, Solution) {
         let Self { table, contacts, .. } = self;
         let mut problem = Problem::new(self);
-        let mut solution = seek(&problem, &similar.map_or(NO_SIZES, |similar| similar.sizes(&problem)), effort);
-        let reaches_its_limit = |(unknown, side): (&Unknown, &Side)| matches!((unknown.kind, side), (ForceKind::Contact(index), Side::Limited(_)) if contacts[index].never_slips(table));
-        if problem.unknowns.iter().zip(&solution.sides).any(reaches_its_limit) {
+        let mut solution = seek(&problem, &similar.map_or(ZERO_VALUES, |similar| similar.values(&problem)), effort);
+        let reaches_its_limit = |(unknown, branch): (&Unknown, &Branch)| matches!((unknown.kind, branch), (ForceKind::Contact(index), Branch::Limited(_)) if contacts[index].never_slips(table));
+        if problem.unknowns.iter().zip(&solution.branches).any(reaches_its_limit) {
             problem.grip(contacts);
-            let gripped = solve_near(&problem, &solution.sizes, effort);
+            let gripped = solve_near(&problem, &solution.values, effort);
             if gripped.converged {
                 solution = gripped;
             }
@@ -91,10 +91,10 @@ impl Scene<'_> {
         (problem, solution)
     }
 
-    /// Evaluates a solution of the problem. `None` if no normal force exceeds `slack`, m/s², and no contact is a paradox.
+    /// Evaluates a solution of the problem. `None` if no normal force exceeds `least_push`, m/s², and no contact is a paradox.
     pub(super) fn read_off(
         self,
-        slack: f64,
+        least_push: f64,
         problem: &Problem,
         solution: &Solution,
         effort: &Effort,
@@ -102,7 +102,7 @@ impl Scene<'_> {
         let Self { table, contacts, set, .. } = self;
         let spared = with_margin(problem, solution, DEPARTING * table.gravity, effort);
         let solution = spared.as_ref().unwrap_or(solution);
-        let accelerations = problem.accelerations(&solution.sizes);
+        let accelerations = problem.accelerations(&solution.values);
         let mut resolved = Resolved {
             contacts: Contacts::NONE,
             set: *set,
@@ -112,20 +112,20 @@ impl Scene<'_> {
             paradox: [false; MAX_CONTACTS],
         };
         let never_slips = |index: usize| contacts[index].never_slips(table);
-        for (index, (unknown, side)) in problem.unknowns.iter().zip(&solution.sides).enumerate() {
-            if *side == Side::Holds {
+        for (index, (unknown, branch)) in problem.unknowns.iter().zip(&solution.branches).enumerate() {
+            if *branch == Branch::Holds {
                 // Balls that never slip stop at once, others slip on against their friction.
                 let stops = matches!(unknown.kind, ForceKind::Contact(index) if never_slips(index));
                 let ends = if stops { Friction::Sticks } else { Friction::Slips(DVec2::ZERO) };
                 resolved.sticking =
                     sticking_at(&resolved.sticking.unwrap_or(*set), unknown.kind, ends).or(resolved.sticking);
             }
-            let Side::Limited(force) = *side else { continue };
+            let Branch::Limited(force) = *branch else { continue };
             let rate = DVec2::from_array(rates(problem, solution, index)).length();
             let holds = rate <= DEPARTING * table.gravity;
             resolved.shared |= holds;
             let size =
-                solution.sizes[unknown.first..][..unknown.count].iter().fold(0.0_f64, |size, x| libm::hypot(size, *x));
+                solution.values[unknown.first..][..unknown.count].iter().fold(0.0_f64, |size, x| libm::hypot(size, *x));
             let starts = match unknown.count {
                 1 => Friction::Slips(-force),
                 _ if rate < SLOW_START * size => Friction::Yields,
@@ -141,7 +141,7 @@ impl Scene<'_> {
                 }
             }
         }
-        let pushes = |index: &usize| resolved.forces.normal[*index] > slack && !resolved.paradox[*index];
+        let pushes = |index: &usize| resolved.forces.normal[*index] > least_push && !resolved.paradox[*index];
         let mut kept = [Friction::Sticks; MAX_CONTACTS];
         for index in (0..contacts.len()).filter(pushes) {
             kept[resolved.contacts.len()] = resolved.set.contact[index];
@@ -151,8 +151,8 @@ impl Scene<'_> {
             return None;
         }
         resolved.set.contact = kept;
-        let sizes = &solution.sizes;
-        let slack = problem.unknowns.iter().fold(f64::INFINITY, |slack, unknown| slack.min(slack_of(unknown, sizes)));
+        let values = &solution.values;
+        let slack = problem.unknowns.iter().fold(f64::INFINITY, |slack, unknown| slack.min(slack_of(unknown, values)));
         resolved.forces.slack = Scene { set: &resolved.set, ..self }.spin_slack().min(slack);
         Some(resolved)
     }
@@ -164,23 +164,23 @@ impl Scene<'_> {
         let Self { table, set, .. } = self;
         let seek = if similar.converged && !is_short { solve } else { solve_near };
         let (problem, solution) = self.solved(Some(similar), seek, effort);
-        let accelerations = problem.accelerations(&solution.sizes);
+        let accelerations = problem.accelerations(&solution.values);
         let mut forces = Forces::of(table.radius, &problem, &solution, &accelerations);
         forces.slack = self.spin_slack();
-        for (unknown, side) in problem.unknowns.iter().zip(&solution.sides) {
+        for (unknown, branch) in problem.unknowns.iter().zip(&solution.branches) {
             let friction = match unknown.kind {
                 ForceKind::Normal(_) | ForceKind::Spin(_) => Friction::Sticks,
                 ForceKind::Cloth(ball) => set.cloth[ball],
                 ForceKind::Roll(ball) => set.roll[ball],
                 ForceKind::Contact(index) => set.contact[index],
             };
-            // The active set ends when any law changes its side. The margin is the growth rate, or the distance of the force from its
+            // The active set ends when any law changes its branch. The margin is the growth rate, or the distance of the force from its
             // limit.
             let rows = &problem.rates[unknown.first..][..unknown.count];
-            let slack = match side {
-                Side::Holds if friction == Friction::Yields => -slack_of(unknown, &solution.sizes),
-                Side::Holds => slack_of(unknown, &solution.sizes),
-                Side::Limited(_) if friction == Friction::Yields => f64::INFINITY,
+            let slack = match branch {
+                Branch::Holds if friction == Friction::Yields => -slack_of(unknown, &solution.values),
+                Branch::Holds => slack_of(unknown, &solution.values),
+                Branch::Limited(_) if friction == Friction::Yields => f64::INFINITY,
                 _ => -rows.iter().fold(0.0_f64, |rate, row| libm::hypot(rate, row.dot(&accelerations))),
             };
             forces.slack = forces.slack.min(slack);
@@ -210,13 +210,13 @@ fn sticking_at(set: &ActiveSet, kind: ForceKind, does: Friction) -> Option<Activ
 }
 
 /// Returns the margin by which the law of a force holds, if the force was computed for an assumed active set.
-fn slack_of(unknown: &Unknown, sizes: &[f64]) -> f64 {
-    let own = &sizes[unknown.first..][..unknown.count];
+fn slack_of(unknown: &Unknown, values: &[f64]) -> f64 {
+    let own = &values[unknown.first..][..unknown.count];
     let size = own.iter().fold(0.0_f64, |length, x| libm::hypot(length, *x));
     match (unknown.kind, unknown.limit) {
         (ForceKind::Normal(_), _) => own[0],
         (_, Limit::Fixed(limit)) => limit - size,
-        (_, Limit::Coulomb(mu, contact)) => mu * sizes[contact] - size,
+        (_, Limit::Coulomb(mu, contact)) => mu * values[contact] - size,
     }
 }
 
@@ -235,7 +235,7 @@ impl Forces {
     };
 
     fn of(radius: f64, problem: &Problem, solution: &Solution, accelerations: &Row) -> Self {
-        let Solution { sizes, converged, .. } = solution;
+        let Solution { values, converged, .. } = solution;
         let mut forces = Self { converged: *converged, ..Self::NONE };
         for ball in 0..BALLS {
             let (linear, angular) = accelerations.of_ball(ball);
@@ -243,8 +243,8 @@ impl Forces {
             forces.angular[ball] = angular / (GYRATION * radius);
         }
         for unknown in &problem.unknowns {
-            let one = sizes[unknown.first];
-            let both = || DVec2::new(one, sizes[unknown.first + 1]);
+            let one = values[unknown.first];
+            let both = || DVec2::new(one, values[unknown.first + 1]);
             match unknown.kind {
                 ForceKind::Normal(index) => forces.normal[index] = one,
                 ForceKind::Contact(index) => forces.friction[index] = both(),
@@ -257,8 +257,8 @@ impl Forces {
     }
 
     /// Returns the problem's unknowns that correspond to these forces.
-    fn sizes(&self, problem: &Problem) -> Sizes {
-        let mut sizes = NO_SIZES;
+    fn values(&self, problem: &Problem) -> Values {
+        let mut values = ZERO_VALUES;
         for unknown in &problem.unknowns {
             let own = match unknown.kind {
                 ForceKind::Normal(index) => [self.normal[index], 0.0],
@@ -267,9 +267,9 @@ impl Forces {
                 ForceKind::Cloth(ball) => self.cloth[ball].to_array(),
                 ForceKind::Roll(ball) => self.roll[ball].to_array(),
             };
-            sizes[unknown.first..][..unknown.count].copy_from_slice(&own[..unknown.count]);
+            values[unknown.first..][..unknown.count].copy_from_slice(&own[..unknown.count]);
         }
-        sizes
+        values
     }
 
     /// Returns the same forces for other contacts; new contacts have zero force.
@@ -335,7 +335,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cushion_pushes_back_just_what_the_cloth_presses() {
+    fn cushion_force_balances_the_cloth_force() {
         let (AtCushion { table, balls: [ball, ..], .. }, Resolved { forces, .. }) = pressed();
         let u = slip(table.radius, ball.velocity, ball.spin).normalize();
         let pressed = table.sliding_friction * table.gravity * -u.x;

@@ -110,7 +110,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn without_exchange_of_rows_it_is_the_same_solution(rows in prop::collection::vec(-0.6..0.6f64, 16), side in prop::collection::vec(-1.0..1.0f64, 4)) {
+        fn elimination_without_pivoting_gives_the_same_solution(rows in prop::collection::vec(-0.6..0.6f64, 16), side in prop::collection::vec(-1.0..1.0f64, 4)) {
             let mut entries = rows;
             (0..4).for_each(|index| entries[5 * index] += 2.0);
             let (mut factors, mut pivots, mut expected, mut solution) = (entries.clone(), [0; 4], side.clone(), side);

@@ -9,7 +9,7 @@
 use super::{
     Effort,
     problem::{ForceKind, Limit, Problem},
-    solve::{Side, Solution, solve_near},
+    solve::{Branch, Solution, solve_near},
 };
 
 /// Shares of their limits to which frictions are restricted; the first share with which all laws hold is used.
@@ -26,7 +26,7 @@ const ROUNDS: usize = 6;
 
 /// Returns the rates that an unknown resists, m/s².
 pub fn rates(problem: &Problem, solution: &Solution, index: usize) -> [f64; 2] {
-    let accelerations = problem.accelerations(&solution.sizes);
+    let accelerations = problem.accelerations(&solution.values);
     let unknown = &problem.unknowns[index];
     std::array::from_fn(|axis| {
         let row = unknown.first + axis;
@@ -42,12 +42,12 @@ fn are_several(problem: &Problem) -> bool {
 /// Whether an unknown is at the edge of its admissible set although no rate is above `none`, m/s².
 fn is_at_edge(problem: &Problem, solution: &Solution, index: usize, none: f64) -> bool {
     let unknown = &problem.unknowns[index];
-    match (solution.sides[index], unknown.kind) {
-        (Side::Holds, ForceKind::Normal(_)) if are_several(problem) => {
-            let largest = solution.sizes.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-            solution.sizes[unknown.first] < TINY_PUSH * largest
+    match (solution.branches[index], unknown.kind) {
+        (Branch::Holds, ForceKind::Normal(_)) if are_several(problem) => {
+            let largest = solution.values.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+            solution.values[unknown.first] < TINY_PUSH * largest
         }
-        (Side::Limited(_), _) => rates(problem, solution, index).iter().all(|rate| rate.abs() <= none),
+        (Branch::Limited(_), _) => rates(problem, solution, index).iter().all(|rate| rate.abs() <= none),
         _ => false,
     }
 }
@@ -63,14 +63,14 @@ pub fn with_margin(problem: &Problem, solution: &Solution, none: f64, effort: &E
 }
 
 fn with_share(problem: &Problem, solution: &Solution, none: f64, share: f64, effort: &Effort) -> Option<Solution> {
-    let (mut eased, mut found) = (problem.clone(), solution.clone());
+    let (mut relaxed, mut found) = (problem.clone(), solution.clone());
     let mut spared = vec![false; problem.unknowns.len()];
     for _ in 0..ROUNDS {
         let mut more = false;
         for (index, spared) in spared.iter_mut().enumerate().filter(|(_, spared)| !**spared) {
-            if is_at_edge(&eased, &found, index, none) {
+            if is_at_edge(&relaxed, &found, index, none) {
                 (*spared, more) = (true, true);
-                let unknown = &mut eased.unknowns[index];
+                let unknown = &mut relaxed.unknowns[index];
                 match &mut unknown.limit {
                     limit if matches!(unknown.kind, ForceKind::Normal(_)) => *limit = Limit::Fixed(0.0),
                     Limit::Fixed(limit) | Limit::Coulomb(limit, _) => *limit *= share,
@@ -78,19 +78,19 @@ fn with_share(problem: &Problem, solution: &Solution, none: f64, share: f64, eff
             }
         }
         if !more {
-            for (side, _) in
-                found.sides.iter_mut().zip(&spared).filter(|(side, spared)| **spared && **side != Side::Absent)
+            for (branch, _) in
+                found.branches.iter_mut().zip(&spared).filter(|(branch, spared)| **spared && **branch != Branch::Absent)
             {
-                *side = Side::Holds;
+                *branch = Branch::Holds;
             }
             return Some(found);
         }
-        found = solve_near(&eased, &found.sizes, effort);
+        found = solve_near(&relaxed, &found.values, effort);
         let holds = |index: usize| match problem.unknowns[index].kind {
             ForceKind::Normal(_) => {
-                rates(&eased, &found, index)[0] >= -MAX_OPENING * solution.sizes[problem.unknowns[index].first].abs()
+                rates(&relaxed, &found, index)[0] >= -MAX_OPENING * solution.values[problem.unknowns[index].first].abs()
             }
-            _ => rates(&eased, &found, index).iter().all(|rate| rate.abs() <= none),
+            _ => rates(&relaxed, &found, index).iter().all(|rate| rate.abs() <= none),
         };
         if !found.converged || !(0..spared.len()).all(|index| !spared[index] || holds(index)) {
             return None;
@@ -110,7 +110,7 @@ mod tests {
 
     /// A ball in a corner is pushed there by another ball that slips on it: cloth and cushions share the force.
     #[test]
-    fn a_ball_that_is_pushed_into_a_corner_is_held_with_something_to_spare() {
+    fn forces_on_a_ball_in_a_corner_have_margin() {
         let table = Table::preset("textbook").unwrap();
         let corner = DVec2::new(table.half_length(), -table.half_width());
         let apart = 2.0 * table.radius * DVec2::new(-0.034_822, 0.999_394).normalize();

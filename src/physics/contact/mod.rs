@@ -5,9 +5,9 @@
 //! it; [`Scene::forces`] follows its solution while the active set does not change.
 
 mod active_set;
+mod constraints;
 mod effort;
 mod forces;
-mod held;
 mod linear;
 mod margin;
 mod problem;
@@ -19,9 +19,9 @@ use glam::{DVec2, DVec3};
 use super::BallState;
 use crate::table::{BALLS, Table};
 pub use active_set::{ActiveSet, Contacts, Friction, MAX_CONTACTS};
+pub use constraints::stop_by_impulses;
 pub use effort::Effort;
 pub use forces::{Forces, Resolved};
-pub use held::stop_by_impulses;
 pub use linear::{factorize, substitute};
 
 /// First bounce speed, in units of `√(g R)`, of balls that never slip in a state without consistent contact forces (Painlevé's paradox).
@@ -45,8 +45,8 @@ pub struct Scene<'a> {
 
 impl Scene<'_> {
     /// Whether a ball takes part in any contact.
-    fn holds(&self, ball: usize) -> bool {
-        self.contacts.iter().any(|contact| contact.has(ball))
+    fn involves(&self, ball: usize) -> bool {
+        self.contacts.iter().any(|contact| contact.involves(ball))
     }
 }
 
@@ -81,13 +81,13 @@ impl Contact {
     }
 
     /// Whether `ball` takes part in the contact.
-    pub fn has(&self, ball: usize) -> bool {
+    pub fn involves(&self, ball: usize) -> bool {
         self.first == ball || self.second == Some(ball)
     }
 
     /// Whether a ball takes part in both contacts.
     pub fn shares_a_ball(&self, other: &Self) -> bool {
-        other.has(self.first) || self.second.is_some_and(|second| other.has(second))
+        other.involves(self.first) || self.second.is_some_and(|second| other.involves(second))
     }
 
     /// Whether this is a contact of balls that never slip on each other, because they have no coefficient of friction (17).
@@ -112,7 +112,7 @@ impl Contact {
 
     /// Returns the part of the rates of opening, slip along `t = z×n` and slip along z that does not depend on the accelerations, m/s²: the
     /// contact frame of two balls rotates. The normal is `n`.
-    fn bends(&self, radius: f64, balls: &[BallState; BALLS], n: DVec2) -> [f64; 3] {
+    fn rotation_bias(&self, radius: f64, balls: &[BallState; BALLS], n: DVec2) -> [f64; 3] {
         let Some(second) = self.second else { return [0.0; 3] };
         let diameter = 2.0 * radius;
         let across = self.relative_velocity(balls).dot(n.perp());

@@ -13,13 +13,13 @@ use crate::{
 };
 
 /// Largest number of scalar unknowns: one normal and two friction forces per contact, five friction forces of the cloth per ball.
-pub const MOST_UNKNOWNS: usize = 3 * MAX_CONTACTS + 5 * BALLS;
+pub const MAX_UNKNOWNS: usize = 3 * MAX_CONTACTS + 5 * BALLS;
 
 /// Values of all unknowns; zero beyond those that a problem has.
-pub type Sizes = [f64; MOST_UNKNOWNS];
+pub type Values = [f64; MAX_UNKNOWNS];
 
 /// All unknowns zero.
-pub const NO_SIZES: Sizes = [0.0; MOST_UNKNOWNS];
+pub const ZERO_VALUES: Values = [0.0; MAX_UNKNOWNS];
 
 /// Generalized velocity components per ball.
 pub const PER_BALL: usize = 5;
@@ -92,7 +92,6 @@ const NO_SLIP: f64 = 1e3;
 ///
 /// It equals that of a ball that starts to roll freely in this state. If the two differed, balls whose contact opens under one would close
 /// again under the other, immediately and without end.
-/// other, at once and without end.
 pub fn rolling_resistance(table: &Table, ball: &BallState) -> f64 {
     let rolling = Rolling::of(table);
     table.rolling_friction * table.gravity + 1.4 * (rolling.deceleration(ball.velocity.length()) - rolling.least)
@@ -163,7 +162,7 @@ impl Problem {
         for (index, contact) in contacts.iter().enumerate() {
             let (n, slip) = contact.normal_and_slip(table.radius, balls);
             let [opening, along, up] = Row::contact(contact, n);
-            let [centripetal, _, turning] = contact.bends(table.radius, balls, n);
+            let [centripetal, _, turning] = contact.rotation_bias(table.radius, balls, n);
             let mu = coefficient(table, contact);
             problem.push(ForceKind::Normal(index), Limit::Fixed(f64::INFINITY), &[opening], [centripetal, 0.0]);
             if let Some(against) = set.contact[index].direction(slip) {
@@ -178,7 +177,7 @@ impl Problem {
             problem.push(ForceKind::Contact(index), Limit::Coulomb(mu, index), &rows, [0.0, turning]);
         }
         for (ball, state) in balls.iter().enumerate() {
-            if scene.holds(ball) {
+            if scene.involves(ball) {
                 problem.lay_on_cloth(table, ball, state, set);
             }
         }
@@ -210,7 +209,7 @@ impl Problem {
         let spinning = table.spinning_friction * gravity;
         match set.spin[ball] {
             Friction::Slips(sign) => self.known.add(-spinning * sign.x, &about_vertical),
-            Friction::Sticks | Friction::Yields | Friction::Eases => {
+            Friction::Sticks | Friction::Yields | Friction::Filippov => {
                 self.push(ForceKind::Spin(ball), Limit::Fixed(spinning), &[about_vertical], [0.0; 2]);
             }
         }
@@ -224,7 +223,7 @@ impl Problem {
     }
 
     /// Removes a share of the rolling resistance from a ball in this state.
-    pub fn ease(&mut self, table: &Table, ball: usize, state: &BallState, share: f64) {
+    pub fn reduce_resistance(&mut self, table: &Table, ball: usize, state: &BallState, share: f64) {
         let resistance = rolling_resistance(table, state) * state.velocity.normalize_or_zero();
         self.known = self.known.with(ball, share * resistance, DVec3::ZERO);
     }
@@ -241,9 +240,9 @@ impl Problem {
     }
 
     /// Returns the accelerations under forces of these values, m/s².
-    pub fn accelerations(&self, sizes: &[f64]) -> Row {
+    pub fn accelerations(&self, values: &[f64]) -> Row {
         let mut sum = self.known;
-        for (size, row) in sizes.iter().zip(&self.forces) {
+        for (size, row) in values.iter().zip(&self.forces) {
             sum.add(*size, row);
         }
         sum

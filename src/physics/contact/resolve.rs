@@ -12,7 +12,7 @@ use super::{
     forces::{DEPARTING, Resolved},
     margin::rates,
     problem::{ForceKind, Problem},
-    solve::{Side, Solution, solve, solve_near},
+    solve::{Branch, Solution, solve, solve_near},
 };
 use crate::table::{BALLS, Table};
 
@@ -25,27 +25,33 @@ const ROUNDING: f64 = 1e-12;
 
 impl Scene<'_> {
     /// Determines the contacts that push, the frictions that stick, and the forces; the present active set defines what already slips.
-    /// `None` if no normal force exceeds `slack`, m/s². If forces are not unique, those near `similar` are chosen.
-    pub fn resolve(self, slack: f64, similar: Option<&Forces>, effort: &Effort) -> Option<Resolved> {
+    /// `None` if no normal force exceeds `least_push`, m/s². If forces are not unique, those near `similar` are chosen.
+    pub fn resolve(self, least_push: f64, similar: Option<&Forces>, effort: &Effort) -> Option<Resolved> {
         let (mut problem, mut solution) = self.solved(similar, solve, effort);
-        self.easing(slack, &mut problem, &mut solution, effort)
-            .or_else(|| self.read_off(slack, &problem, &solution, effort))
+        self.resolve_filippov(least_push, &mut problem, &mut solution, effort)
+            .or_else(|| self.read_off(least_push, &problem, &solution, effort))
     }
 
     /// Returns the active set in which a ball's rolling resistance is in Filippov mode; `None` if there is no such ball. Removes the
     /// resistance from the problem and its solution for each ball that slides even without it.
-    fn easing(self, slack: f64, problem: &mut Problem, solution: &mut Solution, effort: &Effort) -> Option<Resolved> {
+    fn resolve_filippov(
+        self,
+        least_push: f64,
+        problem: &mut Problem,
+        solution: &mut Solution,
+        effort: &Effort,
+    ) -> Option<Resolved> {
         let Self { table, balls, set, .. } = self;
         let rolls = |ball: usize| set.cloth[ball] == Friction::Sticks && matches!(set.roll[ball], Friction::Slips(_));
-        for ball in (0..BALLS).filter(|&ball| self.holds(ball) && rolls(ball) && !set.yields()) {
+        for ball in (0..BALLS).filter(|&ball| self.involves(ball) && rolls(ball) && !set.yields()) {
             if !begins_to_slide(table, problem, solution, ball) {
                 continue;
             }
             let without = |share: f64, near: &Solution| {
-                let mut eased = problem.clone();
-                eased.ease(table, ball, &balls[ball], share);
-                let solution = solve_near(&eased, &near.sizes, effort);
-                (eased, solution)
+                let mut reduced = problem.clone();
+                reduced.reduce_resistance(table, ball, &balls[ball], share);
+                let solution = solve_near(&reduced, &near.values, effort);
+                (reduced, solution)
             };
             let mut rolling = without(1.0, solution);
             if begins_to_slide(table, &rolling.0, &rolling.1, ball) {
@@ -53,7 +59,7 @@ impl Scene<'_> {
                 continue;
             }
             // Contacts that push and stick without the resistance mostly do so with part of it, too.
-            if let Some(resolved) = self.eased(ball, slack, &rolling.0, &rolling.1, effort) {
+            if let Some(resolved) = self.resolve_with_share(ball, least_push, &rolling.0, &rolling.1, effort) {
                 return Some(resolved);
             }
             let (mut sliding, mut most) = (0.0, 1.0);
@@ -70,7 +76,7 @@ impl Scene<'_> {
                     (rolling, most) = (tried, share);
                 }
             }
-            if let Some(resolved) = self.eased(ball, slack, &rolling.0, &rolling.1, effort) {
+            if let Some(resolved) = self.resolve_with_share(ball, least_push, &rolling.0, &rolling.1, effort) {
                 return Some(resolved);
             }
         }
@@ -78,16 +84,16 @@ impl Scene<'_> {
     }
 
     /// Returns the active set in which the ball rolls with as much resistance as the friction can hold.
-    fn eased(
+    fn resolve_with_share(
         self,
         ball: usize,
-        slack: f64,
+        least_push: f64,
         problem: &Problem,
         solution: &Solution,
         effort: &Effort,
     ) -> Option<Resolved> {
-        let mut resolved = self.read_off(slack, problem, solution, effort)?;
-        resolved.set.roll[ball] = Friction::Eases;
+        let mut resolved = self.read_off(least_push, problem, solution, effort)?;
+        resolved.set.roll[ball] = Friction::Filippov;
         // A slip that begins without the resistance may stick with part of it.
         let begins = resolved.set.contact.iter_mut().filter(|friction| friction.begins());
         begins.for_each(|begins| *begins = Friction::Sticks);
@@ -100,8 +106,8 @@ impl Scene<'_> {
 
 /// Whether the cloth can no longer hold a ball that rolled.
 fn begins_to_slide(table: &Table, problem: &Problem, solution: &Solution, ball: usize) -> bool {
-    problem.unknowns.iter().zip(&solution.sides).enumerate().any(|(index, (unknown, side))| {
-        matches!((unknown.kind, side), (ForceKind::Cloth(held), Side::Limited(_)) if held == ball)
+    problem.unknowns.iter().zip(&solution.branches).enumerate().any(|(index, (unknown, branch))| {
+        matches!((unknown.kind, branch), (ForceKind::Cloth(held), Branch::Limited(_)) if held == ball)
             && DVec2::from_array(rates(problem, solution, index)).length() > DEPARTING * table.gravity
     })
 }
@@ -146,22 +152,22 @@ mod tests {
     /// Asserts that the first ball continues to roll with the cloth's friction at its limit, and that no law is violated. With the whole
     /// resistance one would be; with a thousandth of it the ball would roll with all of it.
     fn rolls_with_part_of_its_resistance(table: &Table, pressed: &([BallState; 3], [Contact; 2])) -> Forces {
-        let Resolved { set, forces: eased, shared, .. } = resolved(table, pressed);
-        assert_eq!((set.cloth[0], set.roll[0], shared), (Friction::Sticks, Friction::Eases, false));
+        let Resolved { set, forces: reduced, shared, .. } = resolved(table, pressed);
+        assert_eq!((set.cloth[0], set.roll[0], shared), (Friction::Sticks, Friction::Filippov, false));
         let limit = table.sliding_friction * table.gravity;
-        assert!((eased.cloth[0].length() - limit).abs() < 1e-12, "{:?} of {limit}", eased.cloth[0]);
-        assert!(slip(table.radius, eased.linear[0], eased.angular[0]).length() < 1e-12 && eased.slack > -1e-12);
+        assert!((reduced.cloth[0].length() - limit).abs() < 1e-12, "{:?} of {limit}", reduced.cloth[0]);
+        assert!(slip(table.radius, reduced.linear[0], reduced.angular[0]).length() < 1e-12 && reduced.slack > -1e-12);
         let whole = ActiveSet { roll: [Friction::Slips(DVec2::ZERO); 3], ..set };
         let scene = Scene { table, balls: &pressed.0, contacts: &pressed.1, set: &whole };
-        assert!(scene.forces(Some(&eased)).expect("forces").slack < -1e-4);
+        assert!(scene.forces(Some(&reduced)).expect("forces").slack < -1e-4);
         let smooth = Table { rolling_friction: 1e-3 * table.rolling_friction, ..table.clone() };
         let Resolved { set, .. } = resolved(&smooth, pressed);
         assert_eq!((set.cloth[0], set.roll[0]), (Friction::Sticks, Friction::Slips(DVec2::ZERO)));
-        eased
+        reduced
     }
 
     #[test]
-    fn a_ball_that_can_neither_roll_nor_slide_rolls_with_part_of_its_resistance() {
+    fn ball_at_the_edge_of_sliding_has_partial_rolling_resistance() {
         let table = rough();
         let second = [
             DVec3::new(-0.120_405, 0.000_195, 0.0),
@@ -173,7 +179,7 @@ mod tests {
 
     /// Here the ball does not slip on the cushion either: the cushion's upward friction and the cloth's hold the ball together.
     #[test]
-    fn cloth_and_cushion_together_hold_as_much_of_the_resistance_as_they_can() {
+    fn cloth_and_cushion_together_keep_the_largest_possible_resistance() {
         let table = rough();
         let second = [
             DVec3::new(0.236_963, -0.103_806, 0.0),

@@ -10,7 +10,7 @@ use glam::DVec2;
 use super::{
     Effort,
     linear::{PROXIMITY, factorize, substitute},
-    problem::{ForceKind, Limit, MOST_UNKNOWNS, NO_SIZES, PER_BALL, Problem, Sizes, Unknown},
+    problem::{ForceKind, Limit, MAX_UNKNOWNS, PER_BALL, Problem, Unknown, Values, ZERO_VALUES},
 };
 use crate::table::BALLS;
 
@@ -27,7 +27,7 @@ const ENOUGH: f64 = 0.1;
 const DOUBLED: f64 = 0.5;
 
 /// Bound on the halvings of a Newton step.
-const MOST_HALVINGS: i32 = 14;
+const MAX_HALVINGS: i32 = 14;
 
 /// Number of undamped Newton steps as a last resort, and their regularization of the diagonal. If a friction rotates along its limit circle
 /// towards a double root, the residual along the way would make damped steps short.
@@ -50,7 +50,7 @@ const ENTRY: usize = PER_BALL * BALLS;
 
 /// Active branch of a law.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Side {
+pub enum Branch {
     /// The force keeps its rate at zero.
     Holds,
     /// The force is at its limit, in this direction.
@@ -63,9 +63,9 @@ pub enum Side {
 #[derive(Clone, Debug)]
 pub struct Solution {
     /// Value of each scalar unknown, m/s².
-    pub sizes: Sizes,
+    pub values: Values,
     /// Active branch of each unknown's law.
-    pub sides: Sides,
+    pub branches: Branches,
     /// Whether every law holds to rounding.
     pub converged: bool,
 }
@@ -73,81 +73,85 @@ pub struct Solution {
 /// Forces with the smallest error of a search so far.
 struct Best {
     error: f64,
-    sizes: Sizes,
+    values: Values,
 }
 
 /// Active branch of each unknown's law.
-pub type Sides = [Side; MOST_UNKNOWNS];
+pub type Branches = [Branch; MAX_UNKNOWNS];
 
 /// Searches forces and frictions that obey all laws, starting from `guess`.
-pub fn solve(problem: &Problem, guess: &Sizes, effort: &Effort) -> Solution {
+pub fn solve(problem: &Problem, guess: &Values, effort: &Effort) -> Solution {
     solve_in(problem, guess, ATTEMPTS, effort)
 }
 
 /// As [`solve`], for a solution near `guess`: one round only.
-pub fn solve_near(problem: &Problem, guess: &Sizes, effort: &Effort) -> Solution {
+pub fn solve_near(problem: &Problem, guess: &Values, effort: &Effort) -> Solution {
     solve_in(problem, guess, 1, effort)
 }
 
-fn solve_in(problem: &Problem, guess: &Sizes, attempts: u32, effort: &Effort) -> Solution {
+fn solve_in(problem: &Problem, guess: &Values, attempts: u32, effort: &Effort) -> Solution {
     let system = System::new(problem, effort);
-    let mut best = Best { error: f64::INFINITY, sizes: *guess };
+    let mut best = Best { error: f64::INFINITY, values: *guess };
     for attempt in 0..attempts {
         let error_before = best.error;
         let begin = if attempt == 0 {
             *guess
         } else {
-            let (mut sizes, sweeps) = (best.sizes, FIRST_SWEEPS << (attempt - 1));
-            (0..sweeps).for_each(|_| system.sweep(&mut sizes));
-            sizes
+            let (mut values, sweeps) = (best.values, FIRST_SWEEPS << (attempt - 1));
+            (0..sweeps).for_each(|_| system.sweep(&mut values));
+            values
         };
-        if let Some(solution) = system.newton(&begin, &mut best, NEWTON_STEPS, MOST_HALVINGS, PROXIMITY) {
+        if let Some(solution) = system.newton(&begin, &mut best, NEWTON_STEPS, MAX_HALVINGS, PROXIMITY) {
             return solution;
         }
-        if best.error > 0.5 * error_before && best.error <= NEARLY * system.scale(&best.sizes) {
+        if best.error > 0.5 * error_before && best.error <= NEARLY * system.scale(&best.values) {
             break;
         }
     }
-    let begin = best.sizes;
+    let begin = best.values;
     if attempts > 1
         && let Some(solution) = system.newton(&begin, &mut best, WHOLE_STEPS, 1, NEXT_TO_NO_PROXIMITY)
     {
         return solution;
     }
     let mut end = Point::NOWHERE;
-    system.put(&mut end, |index| best.sizes[index]);
-    Solution { sizes: end.sizes, sides: end.sides, converged: false }
+    system.put(&mut end, |index| best.values[index]);
+    Solution { values: end.values, branches: end.branches, converged: false }
 }
 
 /// An iterate of the search.
 struct Point {
-    sizes: Sizes,
+    values: Values,
     /// Forces minus their projections.
-    residual: Sizes,
-    sides: Sides,
+    residual: Values,
+    branches: Branches,
     /// Euclidean norm of the residual: how far the laws are from being satisfied.
     error: f64,
 }
 
 impl Point {
-    const NOWHERE: Self =
-        Self { sizes: NO_SIZES, residual: NO_SIZES, sides: [Side::Absent; MOST_UNKNOWNS], error: f64::INFINITY };
+    const NOWHERE: Self = Self {
+        values: ZERO_VALUES,
+        residual: ZERO_VALUES,
+        branches: [Branch::Absent; MAX_UNKNOWNS],
+        error: f64::INFINITY,
+    };
 }
 
-/// The problem in matrix form: the rates are `matrix · sizes + bias`.
+/// The problem in matrix form: the rates are `matrix · values + bias`.
 struct System<'a> {
     problem: &'a Problem,
     effort: &'a Effort,
     count: usize,
     matrix: Vec<f64>,
-    bias: Sizes,
+    bias: Values,
 }
 
 impl<'a> System<'a> {
     fn new(problem: &'a Problem, effort: &'a Effort) -> Self {
         let count = problem.rates.len();
         effort.add(SEARCH + (ENTRY * count * count) as u64);
-        let mut system = Self { problem, effort, count, matrix: Vec::with_capacity(count * count), bias: NO_SIZES };
+        let mut system = Self { problem, effort, count, matrix: Vec::with_capacity(count * count), bias: ZERO_VALUES };
         for (row, (rate, bias)) in problem.rates.iter().zip(&problem.bias).enumerate() {
             system.bias[row] = rate.dot(&problem.known) + bias;
             system.matrix.extend(problem.forces.iter().map(|force| rate.dot(force)));
@@ -155,10 +159,10 @@ impl<'a> System<'a> {
         system
     }
 
-    /// Takes at most `steps` Newton steps from `sizes`, with fewer than `most_halvings` halvings each; updates the `best` forces.
+    /// Takes at most `steps` Newton steps from `values`, with fewer than `most_halvings` halvings each; updates the `best` forces.
     fn newton(
         &self,
-        sizes: &Sizes,
+        values: &Values,
         best: &mut Best,
         steps: usize,
         most_halvings: i32,
@@ -169,13 +173,13 @@ impl<'a> System<'a> {
         let [here, next, spare] = &mut points;
         let (mut here, mut next, mut spare) = (here, next, spare);
         let mut jacobian = Vec::with_capacity(self.count * self.count);
-        self.put(here, |index| sizes[index]);
+        self.put(here, |index| values[index]);
         for _ in 0..steps {
             if here.error < best.error {
-                (best.error, best.sizes) = (here.error, here.sizes);
+                (best.error, best.values) = (here.error, here.values);
             }
-            if here.error <= ROUNDING * self.scale(&here.sizes) {
-                return Some(Solution { sizes: here.sizes, sides: here.sides, converged: true });
+            if here.error <= ROUNDING * self.scale(&here.values) {
+                return Some(Solution { values: here.values, branches: here.branches, converged: true });
             }
             let change = self.newton_step(here, &mut jacobian, proximity)?;
             (next, spare) = self.step(here, &change, most_halvings, [next, spare]);
@@ -189,11 +193,11 @@ impl<'a> System<'a> {
     fn step<'p>(
         &self,
         here: &Point,
-        change: &Sizes,
+        change: &Values,
         most_halvings: i32,
         [mut best, mut other]: [&'p mut Point; 2],
     ) -> (&'p mut Point, &'p mut Point) {
-        let go = |share: f64, point: &mut Point| self.put(point, |index| here.sizes[index] + share * change[index]);
+        let go = |share: f64, point: &mut Point| self.put(point, |index| here.values[index] + share * change[index]);
         go(1.0, best);
         if best.error < ENOUGH * here.error {
             return (best, other);
@@ -215,10 +219,10 @@ impl<'a> System<'a> {
 
     /// Evaluates a point with the given values.
     fn put(&self, point: &mut Point, size: impl Fn(usize) -> f64) {
-        for (index, value) in point.sizes[..self.count].iter_mut().enumerate() {
+        for (index, value) in point.values[..self.count].iter_mut().enumerate() {
             *value = size(index);
         }
-        self.residual(&point.sizes, &mut point.residual, &mut point.sides);
+        self.residual(&point.values, &mut point.residual, &mut point.branches);
         point.error = point.residual[..self.count].iter().fold(0.0, |sum, x| sum + x * x).sqrt();
     }
 
@@ -226,15 +230,15 @@ impl<'a> System<'a> {
         &self.matrix[index * self.count..][..self.count]
     }
 
-    fn rate(&self, index: usize, sizes: &Sizes) -> f64 {
-        self.bias[index] + self.row(index).iter().zip(sizes).map(|(w, x)| w * x).sum::<f64>()
+    fn rate(&self, index: usize, values: &Values) -> f64 {
+        self.bias[index] + self.row(index).iter().zip(values).map(|(w, x)| w * x).sum::<f64>()
     }
 
     /// Returns the largest of all forces and accelerations, m/s², which determines the rounding of the residual.
-    fn scale(&self, sizes: &Sizes) -> f64 {
+    fn scale(&self, values: &Values) -> f64 {
         self.bias[..self.count]
             .iter()
-            .chain(&sizes[..self.count])
+            .chain(&values[..self.count])
             .fold(f64::MIN_POSITIVE, |largest, x| largest.max(x.abs()))
     }
 
@@ -246,78 +250,78 @@ impl<'a> System<'a> {
     }
 
     /// Returns the force whose projection the law requires: `z = f - rate/w` with the response `w`.
-    fn wanted(&self, sizes: &Sizes, index: usize, response: f64) -> f64 {
-        sizes[index] - self.rate(index, sizes) / response
+    fn wanted(&self, values: &Values, index: usize, response: f64) -> f64 {
+        values[index] - self.rate(index, values) / response
     }
 
     /// Returns the projected force of a law, and its active branch.
-    fn project(&self, unknown: &Unknown, sizes: &Sizes) -> (DVec2, Side) {
+    fn project(&self, unknown: &Unknown, values: &Values) -> (DVec2, Branch) {
         let first = unknown.first;
         let response = self.response(unknown);
-        let wanted = |index: usize| self.wanted(sizes, index, response);
+        let wanted = |index: usize| self.wanted(values, index, response);
         if let ForceKind::Normal(_) = unknown.kind {
             let force = wanted(first);
             let pushes = force > 0.0 && !matches!(unknown.limit, Limit::Fixed(0.0));
-            return if pushes { (DVec2::new(force, 0.0), Side::Holds) } else { (DVec2::ZERO, Side::Absent) };
+            return if pushes { (DVec2::new(force, 0.0), Branch::Holds) } else { (DVec2::ZERO, Branch::Absent) };
         }
         let force = DVec2::new(wanted(first), if unknown.count == 2 { wanted(first + 1) } else { 0.0 });
         let limit = match unknown.limit {
             Limit::Fixed(limit) => limit,
-            Limit::Coulomb(_, contact) if sizes[contact] <= 0.0 => 0.0,
-            Limit::Coulomb(mu, contact) => mu * sizes[contact],
+            Limit::Coulomb(_, contact) if values[contact] <= 0.0 => 0.0,
+            Limit::Coulomb(mu, contact) => mu * values[contact],
         };
         if limit <= 0.0 {
-            (DVec2::ZERO, Side::Absent)
+            (DVec2::ZERO, Branch::Absent)
         } else if force.length_squared() <= limit * limit {
-            (force, Side::Holds)
+            (force, Branch::Holds)
         } else {
             let direction = force.normalize();
-            (limit * direction, Side::Limited(direction))
+            (limit * direction, Branch::Limited(direction))
         }
     }
 
     /// Computes forces minus their projections, and the branch of each law.
-    fn residual(&self, sizes: &Sizes, residual: &mut Sizes, sides: &mut Sides) {
+    fn residual(&self, values: &Values, residual: &mut Values, branches: &mut Branches) {
         self.effort.add((self.count * self.count) as u64);
-        for (unknown, side) in self.problem.unknowns.iter().zip(sides) {
+        for (unknown, branch) in self.problem.unknowns.iter().zip(branches) {
             let force;
-            (force, *side) = self.project(unknown, sizes);
+            (force, *branch) = self.project(unknown, values);
             for (axis, projected) in force.to_array().into_iter().take(unknown.count).enumerate() {
-                residual[unknown.first + axis] = sizes[unknown.first + axis] - projected;
+                residual[unknown.first + axis] = values[unknown.first + axis] - projected;
             }
         }
     }
 
     /// Computes a Newton step; `None` if its system is singular.
-    fn newton_step(&self, point: &Point, jacobian: &mut Vec<f64>, proximity: f64) -> Option<Sizes> {
-        let Point { sizes, residual, sides, .. } = point;
+    fn newton_step(&self, point: &Point, jacobian: &mut Vec<f64>, proximity: f64) -> Option<Values> {
+        let Point { values, residual, branches, .. } = point;
         let n = self.count;
         self.effort.add((n * n * (n + 6) / 3) as u64);
         jacobian.clear();
         jacobian.resize(n * n, 0.0);
-        let mut change = NO_SIZES;
-        for (unknown, side) in self.problem.unknowns.iter().zip(sides) {
+        let mut change = ZERO_VALUES;
+        for (unknown, branch) in self.problem.unknowns.iter().zip(branches) {
             for axis in 0..unknown.count {
                 let index = unknown.first + axis;
                 let entries = &mut jacobian[index * n..][..n];
-                match *side {
-                    Side::Holds => {
+                match *branch {
+                    Branch::Holds => {
                         entries.copy_from_slice(self.row(index));
                         entries[index] += proximity;
-                        change[index] = -self.rate(index, sizes);
+                        change[index] = -self.rate(index, values);
                     }
-                    Side::Absent => {
+                    Branch::Absent => {
                         entries[index] = 1.0;
-                        change[index] = -sizes[index];
+                        change[index] = -values[index];
                     }
-                    Side::Limited(direction) => {
+                    Branch::Limited(direction) => {
                         change[index] = -residual[index];
-                        self.limited(unknown, axis, direction, sizes, entries);
+                        self.limited(unknown, axis, direction, values, entries);
                     }
                 }
             }
         }
-        let mut pivots = [0; MOST_UNKNOWNS];
+        let mut pivots = [0; MAX_UNKNOWNS];
         if factorize(jacobian, &mut pivots[..n]) == 0.0 {
             return None;
         }
@@ -327,20 +331,20 @@ impl<'a> System<'a> {
 
     /// Fills a row of the derivative of `f - L z/|z|` with `z = f - rate/w`: the limit grows with its normal force, and the direction turns
     /// with `z`.
-    fn limited(&self, unknown: &Unknown, axis: usize, direction: DVec2, sizes: &Sizes, entries: &mut [f64]) {
+    fn limited(&self, unknown: &Unknown, axis: usize, direction: DVec2, values: &Values, entries: &mut [f64]) {
         let n = self.count;
         let response = self.response(unknown);
         let mut limit = 0.0;
         match unknown.limit {
             Limit::Fixed(fixed) => limit = fixed,
             Limit::Coulomb(mu, contact) => {
-                limit += mu * sizes[contact];
+                limit += mu * values[contact];
                 entries[contact] -= mu * direction[axis];
             }
         }
         entries[unknown.first + axis] += 1.0;
         if unknown.count == 2 {
-            let z = |index: usize| self.wanted(sizes, index, response);
+            let z = |index: usize| self.wanted(values, index, response);
             let length = DVec2::new(z(unknown.first), z(unknown.first + 1)).length();
             for other in 0..2 {
                 let across = f64::from(u8::from(axis == other)) - direction[axis] * direction[other];
@@ -355,11 +359,11 @@ impl<'a> System<'a> {
     }
 
     /// Satisfies one law after another with the other forces fixed.
-    fn sweep(&self, sizes: &mut Sizes) {
+    fn sweep(&self, values: &mut Values) {
         self.effort.add((self.count * self.count) as u64);
         for unknown in &self.problem.unknowns {
-            let (force, _) = self.project(unknown, sizes);
-            sizes[unknown.first..][..unknown.count].copy_from_slice(&force.to_array()[..unknown.count]);
+            let (force, _) = self.project(unknown, values);
+            values[unknown.first..][..unknown.count].copy_from_slice(&force.to_array()[..unknown.count]);
         }
     }
 }

@@ -90,7 +90,7 @@ fn at(cue: &CueInputs, theta: f64) -> CueInputs {
 }
 
 #[test]
-fn from_the_least_elevation_on_no_point_of_the_cue_is_in_a_rail_or_a_ball_and_below_it_one_is() {
+fn cue_clears_rails_and_balls_exactly_from_the_least_elevation() {
     let table = table();
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(16);
     let (mut raised, mut bounds, mut refused, mut wrongly) = (0, 0, 0, 0);
@@ -140,7 +140,7 @@ fn up(b: f64) -> CueInputs {
 }
 
 #[test]
-fn a_frozen_cue_ball_is_played_away_from_its_rail_with_a_raised_cue_and_from_the_middle_almost_level() {
+fn frozen_cue_ball_needs_a_raised_cue_away_from_its_rail() {
     let (table, frozen) = near_the_bottom(0.0);
     assert_eq!(least_elevation(&table, &frozen, &up(0.0)).unwrap_err().obstacle, Obstacle::Rail(Rail::Bottom));
     let low = least_elevation(&table, &frozen, &up(0.35)).unwrap();
@@ -158,12 +158,12 @@ fn a_frozen_cue_ball_is_played_away_from_its_rail_with_a_raised_cue_and_from_the
 }
 
 #[test]
-fn a_cue_that_cannot_be_held_at_all_is_refused_and_a_table_without_limits_refuses_nothing() {
+fn blocked_cue_is_refused_only_on_tables_with_room_limits() {
     let (table, layout) = near_the_bottom(0.0);
-    let error = with_room(&table, &layout, &up(-0.2)).unwrap_err();
+    let error = raise_to_clear(&table, &layout, &up(-0.2)).unwrap_err();
     assert!(error.to_string().contains("the bottom rail"), "{error}");
     let free = Table { room: None, ..table.clone() };
-    assert_eq!(with_room(&free, &layout, &up(-0.2)), Ok(up(-0.2)));
+    assert_eq!(raise_to_clear(&free, &layout, &up(-0.2)), Ok(up(-0.2)));
     assert_eq!(least_elevation(&free, &layout, &up(-0.2)), Ok(LeastElevation { theta: 0.0, over: None }));
     // A ball that touches the cue ball from behind, with the tip at the middle of the cue ball.
     let cue_ball = DVec2::new(0.0, 0.1);
@@ -175,7 +175,7 @@ fn a_cue_that_cannot_be_held_at_all_is_refused_and_a_table_without_limits_refuse
 }
 
 #[test]
-fn a_ball_ahead_is_in_nobodys_way_wherever_the_tip_is() {
+fn ball_ahead_never_blocks_the_cue() {
     let table = table();
     for (apart, b) in [(0.062, -0.45), (0.3, -0.3), (0.3, 0.0), (1.0, 0.45)] {
         let layout = Layout::new([DVec2::ZERO, DVec2::new(0.0, apart), DVec2::new(-1.2, 0.3)]);
@@ -229,15 +229,15 @@ proptest! {
     }
 
     #[test]
-    fn a_raised_stroke_has_room_is_raised_by_no_more_than_a_step_and_not_again(seed in any::<u64>()) {
+    fn raised_stroke_has_room_is_minimal_and_stays(seed in any::<u64>()) {
         let table = table();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let layout = layout(&table, &mut rng);
         let cue = towards_trouble(&table, &layout, &mut rng);
-        if let Ok(raised) = with_room(&table, &layout, &cue) {
+        if let Ok(raised) = raise_to_clear(&table, &layout, &cue) {
             raised.validate().unwrap();
             prop_assert!(has_room(&table, &layout, &raised));
-            prop_assert_eq!(with_room(&table, &layout, &raised), Ok(raised));
+            prop_assert_eq!(raise_to_clear(&table, &layout, &raised), Ok(raised));
             let least = least_elevation(&table, &layout, &cue).unwrap();
             // A low tip may have clearance when level and none at some steeper elevations.
             if has_room(&table, &layout, &cue) {

@@ -26,7 +26,7 @@ impl BallImpact {
         let approach = self.resolve_in_space(radius, slowest, first, second);
         for ball in [&mut *first, &mut *second] {
             if ball.position.z <= 0.0 {
-                cloth.answer(radius, ball);
+                cloth.resolve(radius, ball);
             }
         }
         let first_is_lower = first.position.z < second.position.z;
@@ -40,13 +40,13 @@ impl BallImpact {
         let opening = upper.velocity.dot(n) - lower.velocity.truncate().dot(n.truncate());
         if approach <= slowest || opening < slowest {
             (*upper, *lower) = (upper_before, lower_before);
-            self.resolve_held(radius, slowest, cloth, upper, lower);
+            self.resolve_supported(radius, slowest, cloth, upper, lower);
         }
         approach
     }
 
     /// Applies a collision in which the cloth supports the `lower` ball.
-    fn resolve_held(
+    fn resolve_supported(
         &self,
         radius: f64,
         slowest: f64,
@@ -74,7 +74,7 @@ impl BallImpact {
         upper.spin += twist;
         lower.spin += twist;
         cloth.apply_friction(radius, (push * n.z + friction.z).max(0.0), lower);
-        part_slowly(slowest, n, upper, lower);
+        separate_slowly(slowest, n, upper, lower);
     }
 }
 
@@ -82,7 +82,7 @@ impl BallImpact {
 ///
 /// The sliding impulse is made orthogonal to the separating one in the metric of the kinetic energy. Each then changes one speed and leaves
 /// the other unchanged, and no energy is gained.
-fn part_slowly(slowest: f64, n: DVec3, upper: &mut SpatialState, lower: &mut SpatialState) {
+fn separate_slowly(slowest: f64, n: DVec3, upper: &mut SpatialState, lower: &mut SpatialState) {
     let relative = upper.velocity - lower.velocity;
     let opening = relative.dot(n);
     if opening >= 0.5 * slowest {
@@ -143,7 +143,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn no_blow_on_a_ball_on_the_cloth_gives_energy_and_a_soft_one_without_spin_opens(
+        fn impacts_over_cloth_gain_no_energy_and_soft_ones_separate(
             angle in 0.0..1.5f64,
             size in -4.0..0.0f64,
             v in [-1.0..1.0f64, -1.0..1.0, -1.0..1.0, -1.0..1.0, -1.0..1.0],
@@ -170,7 +170,7 @@ mod tests {
     /// The upper ball's own motion would not suffice to follow a ball that moves away as fast: the balls would collide again and again,
     /// without end.
     #[test]
-    fn balls_that_go_the_same_way_part_by_what_they_slide_along_each_other() {
+    fn balls_moving_together_separate_by_their_relative_sliding() {
         let (n, slowest) = (DVec3::new(0.6 * 1.2_f64.sin(), 0.8 * 1.2_f64.sin(), 1.2_f64.cos()), 2e-3);
         let ball = |velocity| SpatialState { position: DVec3::ZERO, velocity, spin: DVec3::ZERO };
         let ahead = 0.3 * n.with_z(0.0);
@@ -179,18 +179,18 @@ mod tests {
             [upper, lower].map(|ball| ball.velocity.length_squared()).iter().sum::<f64>()
         };
         let before = energy(&upper, &lower);
-        part_slowly(slowest, n, &mut upper, &mut lower);
+        separate_slowly(slowest, n, &mut upper, &mut lower);
         let opening = (upper.velocity - lower.velocity).dot(n);
         assert!((opening - slowest).abs() < 1e-12 && lower.velocity.z == 0.0, "{opening} {lower:?}");
         assert!((energy(&upper, &lower) - before).abs() < 1e-15, "{before}");
         // If they do not slide along each other, there is no energy to take.
         let still = upper;
-        part_slowly(slowest, n, &mut upper, &mut ball(still.velocity));
+        separate_slowly(slowest, n, &mut upper, &mut ball(still.velocity));
         assert_eq!(upper, still);
     }
 
     #[test]
-    fn a_ball_that_comes_down_softly_on_another_rebounds_as_softly_and_keeps_its_motion_across() {
+    fn soft_landing_on_a_ball_rebounds_softly_keeping_tangential_motion() {
         let table =
             Table { flight: Some(Flight::default()), ball_friction: Some(0.0), ..Table::preset("textbook").unwrap() };
         let slowest = 2e-3;

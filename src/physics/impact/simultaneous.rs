@@ -78,7 +78,7 @@ pub fn collide_together(
             left.push(rest);
         }
         if let [alone] = group[..] {
-            impulses[alone] = collide_alone(radius, law, balls, &contacts[alone]);
+            impulses[alone] = collide_single(radius, law, balls, &contacts[alone]);
             continue;
         }
         let joined: Vec<Contact> = group.iter().map(|&index| contacts[index]).collect();
@@ -154,7 +154,7 @@ fn apply_impulses(
     };
     // Only of the balls that take part: next to the energy of another fast ball, rounding would hide a gain by slow ones.
     let energy = |balls: &[BallState; BALLS]| {
-        let members = (0..BALLS).filter(|&ball| contacts.iter().any(|contact| contact.has(ball)));
+        let members = (0..BALLS).filter(|&ball| contacts.iter().any(|contact| contact.involves(ball)));
         members.map(|ball| balls[ball].specific_energy(radius)).sum::<f64>()
     };
     let (before, half, whole) = (energy(balls), energy(&with_friction(0.5)), energy(&with_friction(1.0)));
@@ -165,7 +165,7 @@ fn apply_impulses(
 }
 
 /// Applies a single impact.
-fn collide_alone(radius: f64, law: &ImpactLaw, balls: &mut [BallState; BALLS], contact: &Contact) -> ImpactImpulse {
+fn collide_single(radius: f64, law: &ImpactLaw, balls: &mut [BallState; BALLS], contact: &Contact) -> ImpactImpulse {
     match contact.second {
         None => law.cushion(contact).resolve(radius, contact.cushion_normal, &mut balls[contact.first]),
         Some(second) => {
@@ -254,7 +254,7 @@ mod tests {
     const LINE: [Contact; 2] = [Contact::of_balls(0, 1), Contact::of_balls(1, 2)];
 
     #[test]
-    fn newtons_cradle_passes_a_blow_on_to_its_last_ball() {
+    fn newtons_cradle_passes_the_impulse_to_its_last_ball() {
         let mut balls = in_line(1.0);
         assert_eq!(collide(&law(1.0), &mut balls, &LINE), 2);
         assert_eq!(balls.map(|ball| ball.velocity.x), [0.0, 0.0, 1.0]);
@@ -270,7 +270,7 @@ mod tests {
     }
 
     #[test]
-    fn a_symmetric_break_stays_symmetric_whatever_the_balls_are_called() {
+    fn symmetric_break_stays_symmetric_in_any_ball_order() {
         let height = 3.0_f64.sqrt() * RADIUS;
         let mut balls = [
             BallState::at_rest(DVec2::new(-height, 0.0)),
@@ -291,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn contacts_without_shared_balls_collide_by_their_own_laws_in_the_same_round() {
+    fn contacts_without_shared_balls_collide_independently() {
         let law = ImpactLaw::of(&Table::preset("match").unwrap());
         let mut balls = in_line(2.0);
         balls[2].velocity = DVec2::new(3.0, 1.0);
@@ -329,7 +329,7 @@ mod tests {
     /// A slow ball in a corner, whose friction would accelerate it, while another ball is fast: its tiny energy gain is lost in the
     /// rounding of the sum.
     #[test]
-    fn balls_that_take_no_part_hide_no_energy_gain() {
+    fn uninvolved_balls_hide_no_energy_gain() {
         let law = with_friction(1.0, 0.2).with_restitution(1.0);
         let mut balls = in_line(0.0);
         balls[2].velocity = DVec2::new(-4.1e-7, 2.8e-8);
@@ -345,7 +345,7 @@ mod tests {
 
     /// A blow drives a ball away from another one that approaches it slowly: only two of the three balls collide.
     #[test]
-    fn a_relieved_contact_leaves_the_others_their_own_law() {
+    fn relieved_contact_does_not_change_the_law_of_others() {
         let law = ImpactLaw::of(&Table::preset("match").unwrap());
         let mut balls = in_line(0.0);
         balls[2].velocity = DVec2::new(-3.0, 0.4);
@@ -361,7 +361,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_between_a_ball_and_a_cushion_loses_energy_and_leaves_nothing_closing() {
+    fn ball_between_ball_and_cushion_loses_energy_and_separates() {
         let mut balls = in_line(0.0);
         balls[0] = BallState { velocity: DVec2::new(2.0, 0.7), spin: glam::DVec3::new(30.0, 50.0, -20.0), ..balls[0] };
         balls[1].velocity = DVec2::new(0.5, -0.3);

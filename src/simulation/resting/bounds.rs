@@ -13,35 +13,35 @@ use crate::{
 const DEVIATION_MARGIN: f64 = 0.89;
 
 /// Largest accepted excess of a slip that has begun slowly over its limit within a step.
-const MOST_YIELDED: f64 = 1.5;
+const MAX_YIELDED: f64 = 1.5;
 
 /// Largest number of halvings of the interval to a point within a step, if a single step to it is not accurate enough.
-const MOST_HALVINGS: u32 = 6;
+const MAX_HALVINGS: u32 = 6;
 
 impl Resting {
     /// Returns the state after `span`, from within a completed step, as accurately as the step itself, in several parts if necessary. A
     /// shorter interval may fail although the whole one converged, because the first errors of an extrapolation are poor estimates.
-    pub(super) fn reach(&self, table: &Table, from: &Trial, span: f64) -> Trial {
-        self.reach_in_halves(table, from, span, MOST_HALVINGS)
+    pub(super) fn step_to(&self, table: &Table, from: &Trial, span: f64) -> Trial {
+        self.step_to_in_halves(table, from, span, MAX_HALVINGS)
     }
 
-    fn reach_in_halves(&self, table: &Table, from: &Trial, span: f64, halvings: u32) -> Trial {
+    fn step_to_in_halves(&self, table: &Table, from: &Trial, span: f64, halvings: u32) -> Trial {
         let (whole, tolerance) = (self.attempt(table, from, span), &self.constants.tolerance);
         if whole.step.error <= tolerance.step || halvings == 0 || span - from.span <= tolerance.shortest_step {
             return whole;
         }
-        let middle = self.reach_in_halves(table, from, 0.5 * (from.span + span), halvings - 1);
-        self.reach_in_halves(table, &middle, span, halvings - 1)
+        let middle = self.step_to_in_halves(table, from, 0.5 * (from.span + span), halvings - 1);
+        self.step_to_in_halves(table, &middle, span, halvings - 1)
     }
 
     /// Returns the first half of a step if a law holds at both ends but is broken in the `middle`: a tiny normal force becomes negative and
     /// returns.
     pub(super) fn breaking_half(&self, table: &Table, begin: &Trial, whole: &Trial, middle: &Forces) -> Option<Trial> {
-        let breaks = |forces: &Forces| forces.slack < -self.constants.tolerance.slack;
+        let breaks = |forces: &Forces| forces.slack < -self.constants.tolerance.force_error;
         if breaks(&whole.forces) || !(middle.converged && breaks(middle)) {
             return None;
         }
-        Some(self.reach(table, begin, 0.5 * (begin.span + whole.span))).filter(|half| breaks(&half.forces))
+        Some(self.step_to(table, begin, 0.5 * (begin.span + whole.span))).filter(|half| breaks(&half.forces))
     }
 
     /// Returns a shorter step if the error is too large, the trajectory is not close to a polynomial, or a slip that has begun slowly
@@ -55,7 +55,7 @@ impl Resting {
             return Some(course);
         }
         let yielded = self.yielded(table, &trial.step.end.balls) / tolerance.yielding;
-        (yielded > MOST_YIELDED).then(|| (1.0 / yielded).max(0.1) * trial.span)
+        (yielded > MAX_YIELDED).then(|| (1.0 / yielded).max(0.1) * trial.span)
     }
 
     /// Returns the longest step whose trajectory is represented by its polynomial, estimated from the deviation at half the time: h²/24

@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::{Phase, Place, Resting, STIFF, Trial};
+use super::{Phase, Resting, STIFF, SlipLocation, Trial};
 use crate::{
     physics::{Forces, Friction, Scene},
     simulation::extrapolation::{Mode, Stiff},
@@ -32,12 +32,12 @@ impl Resting {
         let mut stiffest = 0.0_f64;
         self.slips(table.radius, balls, &from.forces, |place, slip, _| {
             let (friction, does) = match place {
-                Place::Contact(index) => {
+                SlipLocation::Contact(index) => {
                     let limit = from.forces.friction_limit(table, &self.contacts, index);
                     (2.0 * RESPONSE * limit, self.set.contact[index])
                 }
-                Place::Roll(ball) => (table.rolling_friction * table.gravity, self.set.roll[ball]),
-                Place::Cloth(ball) => (RESPONSE * self.constants.sliding, self.set.cloth[ball]),
+                SlipLocation::Roll(ball) => (table.rolling_friction * table.gravity, self.set.roll[ball]),
+                SlipLocation::Cloth(ball) => (RESPONSE * self.constants.sliding, self.set.cloth[ball]),
             };
             let slip = if let Friction::Slips(start) = does { slip + start } else { slip };
             let turns = friction * length / slip.length();
@@ -51,7 +51,7 @@ impl Resting {
     }
 
     /// Returns the deviation of one slip's direction, and the effect of turning its friction.
-    fn mode(&self, table: &Table, from: &Trial, place: Place, slip: DVec2) -> Mode {
+    fn mode(&self, table: &Table, from: &Trial, place: SlipLocation, slip: DVec2) -> Mode {
         let balls = &from.step.end.balls;
         let across = slip.perp().normalize();
         let turned = |friction: &mut Friction| {
@@ -61,16 +61,16 @@ impl Resting {
         };
         let (mut set, mut row) = (self.set, Phase::ZERO);
         match place {
-            Place::Cloth(ball) => {
+            SlipLocation::Cloth(ball) => {
                 turned(&mut set.cloth[ball]);
                 row.balls[ball].velocity = across;
                 row.balls[ball].spin = -table.radius * across.perp().extend(0.0);
             }
-            Place::Roll(ball) => {
+            SlipLocation::Roll(ball) => {
                 turned(&mut set.roll[ball]);
                 row.balls[ball].velocity = across;
             }
-            Place::Contact(index) => {
+            SlipLocation::Contact(index) => {
                 turned(&mut set.contact[index]);
                 let contact = &self.contacts[index];
                 let t = contact.normal(balls).perp();

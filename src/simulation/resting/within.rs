@@ -13,18 +13,18 @@ const SPENT: f64 = 1e-9;
 impl Resting {
     /// If a law of the active set is broken at the end of a step, shortens the step to just after the time of the break.
     pub(super) fn until_a_law_breaks(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
-        if whole.forces.slack < -self.constants.tolerance.slack {
-            let shorter = self.until_the_slack_ends(table, begin, whole);
-            if !self.shared || !self.holds(table, &shorter) {
+        if whole.forces.slack < -self.constants.tolerance.force_error {
+            let shorter = self.until_margin_is_zero(table, begin, whole);
+            if !self.shared || !self.satisfies_laws(table, &shorter) {
                 return shorter;
             }
         }
-        self.while_it_holds(table, begin, whole)
+        self.until_laws_break(table, begin, whole)
     }
 
     /// Finds the zero of the slack by false position (Illinois) and bisection; each iteration starts at the last state before the zero.
-    fn until_the_slack_ends(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
-        let allowed = self.constants.tolerance.slack;
+    fn until_margin_is_zero(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
+        let allowed = self.constants.tolerance.force_error;
         let (mut before, mut after) = (*begin, *whole);
         let (mut low_value, mut high_value) = ((self.first.slack + allowed).max(0.0), after.forces.slack + allowed);
         let mut same_side = 0_i32;
@@ -34,7 +34,7 @@ impl Resting {
             }
             let secant = (low_value / (low_value - high_value)).clamp(0.01, 0.99);
             let share = if same_side.abs() > 2 { 0.5 } else { secant };
-            let middle = self.reach(table, &before, before.span + share * (after.span - before.span));
+            let middle = self.step_to(table, &before, before.span + share * (after.span - before.span));
             let value = middle.forces.slack + allowed;
             if value < 0.0 {
                 (after, high_value) = (middle, value);
@@ -53,12 +53,12 @@ impl Resting {
         after
     }
 
-    /// As [`Self::until_the_slack_ends`] for over-constrained sets, whose end only a test of the laws can detect.
-    fn while_it_holds(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
+    /// As [`Self::until_margin_is_zero`] for over-constrained sets, whose end only a test of the laws can detect.
+    fn until_laws_break(&self, table: &Table, begin: &Trial, whole: &Trial) -> Trial {
         let (mut before, mut after) = (*begin, *whole);
         while after.span - before.span > self.constants.tolerance.shortest_step.max(1e-9 * after.span) {
-            let middle = self.reach(table, &before, 0.5 * (before.span + after.span));
-            if self.holds(table, &middle) {
+            let middle = self.step_to(table, &before, 0.5 * (before.span + after.span));
+            if self.satisfies_laws(table, &middle) {
                 before = middle;
             } else {
                 after = middle;
@@ -73,7 +73,7 @@ impl Resting {
     }
 
     /// Ends the step `time` seconds after its start: its trajectory becomes that of the shorter step.
-    pub fn cut(&mut self, table: &Table, time: f64) {
+    pub fn shorten(&mut self, table: &Table, time: f64) {
         if time >= self.step {
             return;
         }
@@ -81,7 +81,7 @@ impl Resting {
         self.end_if_given_up();
         self.interrupted = true;
         (self.step, self.last) = (time, trial.forces);
-        (self.end, self.goes_on) = (self.without_rounding(table, trial.step.end.balls), false);
+        (self.end, self.keeps_set) = (self.without_rounding(table, trial.step.end.balls), false);
         if time > 0.0 {
             // The next step will probably be interrupted after a similar time.
             self.next_step = GROWTH_AFTER_INTERRUPTION * time;
@@ -90,7 +90,7 @@ impl Resting {
 
     /// Returns the step that ends after `time` seconds.
     fn until(&self, table: &Table, time: f64) -> Trial {
-        let mut trial = self.reach(table, &self.beginning(), time);
+        let mut trial = self.step_to(table, &self.initial_trial(), time);
         if self.time_scale.is_some() {
             // Newton iterations: the derivative of time is known.
             for _ in 0..MAX_GUESSES {
@@ -102,7 +102,7 @@ impl Resting {
                 if rate < SPENT {
                     break;
                 }
-                trial = self.reach(table, &trial, trial.span + late / rate);
+                trial = self.step_to(table, &trial, trial.span + late / rate);
             }
         }
         trial

@@ -12,7 +12,7 @@ use super::{
     rail_hits::{RailHit, chains, stretches},
 };
 use crate::{
-    simulation::{Follower, alone},
+    simulation::{Follower, lone_ball_layout},
     statistics::fit,
     table::Table,
 };
@@ -28,9 +28,9 @@ pub struct Chain {
 
 /// The prediction of a chain, compared with the film.
 #[derive(Clone, Debug)]
-pub struct Played {
+pub struct ChainPrediction {
     /// Distances between predicted and filmed impacts, m, for `hits[1..]`.
-    pub places: Vec<f64>,
+    pub distances: Vec<f64>,
     /// Delays of the predicted impacts, s.
     pub delays: Vec<f64>,
 }
@@ -67,7 +67,7 @@ fn with_samples(shot: &FilmedShot, found: Vec<(usize, Vec<RailHit>)>) -> Vec<Cha
 }
 
 /// Damps a residual: linear near zero, logarithmic beyond [`ROBUST`].
-pub fn soften(miss: f64) -> f64 {
+pub fn damp_residual(miss: f64) -> f64 {
     ROBUST * (miss / ROBUST).asinh()
 }
 
@@ -82,23 +82,27 @@ impl Chain {
         let mut residuals = |numbers: &[f64; 7], out: &mut Vec<f64>| {
             out.clear();
             let motion = Motion::of(*numbers);
-            let followed = Follower::new(&times, 0).of(table, &alone(motion.place), &motion.impulse(table.radius));
-            for (sample, place) in used.iter().zip(&followed.places) {
-                let miss = *place - sample.place;
-                out.extend([soften(miss.x), soften(miss.y)]);
+            let followed = Follower::new(&times, 0).follow(
+                table,
+                &lone_ball_layout(motion.position),
+                &motion.impulse(table.radius),
+            );
+            for (sample, position) in used.iter().zip(&followed.positions) {
+                let miss = *position - sample.position;
+                out.extend([damp_residual(miss.x), damp_residual(miss.y)]);
             }
             // A weak prior: slip and spin are not much faster than the motion, so less is likelier if the film does not
             // determine them.
             out.extend([1e-4 * numbers[4], 1e-4 * numbers[5], 1e-4 * numbers[6]]);
         };
         let (first, second) = (self.samples[0], self.samples[1]);
-        let velocity = (second.place - first.place) / (second.time - first.time);
+        let velocity = (second.position - first.position) / (second.time - first.time);
         let n = self.hits[0].rail.normal();
         let mut best: Option<(Motion, f64)> = None;
         let sides: &[f64] = if known.is_some() { &[0.0] } else { &[-1.2, -0.6, -0.2, 0.2, 0.6, 1.2] };
         for share in sides {
             let start = known.unwrap_or(Motion {
-                place: first.place,
+                position: first.position,
                 velocity,
                 slip: 1.2 * velocity.dot(n) * n,
                 side: share * velocity.length(),
@@ -108,21 +112,24 @@ impl Chain {
                 best = Some((Motion::of(found.parameters), found.squares));
             }
         }
-        best.unwrap_or((Motion { place: first.place, velocity, slip: DVec2::ZERO, side: 0.0 }, f64::INFINITY))
+        best.unwrap_or((Motion { position: first.position, velocity, slip: DVec2::ZERO, side: 0.0 }, f64::INFINITY))
     }
 
     /// Fits the motion to the first two legs and predicts the rest.
-    pub fn play(&self, table: &Table) -> Played {
+    pub fn predict(&self, table: &Table) -> ChainPrediction {
         let (motion, _) = self.fit(table, 2, None);
         let begin = self.samples[0].time;
-        let followed =
-            Follower::new(&[], self.hits.len() - 1).of(table, &alone(motion.place), &motion.impulse(table.radius));
-        let (mut places, mut delays) = (Vec::new(), Vec::new());
+        let followed = Follower::new(&[], self.hits.len() - 1).follow(
+            table,
+            &lone_ball_layout(motion.position),
+            &motion.impulse(table.radius),
+        );
+        let (mut distances, mut delays) = (Vec::new(), Vec::new());
         for (index, hit) in self.hits[1..].iter().enumerate() {
             let met = followed.hits.get(index);
-            places.push(met.map_or(9.0, |(_, _, place)| place.distance(hit.place)));
+            distances.push(met.map_or(9.0, |(_, _, position)| position.distance(hit.position)));
             delays.push(met.map_or(9.0, |(time, ..)| begin + time - hit.time));
         }
-        Played { places, delays }
+        ChainPrediction { distances, delays }
     }
 }

@@ -45,11 +45,11 @@ impl FilmedShot {
     fn first_contact(&self, table: &Table, ball: usize) -> Option<f64> {
         let (track, diameter) = (&self.balls[ball], 2.0 * table.radius);
         let moved = first_moved(track)?;
-        let distance = |time: f64| self.place(0, time).distance(self.place(ball, time));
+        let distance = |time: f64| self.position(0, time).distance(self.position(ball, time));
         // While the object ball is at rest: the time at which the cue ball is nearest to it, between the two samples around the
         // start of its motion.
         let (from, to) = (track[moved - 1].time - BEYOND, track[moved].time + BEYOND);
-        let lying = |time: f64| self.place(0, time).distance(track[0].place);
+        let lying = |time: f64| self.position(0, time).distance(track[0].position);
         let nearest = sample_times(from, to).min_by(|one, other| lying(*one).total_cmp(&lying(*other)))?;
         if lying(nearest) < diameter + NEAR {
             return Some(nearest);
@@ -69,7 +69,7 @@ fn sample_times(from: f64, to: f64) -> impl Iterator<Item = f64> {
 fn turns(table: &Table, track: &[Sample], rail: Rail) -> Vec<f64> {
     let inwards = rail.normal();
     let reach = inwards.abs().dot(table.reach());
-    let gaps: Vec<f64> = track.iter().map(|sample| sample.place.dot(inwards) + reach).collect();
+    let gaps: Vec<f64> = track.iter().map(|sample| sample.position.dot(inwards) + reach).collect();
     let (mut times, mut is_there) = (Vec::new(), false);
     for (n, gap) in gaps.windows(3).enumerate() {
         let is_turn = gap[1] <= gap[0] && gap[1] < gap[2] && gap[1] < AT_RAIL;

@@ -20,7 +20,7 @@ pub struct Sample {
     /// Time since the start of the shot's film, s.
     pub time: f64,
     /// Centre of the ball relative to the table's centre, m.
-    pub place: DVec2,
+    pub position: DVec2,
 }
 
 /// One filmed shot, the cue ball first.
@@ -41,7 +41,7 @@ pub struct FilmedShot {
 #[error(
     "the table \"{table}\" has {key} = {value} m, but the filmed one {key} = {filmed} m; accepted is the filmed size, to 0.3 mm"
 )]
-pub struct NotFilmed {
+pub struct SizeMismatch {
     table: String,
     key: &'static str,
     value: f64,
@@ -51,15 +51,15 @@ pub struct NotFilmed {
 /// Checks that the table has the size of the filmed one.
 ///
 /// # Errors
-/// [`NotFilmed`] if the sides or the balls differ from those of the filmed table.
-pub fn check_size(table: &Table) -> Result<(), NotFilmed> {
+/// [`SizeMismatch`] if the sides or the balls differ from those of the filmed table.
+pub fn check_size(table: &Table) -> Result<(), SizeMismatch> {
     // The default table, `match`, is fitted to the film.
     let filmed = Table::default();
     let sizes = |table: &Table| [("L", table.length), ("l", table.width), ("R", table.radius)];
     let pairs = sizes(table).into_iter().zip(sizes(&filmed));
     for ((key, value), (_, filmed)) in pairs {
         if (value - filmed).abs() > NOISE {
-            return Err(NotFilmed { table: table.name.clone(), key, value, filmed });
+            return Err(SizeMismatch { table: table.name.clone(), key, value, filmed });
         }
     }
     Ok(())
@@ -84,7 +84,7 @@ impl FilmedShot {
     /// Converts a line of the file; `None` if no ball moves.
     fn of(Line { shot: number, balls }: Line) -> Option<Self> {
         let tracks = balls.map(|ball| {
-            let sample = |[time, x, y]: [f64; 3]| Sample { time, place: DVec2::new(x, y) };
+            let sample = |[time, x, y]: [f64; 3]| Sample { time, position: DVec2::new(x, y) };
             ball.into_iter().map(sample).collect::<Vec<_>>()
         });
         // A ball with few samples may have started to move long before the sample that shows it.
@@ -101,47 +101,47 @@ impl FilmedShot {
     pub fn speed(&self) -> f64 {
         let moving: Vec<_> = self.balls[0].iter().filter(|sample| sample.time > self.start + 0.005).take(2).collect();
         let [one, other] = moving[..] else { return 0.0 };
-        other.place.distance(one.place) / (other.time - one.time)
+        other.position.distance(one.position) / (other.time - one.time)
     }
 
     /// Returns the duration of the film after the stroke, s.
-    pub fn lasts(&self) -> f64 {
+    pub fn duration(&self) -> f64 {
         let ends = self.balls.iter().filter_map(|track| Some(track.last()?.time));
         ends.fold(0.0, f64::max) - self.start
     }
 
     /// Returns a ball's position at `time`, m, by linear interpolation between samples. A ball at rest stays there until it
     /// starts to move: it is not interpolated towards the first sample in motion.
-    pub fn place(&self, ball: usize, time: f64) -> DVec2 {
+    pub fn position(&self, ball: usize, time: f64) -> DVec2 {
         let track = &self.balls[ball];
         let after = track.partition_point(|sample| sample.time <= time);
         match (after.checked_sub(1).map(|index| track[index]), track.get(after)) {
             (Some(from), Some(to)) => {
                 let since = if first_moved(track) == Some(after) { start_of(track) } else { from.time };
-                from.place.lerp(to.place, ((time - since) / (to.time - since)).max(0.0))
+                from.position.lerp(to.position, ((time - since) / (to.time - since)).max(0.0))
             }
-            (Some(only), None) => only.place,
-            (None, _) => track[0].place,
+            (Some(only), None) => only.position,
+            (None, _) => track[0].position,
         }
     }
 }
 
 /// Returns the index of the first sample away from the ball's first position.
 pub(super) fn first_moved(track: &[Sample]) -> Option<usize> {
-    track.iter().position(|sample| sample.place.distance(track[0].place) > MOTION_THRESHOLD)
+    track.iter().position(|sample| sample.position.distance(track[0].position) > MOTION_THRESHOLD)
 }
 
 /// Returns the time at which a ball starts to move, extrapolated back to its last position at rest.
 fn start_of(track: &[Sample]) -> f64 {
-    let rest = track[0].place;
+    let rest = track[0].position;
     first_moved(track).map_or(f64::INFINITY, |moved| {
         let (last, now) = (track[moved - 1], track[moved]);
         // Uses the speed from this sample to the next, at least 0.05 m/s, if there is a next one: a ball that is hit does not
         // creep.
         match track.get(moved + 1) {
             Some(next) => {
-                let speed = next.place.distance(now.place) / (next.time - now.time);
-                (now.time - now.place.distance(rest) / speed.max(0.05)).max(last.time)
+                let speed = next.position.distance(now.position) / (next.time - now.time);
+                (now.time - now.position.distance(rest) / speed.max(0.05)).max(last.time)
             }
             None => last.time,
         }
@@ -159,7 +159,7 @@ mod tests {
         for shot in &film {
             // The film of two shots starts long before the stroke.
             assert!((0.0..7.0).contains(&shot.start), "shot {} starts at {}", shot.number, shot.start);
-            let moved = shot.place(0, shot.start + 0.1).distance(shot.balls[0][0].place);
+            let moved = shot.position(0, shot.start + 0.1).distance(shot.balls[0][0].position);
             assert!(moved > 0.02, "shot {}: {moved}", shot.number);
             assert_eq!(shot.order[2], 2, "shot {}: nobody strikes the red", shot.number);
             let rises = |track: &Vec<Sample>| track.is_sorted_by(|one, next| one.time < next.time);
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_has_the_films_sides_and_balls() {
+    fn only_tables_of_the_filmed_size_are_accepted() {
         let filmed = Table::default();
         assert_eq!(check_size(&Table { length: 2.8401, ..filmed.clone() }), Ok(()));
         let narrow = check_size(&Table { width: 1.41, ..filmed.clone() }).unwrap_err().to_string();
@@ -180,19 +180,19 @@ mod tests {
     #[test]
     fn a_ball_lies_still_until_it_is_struck() {
         for shot in bundled() {
-            let rest = shot.balls[0][0].place;
-            assert!(shot.place(0, shot.start - 1e-9).distance(rest) < MOTION_THRESHOLD, "shot {}", shot.number);
-            let moving = shot.place(0, shot.start + 0.01).distance(rest);
+            let rest = shot.balls[0][0].position;
+            assert!(shot.position(0, shot.start - 1e-9).distance(rest) < MOTION_THRESHOLD, "shot {}", shot.number);
+            let moving = shot.position(0, shot.start + 0.01).distance(rest);
             assert!(moving > 0.005, "shot {}: {moving} m in 10 ms", shot.number);
         }
     }
 
     #[test]
-    fn a_ball_that_is_hardly_sampled_is_not_taken_for_the_one_that_was_struck() {
+    fn sparsely_sampled_ball_is_not_taken_for_the_cue_ball() {
         // In shot 48 the opponent's ball is nudged at the end; the film has three samples of it.
         let film = bundled();
         let shot = film.iter().find(|shot| shot.number == 48).unwrap();
         assert_eq!((shot.order, shot.balls[1].len()), ([0, 1, 2], 3));
-        assert!((3.0..4.5).contains(&shot.speed()) && shot.lasts() > 11.0, "{} m/s", shot.speed());
+        assert!((3.0..4.5).contains(&shot.speed()) && shot.duration() > 11.0, "{} m/s", shot.speed());
     }
 }

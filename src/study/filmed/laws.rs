@@ -12,7 +12,7 @@ use crate::{
 
 /// A model of the rails and its weight.
 #[derive(Clone, Debug)]
-pub struct Weighed {
+pub struct WeightedModel {
     /// The model with its constants fitted to the whole film.
     pub fitted: Fitted,
     /// Weight of the model in the mixture of all weighed models that predicts the rail impacts best.
@@ -31,7 +31,7 @@ const ROUNDS: usize = 2000;
 ///
 /// `sure` is the strength of the prior: the number of additional impacts that count as predicted equally well by all models. A
 /// few stretches therefore cannot rule out a model.
-pub fn weigh(table: &Table, models: &[RailModel], film: &[FilmedShot], sure: f64) -> Vec<Weighed> {
+pub fn weigh_models(table: &Table, models: &[RailModel], film: &[FilmedShot], sure: f64) -> Vec<WeightedModel> {
     let half = |rest: usize| -> Vec<FilmedShot> { film.iter().skip(rest).step_by(2).cloned().collect() };
     let halves = [half(0), half(1)];
     let misses: Vec<Vec<f64>> = models
@@ -41,8 +41,8 @@ pub fn weigh(table: &Table, models: &[RailModel], film: &[FilmedShot], sure: f64
                 let table = fit_constants(table, *model, &halves[fit_on]).table;
                 let diamond = table.diamond();
                 let miss = move |chain: chains::Chain| {
-                    let played = chain.play(&table);
-                    played.places[played.places.len() - 1] / diamond
+                    let played = chain.predict(&table);
+                    played.distances[played.distances.len() - 1] / diamond
                 };
                 chains::all(&Table::default(), &halves[1 - fit_on], 4).into_iter().map(miss).collect::<Vec<_>>()
             };
@@ -56,7 +56,7 @@ pub fn weigh(table: &Table, models: &[RailModel], film: &[FilmedShot], sure: f64
     let likelihoods: Vec<Vec<f64>> =
         misses.iter().map(|misses| misses.iter().map(|miss| 1.0 / (1.0 + (miss / scale).powi(2))).collect()).collect();
     let weights = stacking_weights(&likelihoods, sure);
-    let weighed = |((model, weight), misses): ((&RailModel, f64), &Vec<f64>)| Weighed {
+    let weighed = |((model, weight), misses): ((&RailModel, f64), &Vec<f64>)| WeightedModel {
         fitted: fit_constants(table, *model, film),
         weight,
         median: median(misses),
@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_law_that_predicts_better_weighs_more_and_few_cases_rule_out_none() {
+    fn better_law_weighs_more_and_the_prior_excludes_none() {
         let (good, bad) = (vec![0.9; 20], vec![0.1; 20]);
         let [first, second] = stacking_weights(&[good.clone(), bad.clone()], 0.0)[..] else { panic!() };
         assert!(first > 0.999 && (first + second - 1.0).abs() < 1e-9);

@@ -13,7 +13,7 @@ pub fn spin_of_slip(radius: f64, velocity: DVec2, slip: DVec2) -> DVec2 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
     /// Centre, m.
-    pub place: DVec2,
+    pub position: DVec2,
     /// Velocity, m/s.
     pub velocity: DVec2,
     /// Slip on the cloth, m/s.
@@ -25,13 +25,13 @@ pub struct Motion {
 impl Motion {
     /// Returns the motion as seven numbers, in the order of the fields.
     pub fn numbers(&self) -> [f64; 7] {
-        let Self { place, velocity, slip, side } = *self;
-        [place.x, place.y, velocity.x, velocity.y, slip.x, slip.y, side]
+        let Self { position, velocity, slip, side } = *self;
+        [position.x, position.y, velocity.x, velocity.y, slip.x, slip.y, side]
     }
 
     /// Creates the motion from seven numbers.
     pub fn of([x, y, vx, vy, ux, uy, side]: [f64; 7]) -> Self {
-        Self { place: DVec2::new(x, y), velocity: DVec2::new(vx, vy), slip: DVec2::new(ux, uy), side }
+        Self { position: DVec2::new(x, y), velocity: DVec2::new(vx, vy), slip: DVec2::new(ux, uy), side }
     }
 
     /// Returns the impulse that sets a ball at rest in this motion.

@@ -5,10 +5,10 @@ use std::io;
 use glam::DVec2;
 use plotters::prelude::*;
 
-use super::{film::FilmedShot, whole};
+use super::{film::FilmedShot, shot_fit};
 use crate::{
     simulation::Follower,
-    study::chart::{AZURE, Area, CRIMSON, Drawn, GREY, INK, svg, text},
+    study::chart::{AZURE, Area, CRIMSON, DrawResult, GREY, INK, svg, text},
     table::Table,
 };
 
@@ -39,8 +39,8 @@ pub fn paths(table: &Table, film: &[FilmedShot]) -> io::Result<String> {
     })
 }
 
-fn panel(area: &Area<'_>, table: &Table, shot: &FilmedShot) -> Drawn {
-    let Some(played) = whole::play(table, shot) else { return Ok(()) };
+fn panel(area: &Area<'_>, table: &Table, shot: &FilmedShot) -> DrawResult {
+    let Some(played) = shot_fit::fit_shot(table, shot) else { return Ok(()) };
     let half = 0.5 * DVec2::new(table.length, table.width);
     let mut chart = ChartBuilder::on(area)
         .margin(MARGIN)
@@ -49,14 +49,16 @@ fn panel(area: &Area<'_>, table: &Table, shot: &FilmedShot) -> Drawn {
     chart.plotting_area().fill(&RGBColor(0xe8, 0xf0, 0xf7))?;
     let times: Vec<f64> = (0..500).map(|step| 0.01 * f64::from(step)).collect();
     let layout = shot.layout(table);
-    let simulated = Follower::new(&times, 0).of(table, &layout, &played.motion.impulse(table.radius));
-    chart
-        .draw_series(LineSeries::new(simulated.places.iter().map(|place| (place.x, place.y)), AZURE.stroke_width(2)))?;
+    let simulated = Follower::new(&times, 0).follow(table, &layout, &played.motion.impulse(table.radius));
+    chart.draw_series(LineSeries::new(
+        simulated.positions.iter().map(|position| (position.x, position.y)),
+        AZURE.stroke_width(2),
+    ))?;
     let filmed = shot.balls[0].iter().filter(|sample| sample.time < played.start + 5.0);
-    chart.draw_series(filmed.map(|sample| Circle::new((sample.place.x, sample.place.y), 3, CRIMSON.filled())))?;
+    chart.draw_series(filmed.map(|sample| Circle::new((sample.position.x, sample.position.y), 3, CRIMSON.filled())))?;
     let radius = (SCALE * table.radius) as i32;
     chart.draw_series(
-        layout.balls[1..].iter().map(|place| Circle::new((place.x, place.y), radius, GREY.stroke_width(2))),
+        layout.balls[1..].iter().map(|position| Circle::new((position.x, position.y), radius, GREY.stroke_width(2))),
     )?;
     Ok(())
 }

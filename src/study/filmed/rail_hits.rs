@@ -13,7 +13,7 @@ pub struct RailHit {
     /// The rail.
     pub rail: Rail,
     /// Centre of the ball, m.
-    pub place: DVec2,
+    pub position: DVec2,
 }
 
 /// Number of samples on each side of an impact for its straight line.
@@ -31,7 +31,7 @@ pub fn rail_hits(table: &Table, track: &[Sample]) -> Vec<RailHit> {
     for rail in Rail::ALL {
         let n = rail.normal();
         let reach = n.abs().dot(table.reach());
-        let gap = |sample: &Sample| sample.place.dot(n) + reach;
+        let gap = |sample: &Sample| sample.position.dot(n) + reach;
         for i in 1..track.len().saturating_sub(1) {
             let nearest = gap(&track[i]) <= gap(&track[i - 1]) && gap(&track[i]) < gap(&track[i + 1]);
             if !nearest || gap(&track[i]) > 0.15 {
@@ -48,17 +48,17 @@ pub fn rail_hits(table: &Table, track: &[Sample]) -> Vec<RailHit> {
 fn hit_at(table: &Table, track: &[Sample], i: usize, rail: Rail) -> Option<RailHit> {
     let n = rail.normal();
     let reach = n.abs().dot(table.reach());
-    let gap = |sample: &Sample| sample.place.dot(n) + reach;
+    let gap = |sample: &Sample| sample.position.dot(n) + reach;
     // A sample on the rail belongs to neither side.
     let on_rail = gap(&track[i]) < 0.002;
     let meets = |samples: &[Sample]| -> Option<(f64, DVec2)> {
         let (first, last) = (samples.first()?, samples.last()?);
-        let lasts = last.time - first.time;
-        let velocity = (last.place - first.place) / lasts;
+        let duration = last.time - first.time;
+        let velocity = (last.position - first.position) / duration;
         let closing = velocity.dot(n);
         let time = first.time - gap(first) / closing;
-        (lasts > 0.0 && lasts < 0.13 && closing.abs() > 0.03)
-            .then(|| (time, first.place + (time - first.time) * velocity))
+        (duration > 0.0 && duration < 0.13 && closing.abs() > 0.03)
+            .then(|| (time, first.position + (time - first.time) * velocity))
     };
     // A sample off the rail belongs before or after the impact: to the side for which the lines agree better.
     let sides: &[[usize; 2]] = if on_rail { &[[i, i + 1]] } else { &[[i + 1, i + 1], [i, i]] };
@@ -69,9 +69,9 @@ fn hit_at(table: &Table, track: &[Sample], i: usize, rail: Rail) -> Option<RailH
             return None;
         }
         let ((t1, p1), (t2, p2)) = (meets(before)?, meets(after)?);
-        let mut place = 0.5 * (p1 + p2);
-        place += (-reach - place.dot(n)) * n;
-        Some(((t1 - t2).abs(), p1.distance(p2), RailHit { time: 0.5 * (t1 + t2), rail, place }))
+        let mut position = 0.5 * (p1 + p2);
+        position += (-reach - position.dot(n)) * n;
+        Some(((t1 - t2).abs(), p1.distance(p2), RailHit { time: 0.5 * (t1 + t2), rail, position }))
     });
     let (time_difference, distance, hit) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
     (time_difference < MAX_DISAGREEMENT && distance < 0.05).then_some(hit)
@@ -83,8 +83,8 @@ pub fn is_undisturbed(table: &Table, shot: &FilmedShot, ball: usize, from: f64, 
     let near = 2.0 * table.radius + CLEARANCE;
     (0..=steps as usize).all(|step| {
         let time = from + (to - from) * step as f64 / steps;
-        let place = shot.place(ball, time);
-        (0..BALLS).filter(|&other| other != ball).all(|other| shot.place(other, time).distance(place) > near)
+        let position = shot.position(ball, time);
+        (0..BALLS).filter(|&other| other != ball).all(|other| shot.position(other, time).distance(position) > near)
     })
 }
 

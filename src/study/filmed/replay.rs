@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::{
     film::FilmedShot,
-    whole::{self, Whole},
+    shot_fit::{self, ShotFit},
 };
 use crate::{
     game::{Rule, Tally},
@@ -28,13 +28,13 @@ pub enum ReplayError {
     },
 }
 
-/// A filmed shot and its simulation, with the stroke fitted to the film's first [`super::FITTED`] seconds.
+/// A filmed shot and its simulation, with the stroke fitted to the film's first [`super::FITTED_SECONDS`] seconds.
 #[derive(Clone, Debug)]
 pub struct Replay {
     /// The film.
     pub filmed: FilmedShot,
     /// The fit of the stroke.
-    pub fitted: Whole,
+    pub fitted: ShotFit,
     /// The simulated shot.
     pub recording: Recording,
 }
@@ -49,7 +49,7 @@ impl Replay {
         let refuse = |error| ReplayError::Refused { number, error };
         let layout = filmed.layout(table);
         layout.validate(table).map_err(|error| refuse(error.into()))?;
-        let fitted = whole::play(table, filmed).ok_or(ReplayError::Short(number))?;
+        let fitted = shot_fit::fit_shot(table, filmed).ok_or(ReplayError::Short(number))?;
         let impulse = fitted.motion.impulse(table.radius);
         let recording = Recording::with_impulse(table, &layout, &impulse).map_err(refuse)?;
         Ok(Self { filmed: filmed.clone(), fitted, recording })
@@ -57,13 +57,13 @@ impl Replay {
 
     /// Returns the time until all balls are at rest in film and simulation, s after the stroke.
     pub fn duration(&self) -> f64 {
-        let filmed = self.filmed.lasts() + self.filmed.start - self.fitted.start;
+        let filmed = self.filmed.duration() + self.filmed.start - self.fitted.start;
         self.recording.duration().max(filmed)
     }
 
     /// Returns the filmed positions at `time`, s after the stroke; before and after the film the balls are at rest.
-    pub fn filmed_places(&self, time: f64) -> [DVec2; BALLS] {
-        std::array::from_fn(|ball| self.filmed.place(ball, self.fitted.start + time))
+    pub fn filmed_positions(&self, time: f64) -> [DVec2; BALLS] {
+        std::array::from_fn(|ball| self.filmed.position(ball, self.fitted.start + time))
     }
 
     /// Whether the simulated shot scores a point.
@@ -74,8 +74,8 @@ impl Replay {
     }
 
     /// Returns the distance of each simulated ball from the filmed one at `time`, m.
-    pub fn apart(&self, time: f64) -> [f64; BALLS] {
-        let (filmed, simulated) = (self.filmed_places(time), self.recording.positions(time));
+    pub fn distances(&self, time: f64) -> [f64; BALLS] {
+        let (filmed, simulated) = (self.filmed_positions(time), self.recording.positions(time));
         std::array::from_fn(|ball| filmed[ball].distance(simulated[ball]))
     }
 }
@@ -83,32 +83,32 @@ impl Replay {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::filmed::{FITTED, film::bundled, whole::JUDGED};
+    use crate::study::filmed::{FITTED_SECONDS, film::bundled, shot_fit::EVALUATION_TIMES};
 
     fn shot(number: u32) -> FilmedShot {
         bundled().into_iter().find(|shot| shot.number == number).unwrap()
     }
 
     #[test]
-    fn film_and_simulation_begin_together_and_part_as_the_study_says() {
+    fn replay_distances_agree_with_the_errors_of_the_fit() {
         let table = Table::default();
         let replay = Replay::new(&table, &shot(2)).unwrap();
         // The film is interpolated linearly between frames 20 ms apart, and the stroke falls between two of them.
-        assert!(replay.apart(0.0).iter().all(|apart| *apart < 0.002), "{:?}", replay.apart(0.0));
-        let fitted = (1..20).map(|n| replay.apart(FITTED * f64::from(n) / 20.0)[0]).fold(0.0, f64::max);
+        assert!(replay.distances(0.0).iter().all(|apart| *apart < 0.002), "{:?}", replay.distances(0.0));
+        let fitted = (1..20).map(|n| replay.distances(FITTED_SECONDS * f64::from(n) / 20.0)[0]).fold(0.0, f64::max);
         assert!(fitted < 0.03, "{fitted} m on the part that was fitted");
         let late = replay.fitted.start - replay.filmed.start;
-        for (time, error) in JUDGED.into_iter().zip(replay.fitted.errors) {
-            let apart = replay.apart(time - late)[0];
+        for (time, error) in EVALUATION_TIMES.into_iter().zip(replay.fitted.errors) {
+            let apart = replay.distances(time - late)[0];
             assert!((apart - error).abs() < 1e-6, "{apart} m, {error} m at {time} s");
         }
         assert!(replay.duration() > 11.0);
-        let end = replay.filmed_places(replay.duration());
-        assert_eq!(end, replay.filmed_places(1e3), "they lie still");
+        let end = replay.filmed_positions(replay.duration());
+        assert_eq!(end, replay.filmed_positions(1e3), "they lie still");
     }
 
     #[test]
-    fn a_film_that_is_too_short_or_of_another_table_is_refused_with_its_number() {
+    fn too_short_or_impossible_film_is_refused_with_its_number() {
         let table = Table::default();
         let whole = shot(2);
         let mut short = whole.clone();

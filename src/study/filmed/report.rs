@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{constants::Fitted, judged::Judged};
+use super::{constants::Fitted, evaluation::ModelErrors};
 use crate::{
     study::report::csv_text,
     table::{RailModel, Table},
@@ -41,7 +41,7 @@ fn format_median(median: f64, format: fn(f64) -> String) -> String {
 }
 
 /// Returns the report for people.
-pub fn text(rows: &[Judged]) -> String {
+pub fn text(rows: &[ModelErrors]) -> String {
     let mut out = String::from(
         "Rails: the motion of a ball that leaves a rail is fitted up to the second rail after; the next two are predicted.\n\
          Whole shots: the stroke is fitted to the first two seconds. Systems: one natural stroke each, rms.\n\n",
@@ -74,7 +74,7 @@ pub fn text(rows: &[Judged]) -> String {
 }
 
 /// Returns the report as CSV.
-pub fn csv(rows: &[Judged]) -> String {
+pub fn csv(rows: &[ModelErrors]) -> String {
     let mut out = String::from(
         "model,chains_of_four,next_rail_diamonds,chains_of_five,rail_after_diamonds,late_next_s,late_after_s,\
          whole_shots,cm_at_3_s,cm_at_4_s,cm_at_5_s,corner5_diamonds,plus_diamonds,seven_diamonds,impact_ns\n",
@@ -84,7 +84,7 @@ pub fn csv(rows: &[Judged]) -> String {
         let field = |value: f64| finite(value).map_or_else(String::new, |value| value.to_string());
         let cm = cm.map(field);
         let systems: Vec<_> = row.systems.iter().map(|system| system.rms.to_string()).collect();
-        let Judged { model, next_rail, rail_after, late_s, impact_ns, .. } = row;
+        let ModelErrors { model, next_rail, rail_after, late_s, impact_ns, .. } = row;
         let _ = writeln!(
             out,
             "{},{},{},{},{},{},{},{count},{},{},{impact_ns:.1}",
@@ -119,11 +119,11 @@ pub fn fit_text(fitted: &Fitted, used: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::filmed::judge;
+    use crate::study::filmed::evaluate_model;
 
     #[test]
-    fn what_no_case_shows_is_no_number() {
-        let row = judge("match", &Table::default(), &[]);
+    fn measures_without_cases_have_no_number() {
+        let row = evaluate_model("match", &Table::default(), &[]);
         assert!(row.next_rail.0 == 0 && row.whole_cm.0 == 0);
         let (text, csv) = (text(std::slice::from_ref(&row)), csv(&[row]));
         assert!(text.contains("- (0)") && text.contains("- - - (0)") && !text.contains("NaN"), "{text}");

@@ -122,7 +122,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_number_of_the_file_agrees_to_a_tenth() {
+    fn system_numbers_agree_with_the_file_to_a_tenth() {
         for system in bundled() {
             let coach_system = system.coach_system().unwrap();
             for case in &system.cases {
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn the_coach_plays_each_system_with_the_stroke_that_fits_it_best_on_the_match_table() {
+    fn coach_uses_the_best_fitting_stroke_of_each_system() {
         for (system, most) in bundled().iter().zip([0.11, 0.33, 0.15]) {
             let coach_system = system.coach_system().unwrap();
             let rms = system.rms(&Table::default(), &coach_system.natural());

@@ -194,12 +194,12 @@ mod tests {
     }
 
     #[test]
-    fn what_opens_is_not_pushed_and_not_held() {
+    fn opening_contact_has_neither_push_nor_friction() {
         assert_eq!(pushed(&[2.0, 1.0, 1.0], 0.5), [0.0; 3]);
     }
 
     #[test]
-    fn friction_holds_within_its_disk_and_slips_against_the_drive_beyond() {
+    fn friction_sticks_within_its_disk_and_slips_beyond() {
         let held = pushed(&[-2.0, 0.7, -1.4], 0.5);
         assert!(held.iter().zip([2.0, -0.2, 0.4]).all(|(force, known)| (force - known).abs() < 1e-15), "{held:?}");
         let slips = pushed(&[-2.0, 30.0, -40.0], 0.5);

@@ -34,14 +34,14 @@ impl Contact {
     }
 
     /// Whether `ball` is part of the contact.
-    pub fn has(self, ball: usize) -> bool {
+    pub fn involves(self, ball: usize) -> bool {
         let (first, second) = self.balls();
         first == ball || second == Some(ball)
     }
 
     /// Whether the two contacts have a ball in common.
     pub fn shares_a_ball(self, other: Self) -> bool {
-        (0..BALLS).any(|ball| self.has(ball) && other.has(ball))
+        (0..BALLS).any(|ball| self.involves(ball) && other.involves(ball))
     }
 
     /// Whether any of its balls is not on the cloth.
@@ -53,7 +53,7 @@ impl Contact {
 
     /// Whether all of its balls are among `balls`.
     pub fn is_among(self, balls: [bool; BALLS]) -> bool {
-        (0..BALLS).all(|ball| balls[ball] || !self.has(ball))
+        (0..BALLS).all(|ball| balls[ball] || !self.involves(ball))
     }
 
     /// Returns the contact of an impact event, `None` for other events.
@@ -111,14 +111,14 @@ impl Contact {
     }
 
     /// Returns the velocity of the first ball relative to the other body, m/s.
-    pub fn relative<R: Real>(self, balls: &Balls<R>) -> Vector<R> {
+    pub fn relative_velocity<R: Real>(self, balls: &Balls<R>) -> Vector<R> {
         let (first, second) = self.balls();
         second.map_or(balls[first].velocity, |second| balls[first].velocity - balls[second].velocity)
     }
 
     /// Returns the opening speed of the gap, m/s.
-    pub fn opening<R: Real>(self, balls: &Balls<R>) -> R {
-        self.relative(balls).dot(self.normal(balls))
+    pub fn opening_speed<R: Real>(self, balls: &Balls<R>) -> R {
+        self.relative_velocity(balls).dot(self.normal(balls))
     }
 
     /// Returns the sum of the spins, which moves both surfaces the same way, rad/s.
@@ -129,7 +129,7 @@ impl Contact {
 
     /// Returns the slip velocity of the two surfaces (thesis equation 21), m/s.
     pub fn slip<R: Real>(self, numbers: &Numbers<R>, balls: &Balls<R>) -> Vector<R> {
-        let (n, relative) = (self.normal(balls), self.relative(balls));
+        let (n, relative) = (self.normal(balls), self.relative_velocity(balls));
         relative - n * relative.dot(n) + n.cross(self.spin(balls)) * numbers.radius
     }
 

@@ -16,13 +16,13 @@ pub struct Course<R> {
 
 impl<R: Real> Course<R> {
     fn is_free(&self, ball: usize) -> bool {
-        self.piece.as_ref().is_none_or(|piece| !piece.has(ball))
+        self.piece.as_ref().is_none_or(|piece| !piece.involves(ball))
     }
 
     /// Returns the free balls, and the durations of their present motions, s.
     pub fn free_motions(&self) -> impl Iterator<Item = (usize, R)> {
         let free = (0..BALLS).filter(|ball| self.is_free(*ball));
-        free.filter_map(|ball| Some((ball, self.balls[ball].lasts(&self.numbers)?)))
+        free.filter_map(|ball| Some((ball, self.balls[ball].motion_duration(&self.numbers)?)))
     }
 
     /// Returns all balls at a `tau` of their piece, and the time, s.

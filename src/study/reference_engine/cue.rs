@@ -45,7 +45,7 @@ pub fn strike<R: Real>(numbers: &Numbers<R>, stroke: &Stroke<R>) -> (Vector<R>, 
     let (along, up) = (a * sin_theta, -a * cos_theta);
     let turning = Vector::new(across * sin_phi - along * cos_phi, -across * cos_phi - along * sin_phi, up);
     let spin = turning * (R::of(2.5) * force / numbers.radius);
-    let mut ball = Ball { velocity, spin, ..Ball::still(Vector::zero()) };
+    let mut ball = Ball { velocity, spin, ..Ball::at_rest(Vector::zero()) };
     press(numbers, &mut ball);
     (ball.velocity, ball.spin)
 }

@@ -200,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn known_values_are_met_to_thirty_digits() {
+    fn known_values_are_accurate_to_thirty_digits() {
         let of = DoubleDouble::of;
         agrees(of(2.0).sqrt(), decimal(1.0, [414_213_562_373.0, 095_048_801_688.0, 724_209_698_079.0]));
         agrees(of(3.0).sqrt(), decimal(1.0, [732_050_807_568.0, 877_293_527_446.0, 341_505_872_367.0]));
@@ -213,14 +213,14 @@ mod tests {
     }
 
     #[test]
-    fn what_cancels_leaves_what_was_small() {
+    fn cancellation_leaves_the_small_term() {
         let tiny = DoubleDouble::of(1e-25);
         let rest = (DoubleDouble::of(1.0) + tiny) - DoubleDouble::of(1.0);
         assert!((rest - tiny).to_f64().abs() < 1e-32);
     }
 
     #[test]
-    fn exponentials_are_met_to_thirty_digits() {
+    fn exponentials_are_accurate_to_thirty_digits() {
         let of = DoubleDouble::of;
         agrees(of(1.0).exp(), decimal(2.0, [718_281_828_459.0, 045_235_360_287.0, 471_352_662_497.0]));
         agrees(of(-3.5).exp(), decimal(0.0, [030_197_383_422.0, 318_500_739_786.0, 292_363_619_845.0]));
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn sines_are_met_to_thirty_digits_in_every_quadrant() {
+    fn sines_are_accurate_to_thirty_digits_in_every_quadrant() {
         let (sine, cosine) = DoubleDouble::of(1.0).sin_cos();
         agrees(sine + DoubleDouble::of(1.0), decimal(1.0, [841_470_984_807.0, 896_506_652_502.0, 321_630_298_999.0]));
         agrees(cosine + DoubleDouble::of(1.0), decimal(1.0, [540_302_305_868.0, 139_717_400_936.0, 607_442_976_603.0]));

@@ -90,7 +90,7 @@ pub fn play<R: Real>(
     finder: Finder<R>,
 ) -> Result<Shot<R>, Unjudged> {
     numbers.check_supported()?;
-    let mut balls = positions.map(Ball::still);
+    let mut balls = positions.map(Ball::at_rest);
     (balls[0].velocity, balls[0].spin) = (velocity, spin);
     flight::settle(numbers, &mut balls[0]);
     let energy_of = |balls: &[Ball<R>; BALLS]| balls.iter().fold(R::zero(), |sum, ball| sum + ball.energy(numbers));
@@ -109,7 +109,7 @@ pub fn play<R: Real>(
         pressed |= piece.is_some();
         stride = piece.as_ref().map_or(1.0, |piece| piece.stride);
         slow = if piece.as_ref().is_some_and(Piece::is_slow) { slow + 1 } else { 0 };
-        resting = std::array::from_fn(|ball| piece.as_ref().is_some_and(|piece| piece.has(ball)));
+        resting = std::array::from_fn(|ball| piece.as_ref().is_some_and(|piece| piece.involves(ball)));
         for (ball, pressed) in balls.iter_mut().zip(resting) {
             ball.choose_band(numbers, pressed);
         }
@@ -155,7 +155,7 @@ pub fn play<R: Real>(
 
 /// Returns the next event and the time until it.
 fn predict<R: Real>(course: &Course<R>, finder: Finder<R>) -> Option<(R, Next)> {
-    let piece = course.piece.iter().map(|piece| (piece.lasts(), Next::PieceEnds));
+    let piece = course.piece.iter().map(|piece| (piece.duration(), Next::PieceEnds));
     let motions = course.free_motions().map(|(ball, time)| (time, Next::MotionEnds(ball)));
     let ends = piece.chain(motions).reduce(|first, other| if other.0 < first.0 { other } else { first });
     let mut first = ends?;

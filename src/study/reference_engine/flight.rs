@@ -101,7 +101,7 @@ pub fn land<R: Real>(numbers: &Numbers<R>, index: usize, ball: &mut Ball<R>) -> 
 /// Takes a ball that leaves the table out of play, and returns its energy per mass.
 pub fn leave<R: Real>(numbers: &Numbers<R>, ball: &mut Ball<R>) -> R {
     let work = ball.energy(numbers);
-    *ball = Ball { motion: Motion::OffTable, ..Ball::still(ball.position.flat()) };
+    *ball = Ball { motion: Motion::OffTable, ..Ball::at_rest(ball.position.flat()) };
     work
 }
 
@@ -133,7 +133,7 @@ pub fn leaves<R: Real>(numbers: &Numbers<R>, ball: &Ball<R>, rail: Rail) -> Opti
 pub fn opening_aloft<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &Balls<R>) -> R {
     match contact {
         Contact::Rail(ball, rail) => balls[ball].velocity.dot(from_nose(numbers, &balls[ball], rail).direction()),
-        Contact::Balls(..) => contact.opening(balls),
+        Contact::Balls(..) => contact.opening_speed(balls),
     }
 }
 

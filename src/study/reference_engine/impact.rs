@@ -3,7 +3,7 @@
 
 use super::{
     Ball, Numbers, Real, Vector,
-    rails::{Cushion, Meeting},
+    rails::{Cushion, RailLaw},
 };
 
 /// Maximum number of immediately repeated impacts on a nose, and the remaining share of the approach speed at which they end.
@@ -34,7 +34,7 @@ pub fn rail_collides<R: Real>(numbers: &Numbers<R>, cushion: &Cushion<R>, n: Vec
     let one = R::of(1.0);
     let approach = -ball.velocity.dot(n);
     let restitution = cushion.restitution_at(approach);
-    if let Meeting::Nose { sine, cosine, most } = cushion.meeting {
+    if let RailLaw::Nose { sine, cosine, most } = cushion.law {
         let meet = |restitution: R, ball: &mut Ball<R>| {
             nose_collides(numbers, cushion.friction, restitution, n, [sine, cosine], most, ball)
         };

@@ -31,7 +31,7 @@ impl<R: Real> Laws<R> {
     pub fn if_none(numbers: &Numbers<R>, balls: &Balls<R>, contacts: &[Contact], none: R) -> Self {
         let slips =
             |contact: &Contact| contact.friction(numbers).is_some() && contact.slip(numbers, balls).length() > none;
-        let in_contact = |ball: usize| contacts.iter().any(|contact| contact.has(ball));
+        let in_contact = |ball: usize| contacts.iter().any(|contact| contact.involves(ball));
         Self {
             contacts: contacts.iter().map(|contact| (*contact, slips(contact))).collect(),
             cloth: std::array::from_fn(|ball| in_contact(ball).then(|| balls[ball].on_cloth(numbers, none))),

@@ -58,7 +58,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_said_twice_is_no_contradiction() {
+    fn redundant_equations_are_consistent() {
         let x = solve(vec![vec![1.0, 1.0], vec![2.0, 2.0]], vec![3.0, 6.0]);
         assert!((x[0] + x[1] - 3.0).abs() < 1e-15);
     }

@@ -21,7 +21,7 @@ pub fn meets<R: Real>(course: &Course<R>, contact: Contact, horizon: R, finder: 
     if is_off(first) || second.is_some_and(is_off) {
         return None;
     }
-    let integrated = |ball: usize| piece.as_ref().is_some_and(|piece| piece.has(ball));
+    let integrated = |ball: usize| piece.as_ref().is_some_and(|piece| piece.involves(ball));
     let is_integrated = integrated(first) || second.is_some_and(integrated);
     let time = match contact {
         Contact::Rail(ball, rail) if balls[ball].motion == Motion::Flying => {
@@ -46,14 +46,14 @@ fn rail_or_integrated_meets<R: Real>(
 ) -> Option<R> {
     let Course { numbers, balls, piece } = course;
     let gap = contact.gap(numbers, balls);
-    let relative = contact.relative(balls);
+    let relative = contact.relative_velocity(balls);
     // Most bodies are too far apart to meet within the horizon. This early exit saves most of a shot's computing time.
     let fall = if contact.is_aloft(balls) { numbers.gravity } else { R::zero() };
     let pull = R::of(if is_integrated { 10.0 } else { 2.0 }) * numbers.slide + fall;
     if gap > horizon * (relative.length() + pull * horizon) {
         return None;
     }
-    let opening = contact.opening(balls);
+    let opening = contact.opening_speed(balls);
     if gap <= touching() && opening < -closed::<R>() {
         return Some(R::zero());
     }
@@ -126,9 +126,9 @@ fn integrated_gap_closes<R: Real>(course: &Course<R>, contact: Contact, horizon:
     let level = if first_gap <= touching() { first_gap - touching() } else { zero };
     let at = |tau: R| {
         let (balls, time) = course.at(piece, tau);
-        (contact.gap(numbers, &balls) - level, contact.opening(&balls), time)
+        (contact.gap(numbers, &balls) - level, contact.opening_speed(&balls), time)
     };
-    let first_opening = contact.opening(&course.balls);
+    let first_opening = contact.opening_speed(&course.balls);
     let (last_gap, last_opening, _) = at(end);
     let gap_until = |low: R, high: R| {
         let tau = falling_root(|tau| at(tau).0, low, high, zero);

@@ -39,13 +39,13 @@ pub fn process_moment<R: Real>(
         *balls = before;
         let (met, taken) = collide(numbers, balls, &ending)?;
         for (index, ball) in balls.iter_mut().enumerate() {
-            if met.iter().any(|contact| contact.has(index)) {
+            if met.iter().any(|contact| contact.involves(index)) {
                 ball.choose_motion_after_impact(numbers);
             }
         }
         let is_slow = |contact: &&Contact| {
             let known = ending.contains(contact) || going_on.contains(contact);
-            !known && contact.opening(balls) > closed() && contact.opening(balls) <= chatter()
+            !known && contact.opening_speed(balls) > closed() && contact.opening_speed(balls) <= chatter()
         };
         let slow: Vec<Contact> = met.iter().filter(is_slow).copied().collect();
         if !slow.is_empty() {

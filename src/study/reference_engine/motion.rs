@@ -43,7 +43,7 @@ pub struct Ball<R> {
 
 impl<R: Real> Ball<R> {
     /// Returns a ball at rest.
-    pub fn still(position: Vector<R>) -> Self {
+    pub fn at_rest(position: Vector<R>) -> Self {
         let zero = Vector::zero();
         Self { position, velocity: zero, spin: zero, motion: Motion::Stationary, band: None }
     }
@@ -90,7 +90,7 @@ impl<R: Real> Ball<R> {
     }
 
     /// Returns the duration of a free ball's motion (thesis equations 25 and 26); for a flying ball, the time until it lands.
-    pub fn lasts(&self, numbers: &Numbers<R>) -> Option<R> {
+    pub fn motion_duration(&self, numbers: &Numbers<R>) -> Option<R> {
         match self.motion {
             Motion::Sliding => Some(R::ratio(2.0, 7.0) * self.slip(numbers).length() / numbers.slide),
             Motion::Rolling => {

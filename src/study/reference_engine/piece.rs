@@ -22,7 +22,7 @@ const LONGEST: f64 = 4e-3;
 const SLOW: f64 = 1e3;
 
 /// Maximum number of halvings of a step that is too long for the extrapolation.
-const MOST_HALVINGS: usize = 200;
+const MAX_HALVINGS: usize = 200;
 
 /// A piece of the course of all balls with pressing contacts.
 #[derive(Clone, Debug)]
@@ -56,7 +56,7 @@ impl<R: Real> Piece<R> {
         // The direction of a small slip has few significant digits, and so has the effect of its friction.
         let blur = R::of(1.0) / slowest;
         let mut tau = (natural * R::of(self.stride)).min(longest);
-        for _ in 0..MOST_HALVINGS {
+        for _ in 0..MAX_HALVINGS {
             let (end, columns) = extrapolate(&self.start, tau, blur, |state| self.rates(state));
             (self.tau, self.end) = (tau, end);
             // If slips are hardly resolved, columns may agree on a time that runs backwards: such a step is too long.
@@ -120,7 +120,7 @@ impl<R: Real> Piece<R> {
         let mut rates = State { time: pace, work: system.power(&forces) * pace, ..*state };
         let changes = system.accelerations(&self.numbers, &forces);
         for (index, ball) in rates.balls.iter_mut().enumerate() {
-            let moves = if self.has(index) { pace } else { R::zero() };
+            let moves = if self.involves(index) { pace } else { R::zero() };
             ball.position = movement(&state.balls)[index].0 * moves;
             ball.velocity = changes[index].0 * moves;
             ball.spin = changes[index].1 * moves;
@@ -129,7 +129,7 @@ impl<R: Real> Piece<R> {
     }
 
     /// Whether a ball is part of the piece.
-    pub fn has(&self, ball: usize) -> bool {
+    pub fn involves(&self, ball: usize) -> bool {
         self.rest.laws.cloth[ball].is_some()
     }
 
@@ -144,7 +144,7 @@ impl<R: Real> Piece<R> {
     }
 
     /// Returns the duration of the piece, s.
-    pub fn lasts(&self) -> R {
+    pub fn duration(&self) -> R {
         self.end.time
     }
 

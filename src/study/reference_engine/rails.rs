@@ -8,13 +8,13 @@ use crate::{
 
 /// A restitution that decreases with the speed of the impact.
 #[derive(Clone, Copy, Debug)]
-pub struct Falling<R> {
+pub struct RestitutionFade<R> {
     from: R,
     slope: R,
     least: R,
 }
 
-impl<R: Real> Falling<R> {
+impl<R: Real> RestitutionFade<R> {
     /// Returns the parameters of a table's `fade`.
     pub fn of(fade: Fade) -> Self {
         Self { from: R::of(fade.from), slope: R::of(fade.slope), least: R::of(fade.least) }
@@ -29,7 +29,7 @@ impl<R: Real> Falling<R> {
 
 /// The contact model of a cushion.
 #[derive(Clone, Copy, Debug)]
-pub enum Meeting<R> {
+pub enum RailLaw<R> {
     /// Contact at the height of the ball's centre.
     Equator,
     /// Contact at the height of the nose.
@@ -53,45 +53,45 @@ pub struct Cushion<R> {
     /// Coulomb's coefficient.
     pub friction: R,
     /// The contact model.
-    pub meeting: Meeting<R>,
+    pub law: RailLaw<R>,
     /// Decrease of the restitution with speed, `None` if it is constant.
-    pub falling: Option<Falling<R>>,
+    pub fade: Option<RestitutionFade<R>>,
 }
 
 impl<R: Real> Cushion<R> {
     /// Returns sine and cosine of the angle up to the nose, seen from the centre of a ball on the cloth, and the largest share
     /// of the slip that a smooth friction takes.
     pub fn nose(&self) -> (R, R, Option<R>) {
-        match self.meeting {
-            Meeting::Nose { sine, cosine, most } => (sine, cosine, most),
-            Meeting::Equator | Meeting::Integrated => (R::zero(), R::of(1.0), None),
+        match self.law {
+            RailLaw::Nose { sine, cosine, most } => (sine, cosine, most),
+            RailLaw::Equator | RailLaw::Integrated => (R::zero(), R::of(1.0), None),
         }
     }
 
     /// Returns the restitution at a normal speed, m/s.
     pub fn restitution_at(&self, speed: R) -> R {
-        self.falling.map_or(self.restitution, |falling| falling.at(self.restitution, speed))
+        self.fade.map_or(self.restitution, |fade| fade.at(self.restitution, speed))
     }
 
     /// Returns the cushion of a rail of `table`, whose `f64` count as exact.
     pub fn of(table: &Table, rail: Rail) -> Self {
-        let (own, all, one) = (table.rail.own(rail), &table.rail, R::of(1.0));
+        let (own, all, one) = (table.rail.overrides(rail), &table.rail, R::of(1.0));
         let height = own.height.or(all.height).unwrap_or(table.radius);
         let sine = R::of(height) / R::of(table.radius) - one;
         let cosine = (one - sine * sine).sqrt();
-        let meeting = match all.model {
-            RailModel::Equator => Meeting::Equator,
-            RailModel::Nose => Meeting::Nose { sine, cosine, most: None },
+        let law = match all.model {
+            RailModel::Equator => RailLaw::Equator,
+            RailModel::Nose => RailLaw::Nose { sine, cosine, most: None },
             RailModel::Smooth => {
-                Meeting::Nose { sine, cosine, most: Some(R::ratio(2.0, 7.0) * R::of(all.kappa.unwrap_or(1.0))) }
+                RailLaw::Nose { sine, cosine, most: Some(R::ratio(2.0, 7.0) * R::of(all.kappa.unwrap_or(1.0))) }
             }
-            RailModel::Mathavan => Meeting::Integrated,
+            RailModel::Mathavan => RailLaw::Integrated,
         };
         Self {
             restitution: R::of(own.e.unwrap_or(table.rail_restitution)),
             friction: R::of(own.mu.unwrap_or(table.rail_friction)),
-            meeting,
-            falling: all.fade.map(Falling::of),
+            law,
+            fade: all.fade.map(RestitutionFade::of),
         }
     }
 }

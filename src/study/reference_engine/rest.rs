@@ -13,7 +13,7 @@ use super::{
 use crate::table::BALLS;
 
 /// Maximum number of slips that begin one after the other at one time, with a margin.
-const MOST_CHANGES: usize = 32;
+const MAX_CHANGES: usize = 32;
 
 /// Initial speed of a slip, in units of the speed that counts as zero.
 const BEGINNING: f64 = 4.0;
@@ -43,7 +43,7 @@ impl<R: Real> Rest<R> {
 /// [`Unjudged::Unsolved`] if no forces are found that obey all laws.
 pub fn rest<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>) -> Result<(Option<Rest<R>>, R), Unjudged> {
     let mut work = R::zero();
-    for _ in 0..MOST_CHANGES {
+    for _ in 0..MAX_CHANGES {
         let closed = closed(numbers, balls);
         let pressing = match pressing(numbers, balls, &closed, settled()) {
             Ok(pressing) => pressing,
@@ -93,7 +93,7 @@ pub fn creep<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Option<(Rest<R>
 /// Returns the contacts that are closed and neither open nor close.
 fn closed<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Vec<Contact> {
     let mut contacts = touching_contacts(numbers, balls);
-    contacts.retain(|contact| contact.opening(balls).abs() <= tolerance::closed());
+    contacts.retain(|contact| contact.opening_speed(balls).abs() <= tolerance::closed());
     contacts
 }
 
@@ -145,7 +145,7 @@ fn stick<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, pressing: &[Contac
     let system = System::new(numbers, balls, &laws);
     let work = system.set_speeds(numbers, balls, &vec![R::zero(); system.len()]);
     for (index, ball) in balls.iter_mut().enumerate() {
-        if pressing.iter().any(|contact| contact.has(index)) {
+        if pressing.iter().any(|contact| contact.involves(index)) {
             ball.choose_motion(numbers, settled());
         }
     }

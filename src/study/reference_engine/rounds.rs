@@ -16,7 +16,7 @@ use super::{
 use crate::table::BALLS;
 
 /// Number of rounds after which all touching contacts get one inelastic impact.
-const MOST_ROUNDS: usize = 32;
+const MAX_ROUNDS: usize = 32;
 
 /// Returns all contacts on the cloth with closed gaps.
 pub fn touching_contacts<R: Real>(numbers: &Numbers<R>, balls: &Balls<R>) -> Vec<Contact> {
@@ -36,11 +36,11 @@ pub fn collide<R: Real>(
 ) -> Result<(Vec<Contact>, R), Unjudged> {
     let contacts = touching_contacts(numbers, balls);
     let (mut met, mut work) = (Vec::new(), R::zero());
-    for round in 0..=MOST_ROUNDS {
-        let is_last = round == MOST_ROUNDS;
+    for round in 0..=MAX_ROUNDS {
+        let is_last = round == MAX_ROUNDS;
         let fastest = if is_last { closed() } else { -closed::<R>() };
         let closing = |balls: &Balls<R>| {
-            let closes = |contact: &&Contact| contact.opening(balls) < fastest;
+            let closes = |contact: &&Contact| contact.opening_speed(balls) < fastest;
             contacts.iter().filter(closes).copied().collect::<Vec<_>>()
         };
         let closing = closing(balls);
@@ -49,10 +49,10 @@ pub fn collide<R: Real>(
         }
         work = work
             + if is_last {
-                let pushes = pushes(numbers, balls, &closing, |_| R::zero())?;
+                let pushes = normal_impulses(numbers, balls, &closing, |_| R::zero())?;
                 one_round(numbers, balls, &closing, &pushes, &mut met)
             } else {
-                at_once(numbers, balls, &closing, inelastic, &mut met)?
+                collide_simultaneously(numbers, balls, &closing, inelastic, &mut met)?
             };
     }
     Ok((met, work))
@@ -64,7 +64,7 @@ pub fn collide<R: Real>(
 ///
 /// # Errors
 /// [`Unjudged::Unsolved`] if no impulses are found.
-pub fn at_once<R: Real>(
+pub fn collide_simultaneously<R: Real>(
     numbers: &Numbers<R>,
     balls: &mut Balls<R>,
     contacts: &[Contact],
@@ -87,13 +87,13 @@ pub fn at_once<R: Real>(
         let taken = if let [contact] = joined[..] {
             met.push(contact);
             let numbers = if inelastic.contains(&contact) { &numbers.inelastic() } else { numbers };
-            alone(numbers, balls, contact)
+            collide_single(numbers, balls, contact)
         } else {
-            let pushes = pushes(numbers, balls, &joined, restitution)?;
+            let pushes = normal_impulses(numbers, balls, &joined, restitution)?;
             let is_pushed = |(contact, push): (&Contact, &R)| (*push > R::zero()).then_some(*contact);
             let pushing: Vec<Contact> = joined.iter().zip(&pushes).filter_map(is_pushed).collect();
             if pushing.len() < joined.len() {
-                at_once(numbers, balls, &pushing, inelastic, met)?
+                collide_simultaneously(numbers, balls, &pushing, inelastic, met)?
             } else {
                 one_round(numbers, balls, &joined, &pushes, met)
             }
@@ -104,7 +104,7 @@ pub fn at_once<R: Real>(
 }
 
 /// Computes a single impact by the table's own law. Returns the dissipated energy per mass.
-pub fn alone<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, contact: Contact) -> R {
+pub fn collide_single<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, contact: Contact) -> R {
     match contact {
         Contact::Rail(ball, rail) => {
             rail_collides(numbers, numbers.cushion(rail), contact.normal(balls), &mut balls[ball])
@@ -165,7 +165,7 @@ fn one_round<R: Real>(
 }
 
 /// Returns the normal impulses per mass of a round; zero for a contact that others relieve.
-fn pushes<R: Real>(
+fn normal_impulses<R: Real>(
     numbers: &Numbers<R>,
     balls: &Balls<R>,
     contacts: &[Contact],
@@ -217,7 +217,7 @@ mod tests {
     fn a_round_of_one_contact_agrees_with_the_formulas_of_a_single_impact() {
         for table in ["thesis", "textbook"].map(|name| Table::preset(name).unwrap()) {
             let numbers = Numbers::<D>::of(&table);
-            let ball = |position, velocity, spin| Ball { velocity, spin, ..Ball::still(position) };
+            let ball = |position, velocity, spin| Ball { velocity, spin, ..Ball::at_rest(position) };
             let balls = [
                 ball(of(0.0, 0.0, 0.0), of(0.3, 0.4, 0.0), of(9.0, -20.0, 30.0)),
                 ball(of(2.0 * table.radius, 0.0, 0.0), of(-0.2, 0.1, 0.0), of(-5.0, 12.0, 7.0)),
@@ -225,7 +225,8 @@ mod tests {
             ];
             let round = |balls: &mut Balls<D>, contact: Contact| {
                 let mut met = Vec::new();
-                let pushes = pushes(&numbers, balls, &[contact], |contact| contact.restitution(&numbers)).unwrap();
+                let pushes =
+                    normal_impulses(&numbers, balls, &[contact], |contact| contact.restitution(&numbers)).unwrap();
                 let work = one_round(&numbers, balls, &[contact], &pushes, &mut met);
                 assert_eq!(met, [contact]);
                 work

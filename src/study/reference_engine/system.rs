@@ -67,11 +67,11 @@ impl<R: Real> System<R> {
         // The normal of two balls that pass each other rotates by this many radians a second.
         let turn = match contact {
             Contact::Balls(first, second) => {
-                contact.relative(balls).dot(t) / (balls[first].position - balls[second].position).length()
+                contact.relative_velocity(balls).dot(t) / (balls[first].position - balls[second].position).length()
             }
             Contact::Rail(..) => R::zero(),
         };
-        self.unknown(Law::Push, &[(Row::opening(contact, n), turn * contact.relative(balls).dot(t))]);
+        self.unknown(Law::Push, &[(Row::opening(contact, n), turn * contact.relative_velocity(balls).dot(t))]);
         if let (true, Some(friction)) = (slips, friction) {
             let slip = contact.slip(numbers, balls);
             let along = Row::slip(numbers, contact, n, slip.direction());

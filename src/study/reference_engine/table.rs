@@ -2,7 +2,7 @@
 
 use super::{
     Real, Unjudged, Vector,
-    rails::{Cushion, Falling, Meeting},
+    rails::{Cushion, RailLaw, RestitutionFade},
 };
 use crate::{physics::FIRST_BOUNCE, simulation::Rail, table::Table};
 
@@ -47,7 +47,7 @@ pub struct Numbers<R> {
     /// Restitution between balls.
     pub ball_restitution: R,
     /// Decrease of this restitution with the speed of the impact, `None` if it is constant.
-    pub ball_falling: Option<Falling<R>>,
+    pub ball_fade: Option<RestitutionFade<R>>,
     /// Friction between balls, `None` for contacts that never slip.
     pub ball_friction: Option<R>,
     /// Slip-dependent friction of ball-ball impacts: minimum, increase at slow slip, and decay rate of the increase, s/m.
@@ -83,7 +83,7 @@ impl<R: Real> Numbers<R> {
             roll_growth: R::of(table.rolling_growth),
             spin_deceleration: R::of(2.5) * R::of(table.spinning_friction) * gravity / radius,
             ball_restitution: R::of(table.ball_restitution),
-            ball_falling: table.ball_fade.map(Falling::of),
+            ball_fade: table.ball_fade.map(RestitutionFade::of),
             ball_friction: table.ball_friction.map(R::of),
             ball_slip_friction: table.ball_slip_friction.map(|law| [law.least, law.rise, law.fade].map(R::of)),
             cushions: Rail::ALL.map(|rail| Cushion::of(table, rail)),
@@ -112,8 +112,8 @@ impl<R: Real> Numbers<R> {
     /// of their centres.
     #[must_use]
     pub fn with_restitution(&self, restitution: R) -> Self {
-        let with = |cushion: Cushion<R>| Cushion { restitution, falling: None, meeting: Meeting::Equator, ..cushion };
-        Self { ball_restitution: restitution, ball_falling: None, cushions: self.cushions.map(with), ..*self }
+        let with = |cushion: Cushion<R>| Cushion { restitution, fade: None, law: RailLaw::Equator, ..cushion };
+        Self { ball_restitution: restitution, ball_fade: None, cushions: self.cushions.map(with), ..*self }
     }
 
     /// Checks that this engine has all laws of the table.
@@ -121,7 +121,7 @@ impl<R: Real> Numbers<R> {
     /// # Errors
     /// [`Unjudged`], which names the missing law.
     pub fn check_supported(&self) -> Result<(), Unjudged> {
-        if self.cushions.iter().any(|cushion| matches!(cushion.meeting, Meeting::Integrated)) {
+        if self.cushions.iter().any(|cushion| matches!(cushion.law, RailLaw::Integrated)) {
             Err(Unjudged::IntegratedRail)
         } else if self.is_level {
             Ok(())
@@ -132,7 +132,7 @@ impl<R: Real> Numbers<R> {
 
     /// Returns the restitution of two balls at a normal speed, m/s.
     pub fn ball_restitution_at(&self, speed: R) -> R {
-        self.ball_falling.map_or(self.ball_restitution, |falling| falling.at(self.ball_restitution, speed))
+        self.ball_fade.map_or(self.ball_restitution, |fade| fade.at(self.ball_restitution, speed))
     }
 
     /// Returns the friction of an impact of two balls at a slip, m/s; `None` for contacts that never slip.

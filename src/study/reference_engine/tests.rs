@@ -8,9 +8,9 @@ use crate::{
     simulation::EventKind,
     study::{
         Errors, Method, Truth,
-        shots::{Steepest, StudyShot, random_shots},
+        shots::{MaxElevation, StudyShot, random_shots},
     },
-    table::{BALLS, Fade, OneRail, RailModel, Rails, SlipFriction, Table},
+    table::{BALLS, Fade, RailModel, RailOverrides, Rails, SlipFriction, Table},
 };
 
 type D = DoubleDouble;
@@ -34,7 +34,7 @@ fn played(table: &Table, shot: &StudyShot, order: [usize; BALLS], mirrored: bool
 
 /// Shots on `thesis` with resting contacts, ball–ball contacts among them.
 fn resting_shots() -> impl Iterator<Item = (StudyShot, Shot<D>)> {
-    let shots = random_shots(&thesis(), 60, 3, Steepest::USUAL).into_iter();
+    let shots = random_shots(&thesis(), 60, 3, MaxElevation::USUAL).into_iter();
     shots.map(|shot| (shot, played(&thesis(), &shot, [0, 1, 2], false))).filter(|(_, played)| played.pressed)
 }
 
@@ -43,7 +43,7 @@ fn distance(one: Vector<D>, other: Vector<D>) -> f64 {
 }
 
 #[test]
-fn friction_and_impacts_account_for_all_energy_where_balls_rest_against_something() {
+fn friction_and_impacts_account_for_all_energy_in_resting_contacts() {
     let mut count = 0;
     for (shot, played) in resting_shots() {
         let unaccounted = (played.energy[1] / played.energy[0]).to_f64().abs();
@@ -54,7 +54,7 @@ fn friction_and_impacts_account_for_all_energy_where_balls_rest_against_somethin
 }
 
 #[test]
-fn a_mirror_and_other_numbers_change_nothing() {
+fn mirroring_and_renumbering_change_nothing() {
     for (shot, played_first) in resting_shots() {
         let mirrored = played(&thesis(), &shot, [0, 1, 2], true);
         let renumbered = played(&thesis(), &shot, [0, 2, 1], false);
@@ -70,7 +70,7 @@ fn a_mirror_and_other_numbers_change_nothing() {
 }
 
 #[test]
-fn two_smooth_balls_that_push_each_other_go_on_at_their_common_speed() {
+fn smooth_balls_that_push_each_other_keep_their_common_speed() {
     let table = Table { ball_restitution: 0.0, ball_friction: Some(0.0), ..thesis() };
     let numbers = Numbers::<D>::of(&table);
     let diameter = 2.0 * table.radius;
@@ -85,7 +85,7 @@ fn two_smooth_balls_that_push_each_other_go_on_at_their_common_speed() {
 }
 
 #[test]
-fn a_ball_that_rolls_beside_another_goes_on_as_if_alone() {
+fn ball_rolling_next_to_another_is_unaffected() {
     let table = thesis();
     let numbers = Numbers::<D>::of(&table);
     let shot = |x: f64| {
@@ -124,8 +124,8 @@ fn a_symmetric_break_stays_symmetric() {
 }
 
 #[test]
-fn in_single_precision_it_ends_as_well() {
-    for shot in random_shots(&thesis(), 60, 9, Steepest::USUAL) {
+fn shots_in_single_precision_end_as_well() {
+    for shot in random_shots(&thesis(), 60, 9, MaxElevation::USUAL) {
         let (v, w) = (shot.impulse.velocity, shot.impulse.spin);
         let of = |x: f64, y: f64, z: f64| Vector::new(x as f32, y as f32, z as f32);
         let places = shot.layout.balls.map(|ball| of(ball.x, ball.y, 0.0));
@@ -140,7 +140,7 @@ fn models() -> Vec<Table> {
     let rails = |rail: Rails| Table { rail, ..textbook() };
     let high = Rails { height: Some(0.0365), ..Rails::default() };
     let fade = Some(Fade { from: 0.5, slope: 0.05, least: 0.6 });
-    let own = |e, mu, height| Some(OneRail { e: Some(e), mu: Some(mu), height: Some(height) });
+    let own = |e, mu, height| Some(RailOverrides { e: Some(e), mu: Some(mu), height: Some(height) });
     vec![
         Table::default(),
         rails(Rails { model: RailModel::Nose, ..high }),
@@ -150,8 +150,8 @@ fn models() -> Vec<Table> {
             model: RailModel::Smooth,
             left: own(0.8, 0.1, 0.034),
             right: own(0.9, 0.3, 0.038),
-            bottom: Some(OneRail { e: Some(0.7), ..OneRail::default() }),
-            top: Some(OneRail { mu: Some(0.15), ..OneRail::default() }),
+            bottom: Some(RailOverrides { e: Some(0.7), ..RailOverrides::default() }),
+            top: Some(RailOverrides { mu: Some(0.15), ..RailOverrides::default() }),
             ..high
         }),
         Table { rolling_growth: 0.03, ..textbook() },
@@ -163,7 +163,7 @@ fn models() -> Vec<Table> {
 #[test]
 fn both_engines_agree_on_every_model_of_a_table() {
     for (index, table) in models().iter().enumerate() {
-        let shots = random_shots(table, 60, 5, Steepest::USUAL);
+        let shots = random_shots(table, 60, 5, MaxElevation::USUAL);
         let mut units: Vec<f64> = Vec::new();
         for shot in &shots {
             let truth = Truth::of(table, shot).unwrap();
@@ -180,13 +180,13 @@ fn both_engines_agree_on_every_model_of_a_table() {
 }
 
 #[test]
-fn a_rail_at_the_height_of_the_centre_is_the_equators_where_balls_stay_on_the_cloth() {
+fn rail_at_centre_height_equals_the_equator_model_on_cloth() {
     let at_centre = |model| {
         let rail = Rails { model, height: Some(Table::default().radius), ..Rails::default() };
         Table { rail, flight: None, ..Table::default() }
     };
     let [nose, equator] = [RailModel::Nose, RailModel::Equator].map(at_centre);
-    for shot in random_shots(&nose, 30, 8, Steepest::USUAL) {
+    for shot in random_shots(&nose, 30, 8, MaxElevation::USUAL) {
         let [one, other] = [&nose, &equator].map(|table| played(table, &shot, [0, 1, 2], false));
         for (one, other) in one.end.iter().zip(&other.end) {
             assert!(distance(one.position, other.position) < 1e-22, "{}", shot.command_line(&nose.name));
@@ -195,7 +195,7 @@ fn a_rail_at_the_height_of_the_centre_is_the_equators_where_balls_stay_on_the_cl
 }
 
 #[test]
-fn a_squirting_cue_starts_the_ball_as_the_engines_does() {
+fn squirt_agrees_with_the_engine() {
     let (table, of) = (Table::default(), D::of);
     let numbers = Numbers::<D>::of(&table);
     for a in [-0.49, -0.2, 0.0, 0.3, 0.49] {
@@ -211,8 +211,8 @@ fn a_squirting_cue_starts_the_ball_as_the_engines_does() {
 }
 
 #[test]
-fn what_the_engine_lacks_is_said_and_not_judged() {
-    let shot = random_shots(&thesis(), 1, 1, Steepest::USUAL)[0];
+fn unsupported_models_are_named_and_not_judged() {
+    let shot = random_shots(&thesis(), 1, 1, MaxElevation::USUAL)[0];
     let rail = Rails { model: RailModel::Mathavan, height: Some(0.036), ..Rails::default() };
     let integrated = Table { rail, ..thesis() };
     assert_eq!(Truth::of(&integrated, &shot).unwrap_err(), Unjudged::IntegratedRail);

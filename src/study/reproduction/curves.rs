@@ -22,7 +22,7 @@ pub const INTERVAL: u64 = 10_000;
 
 /// Number of layouts of an agent's final evaluation. They differ from the layouts for evaluation during training, which serve
 /// to choose settings.
-pub const EXAMINED: usize = 10_000;
+pub const EVALUATION_LAYOUTS: usize = 10_000;
 
 /// Means over an interval.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,7 +56,7 @@ pub struct Curve {
     /// Mean reward on held-out layouts, one shot each, without exploration.
     pub held_out: Option<f64>,
     /// Why the training broke down, in which case the curve ends early; `None` if it did not.
-    pub broke_down: Option<String>,
+    pub breakdown: Option<String>,
 }
 
 /// Setup of a training; figures with equal setups share its curve.
@@ -97,12 +97,13 @@ impl Training {
                 Ok(None) => return Ok(None),
                 Err(error) => {
                     // The first line names the error; candle appends a backtrace.
-                    curve.broke_down = error.to_string().lines().next().map(str::to_owned);
+                    curve.breakdown = error.to_string().lines().next().map(str::to_owned);
                     return Ok(Some(curve));
                 }
             }
         }
-        curve.held_out = Some(learner.score(&held_out_layouts(table, EXAMINED, EVALUATION_SEED))?.mean_reward);
+        curve.held_out =
+            Some(learner.score(&held_out_layouts(table, EVALUATION_LAYOUTS, EVALUATION_SEED))?.mean_reward);
         Ok(Some(curve))
     }
 }
@@ -131,7 +132,8 @@ pub fn random_play(table: &Table, reward: Reward, seed: u64) -> f64 {
         let cue = cue_inputs([rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0)]);
         reward.with_room(table, layout, &cue, u32::MAX)
     };
-    held_out_layouts(table, EXAMINED, EVALUATION_SEED).iter().map(&mut shot).sum::<f64>() / EXAMINED as f64
+    held_out_layouts(table, EVALUATION_LAYOUTS, EVALUATION_SEED).iter().map(&mut shot).sum::<f64>()
+        / EVALUATION_LAYOUTS as f64
 }
 
 #[cfg(test)]
@@ -140,7 +142,7 @@ mod tests {
     use crate::study::reproduction::figures::READINGS;
 
     #[test]
-    fn a_curve_has_a_point_for_every_interval_and_the_same_seed_gives_the_same() {
+    fn curve_has_a_point_per_interval_and_is_reproducible() {
         let table = Table::preset("thesis").unwrap();
         let figure = Figure::named("q-learning").unwrap();
         let training = |seed| Training::of(&figure, READINGS[0], 12_000, seed);

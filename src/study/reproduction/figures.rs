@@ -251,7 +251,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_figure_has_a_name_and_an_agent_that_accepts_every_reading() {
+    fn every_figure_has_a_name_and_accepts_every_reading() {
         use crate::{learning::learner, table::Table};
         for figure in FIGURES {
             assert_eq!(Figure::named(figure.name), Ok(figure));

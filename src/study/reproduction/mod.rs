@@ -5,7 +5,7 @@ mod figures;
 mod picture;
 mod session;
 
-pub use curves::{Curve, EXAMINED, INTERVAL, Point, Training, random_play};
+pub use curves::{Curve, EVALUATION_LAYOUTS, INTERVAL, Point, Training, random_play};
 pub use figures::{Change, FIGURES, Figure, Measure, READINGS, Reading, UnknownFigure};
 pub use picture::picture;
-pub use session::{Drawn, Session, SessionError, csv, summary};
+pub use session::{ReproducedFigure, Session, SessionError, csv, summary};

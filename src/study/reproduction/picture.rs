@@ -14,7 +14,7 @@ const SIZE: [u32; 2] = [1280, 640];
 /// Fails if the figure cannot be drawn.
 pub fn picture(figure: &Figure, curves: &[&Curve], random: Option<f64>) -> io::Result<String> {
     // The values of a training that broke down grow without bound, so they do not set the range of the axis.
-    let sound = curves.iter().filter(|curve| curve.broke_down.is_none());
+    let sound = curves.iter().filter(|curve| curve.breakdown.is_none());
     let values: Vec<f64> = sound.flat_map(|curve| &curve.points).map(|point| point.of(figure.measure)).collect();
     let most_shots = curves.iter().flat_map(|curve| &curve.points).map(|point| point.shots).max().unwrap_or(1);
     let most = most_shots as f64 / 1000.0;
@@ -23,7 +23,7 @@ pub fn picture(figure: &Figure, curves: &[&Curve], random: Option<f64>) -> io::R
 
     let mut series = Vec::new();
     for ((reading, seed), curve) in figure.curves().zip(curves) {
-        let ending = if curve.broke_down.is_some() { " (broke down)" } else { "" };
+        let ending = if curve.breakdown.is_some() { " (broke down)" } else { "" };
         let spot = |x, y| Spot { x, y, ..Spot::default() };
         let points = curve.points.iter().map(|point| spot(point.shots as f64 / 1000.0, point.of(figure.measure)));
         let name = if seed == figure.seeds[0] { format!("{}{ending}", reading.name) } else { String::new() };

@@ -29,7 +29,7 @@ pub struct Session {
 
 /// A figure with its curves.
 #[derive(Clone, Debug)]
-pub struct Drawn {
+pub struct ReproducedFigure {
     /// The figure.
     pub figure: Figure,
     /// The base seed of the session.
@@ -40,7 +40,7 @@ pub struct Drawn {
     pub random: f64,
 }
 
-impl Drawn {
+impl ReproducedFigure {
     /// Returns every curve with its reading and its seed.
     fn curves(&self) -> impl Iterator<Item = (&'static Reading, u64, &Curve)> {
         let named = self.figure.curves().zip(&self.curves);
@@ -91,7 +91,7 @@ impl Session {
     pub fn run(
         &self,
         played: &(dyn Fn(u64) -> bool + Sync),
-        hand_over: &mut (dyn FnMut(&Drawn) -> std::io::Result<()> + Send),
+        hand_over: &mut (dyn FnMut(&ReproducedFigure) -> std::io::Result<()> + Send),
     ) -> Result<(), SessionError> {
         let trainings = self.trainings();
         let shared = Mutex::new((vec![None; trainings.len()], self.figures.clone()));
@@ -107,7 +107,7 @@ impl Session {
             for (figure, curves) in complete {
                 let random = random_play(&self.table, figure.reward, self.seed);
                 let mut hand_over = hand_over.lock().unwrap_or_else(PoisonError::into_inner);
-                hand_over(&Drawn { figure, seed: self.seed, curves, random })?;
+                hand_over(&ReproducedFigure { figure, seed: self.seed, curves, random })?;
             }
             Ok(())
         })
@@ -135,7 +135,7 @@ impl Session {
 }
 
 /// Returns all points of a figure's curves as CSV.
-pub fn csv(drawn: &Drawn) -> String {
+pub fn csv(drawn: &ReproducedFigure) -> String {
     let mut text = "curve,seed,shots,mean_reward,mean_q,loss\n".to_owned();
     for (reading, seed, curve) in drawn.curves() {
         for Point { shots, mean_reward, mean_q, loss } in &curve.points {
@@ -148,8 +148,8 @@ pub fn csv(drawn: &Drawn) -> String {
 
 /// Returns a line for each curve: its final value and, for figures of rewards, the agent's mean reward without exploration.
 /// Readings with several seeds get another line with mean and standard deviation.
-pub fn summary(drawn: &Drawn) -> Vec<String> {
-    let Drawn { figure, random, .. } = drawn;
+pub fn summary(drawn: &ReproducedFigure) -> Vec<String> {
+    let ReproducedFigure { figure, random, .. } = drawn;
     let held_out = |curve: &Curve| curve.held_out.filter(|_| figure.measure == Measure::MeanReward);
     let of_curve = |(reading, seed, curve): (&Reading, u64, &Curve)| {
         let last = curve.points.last().map_or(f64::NAN, |point| point.of(figure.measure));
@@ -158,7 +158,7 @@ pub fn summary(drawn: &Drawn) -> Vec<String> {
         if let Some(reward) = held_out(curve) {
             let _ = write!(line, ", {reward:.3} without exploration, random play {random:.3}");
         }
-        if let Some(reason) = &curve.broke_down {
+        if let Some(reason) = &curve.breakdown {
             let _ = write!(line, "; the training broke down: {reason}");
         }
         line
@@ -186,19 +186,19 @@ mod tests {
     }
 
     #[test]
-    fn figures_share_a_training_whatever_they_call_it() {
+    fn figures_with_equal_setups_share_a_training() {
         // Three curves each; the one-shot curve is that of noise 0.03 with seed 1.
         assert_eq!(session(&["23", "24"]).trainings().len(), 3);
         assert_eq!(session(&["23", "noise"]).trainings().len(), 3 + 12 - 1);
     }
 
     #[test]
-    fn seeds_that_chose_the_settings_are_not_those_that_are_reported() {
+    fn reported_seeds_differ_from_the_tuning_seeds() {
         let session = session(&["future-work"]);
         assert!(session.trainings().iter().all(|training| training.seed > 3));
         let curve = |seed: u32| Curve { held_out: Some(0.01 * f64::from(seed)), ..Curve::default() };
         let curves = session.trainings().iter().map(|training| curve(training.seed as u32)).collect();
-        let drawn = Drawn { figure: session.figures[0], seed: 1, curves, random: 0.007 };
+        let drawn = ReproducedFigure { figure: session.figures[0], seed: 1, curves, random: 0.007 };
         let lines = summary(&drawn);
         assert!(lines[0].contains("the thesis' agent, seed 4") && lines[0].contains("0.040 without"), "{lines:?}");
         let last = lines.last().unwrap();

@@ -21,7 +21,7 @@ fn layout(table: &Table, rng: &mut impl Rng) -> Layout {
     loop {
         let mut balls = [DVec2::ZERO; BALLS];
         for ball in 0..BALLS {
-            balls[ball] = hard_place(table, &balls[..ball], rng);
+            balls[ball] = hard_position(table, &balls[..ball], rng);
         }
         // Any of them may be the cue ball.
         let first = rng.random_range(0..BALLS);
@@ -43,10 +43,10 @@ fn gap(rng: &mut impl Rng) -> f64 {
     }
 }
 
-fn hard_place(table: &Table, others: &[DVec2], rng: &mut impl Rng) -> DVec2 {
+fn hard_position(table: &Table, others: &[DVec2], rng: &mut impl Rng) -> DVec2 {
     let reach = table.reach();
     let signs = draw::corner(rng);
-    let anywhere = draw::place(table, rng);
+    let anywhere = draw::position(table, rng);
     let diameter = 2.0 * table.radius;
     match (rng.random_range(0..10), others) {
         // At a long or a short cushion, or in a corner.

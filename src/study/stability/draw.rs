@@ -46,7 +46,7 @@ pub fn stroke(rng: &mut (impl Rng + ?Sized)) -> CueDegrees {
 }
 
 /// Draws a position of a ball's centre on the table.
-pub fn place(table: &Table, rng: &mut (impl Rng + ?Sized)) -> DVec2 {
+pub fn position(table: &Table, rng: &mut (impl Rng + ?Sized)) -> DVec2 {
     let reach = table.reach();
     DVec2::new(rng.random_range(-reach.x..=reach.x), rng.random_range(-reach.y..=reach.y))
 }
@@ -55,7 +55,7 @@ pub fn place(table: &Table, rng: &mut (impl Rng + ?Sized)) -> DVec2 {
 pub fn with_others(table: &Table, given: &[DVec2], rng: &mut (impl Rng + ?Sized)) -> Layout {
     loop {
         let layout =
-            Layout::new(std::array::from_fn(|ball| given.get(ball).copied().unwrap_or_else(|| place(table, rng))));
+            Layout::new(std::array::from_fn(|ball| given.get(ball).copied().unwrap_or_else(|| position(table, rng))));
         if given.len() >= BALLS || layout.validate(table).is_ok() {
             return layout;
         }

@@ -22,7 +22,7 @@ impl Default for Worst {
 impl Worst {
     /// Records an error. NaN counts as the largest value. Of equal values the earliest is stored, whatever the order of the
     /// calls.
-    pub fn note(&mut self, value: f64, time: f64) {
+    pub fn record(&mut self, value: f64, time: f64) {
         let earlier = value == self.value && time < self.time;
         if value.is_nan() && !self.value.is_nan() || value > self.value || earlier {
             *self = Self { value, time };
@@ -47,11 +47,13 @@ pub struct Figures {
     /// a friction or impact that dissipates it, or a dissipation without a loss.
     pub unexplained: Worst,
     /// The same in m²/s².
-    pub missing: Worst,
+    #[serde(rename = "missing")]
+    pub unexplained_energy: Worst,
     /// Displacement of a ball between two pieces of its course, m.
     pub jump: Worst,
     /// Gap between two balls, or between ball and cushion, at a reported collision, m.
-    pub apart: Worst,
+    #[serde(rename = "apart")]
+    pub contact_gap: Worst,
     /// Time by which the course runs backwards, s.
     pub backwards: Worst,
     /// Number of shots with a number that is not finite.
@@ -90,7 +92,8 @@ pub enum Violation {
     Jump(Worst),
     /// A collision of bodies that do not touch.
     #[error("a collision over a gap of {value:.3e} m at {time} s", value = .0.value, time = .0.time)]
-    Apart(Worst),
+    #[serde(rename = "apart")]
+    ContactGap(Worst),
     /// Events out of order.
     #[error("time runs backwards by {value:.3e} s at {time} s", value = .0.value, time = .0.time)]
     Backwards(Worst),
@@ -147,12 +150,12 @@ impl Figures {
             (&mut self.energy, other.energy),
             (&mut self.gained, other.gained),
             (&mut self.unexplained, other.unexplained),
-            (&mut self.missing, other.missing),
+            (&mut self.unexplained_energy, other.unexplained_energy),
             (&mut self.jump, other.jump),
-            (&mut self.apart, other.apart),
+            (&mut self.contact_gap, other.contact_gap),
             (&mut self.backwards, other.backwards),
         ] {
-            mine.note(theirs.value, theirs.time);
+            mine.record(theirs.value, theirs.time);
         }
         self.not_finite += other.not_finite;
         self.unfinished += other.unfinished;
@@ -170,7 +173,7 @@ impl Figures {
             (beyond(self.outside, limits.distance), Violation::Outside(self.outside)),
             (beyond(self.overlap, limits.distance), Violation::Overlap(self.overlap)),
             (beyond(self.jump, limits.distance), Violation::Jump(self.jump)),
-            (beyond(self.apart, limits.distance), Violation::Apart(self.apart)),
+            (beyond(self.contact_gap, limits.distance), Violation::ContactGap(self.contact_gap)),
             (beyond(self.energy, 1.0), Violation::Energy(self.energy)),
             (beyond(self.unexplained, 1.0), Violation::Unexplained(self.unexplained)),
             (beyond(self.backwards, 0.0), Violation::Backwards(self.backwards)),

@@ -17,7 +17,8 @@ pub struct Finding {
     #[serde(flatten)]
     pub shot: Shot,
     /// Description of the violations.
-    pub what: String,
+    #[serde(rename = "what")]
+    pub description: String,
     /// The violations.
     pub violations: Vec<Violation>,
     /// Number of events.
@@ -36,7 +37,7 @@ impl Finding {
             preset: table.name.clone(),
             table: (!PRESETS.contains(&table.name.as_str())).then(|| table.clone()),
             shot: *shot,
-            what: words.join("; "),
+            description: words.join("; "),
             violations,
             events: measured.events,
             steps: measured.steps,

@@ -7,7 +7,7 @@ use crate::table::Table;
 use super::{
     audit::audit,
     figures::Figures,
-    places,
+    positions,
     shot::Shot,
     trace::{Piece, Trace},
 };
@@ -33,7 +33,7 @@ fn measure(table: &Table, shot: &Shot, trace: &Trace) -> Figures {
         return figures;
     }
     check_order(trace, &mut figures);
-    places::measure(table, shot, trace, &mut figures);
+    positions::measure(table, shot, trace, &mut figures);
     audit(table, trace, &mut figures);
     figures
 }
@@ -55,13 +55,13 @@ fn is_finite(trace: &Trace) -> bool {
 /// Checks that events and pieces are ordered in time.
 fn check_order(trace: &Trace, figures: &mut Figures) {
     for pair in trace.events.windows(2) {
-        figures.backwards.note(pair[0].time - pair[1].time, pair[1].time);
+        figures.backwards.record(pair[0].time - pair[1].time, pair[1].time);
     }
     for piece in trace.pieces.iter().flatten() {
-        figures.backwards.note(piece.segment.start - piece.end, piece.end);
+        figures.backwards.record(piece.segment.start - piece.end, piece.end);
     }
     for pair in trace.pieces.iter().flat_map(|pieces| pieces.windows(2)) {
-        figures.backwards.note((pair[1].segment.start - pair[0].end).abs(), pair[0].end);
+        figures.backwards.record((pair[1].segment.start - pair[0].end).abs(), pair[0].end);
     }
 }
 
@@ -92,12 +92,12 @@ mod tests {
     }
 
     #[test]
-    fn an_ordinary_shot_breaks_nothing() {
+    fn ordinary_shot_violates_no_invariant() {
         assert_eq!(violations(|_| {}), []);
     }
 
     #[test]
-    fn every_kind_of_tampering_is_seen() {
+    fn every_kind_of_tampering_is_detected() {
         type Tamper = fn(&mut Trace);
         type Kind = fn(&Violation) -> bool;
         let cases: [(Tamper, Kind); 8] = [
@@ -107,7 +107,7 @@ mod tests {
             (|trace| trace.pieces[2][0].segment.spin.x = f64::NAN, |v| matches!(v, Violation::NotFinite)),
             (|trace| trace.constants.radius += 1e-8, |v| matches!(v, Violation::Overlap(_))),
             (|trace| trace.constants.reach.x -= 2e-9, |v| matches!(v, Violation::Outside(_))),
-            (|trace| trace.constants.reach.x += 2e-9, |v| matches!(v, Violation::Apart(_))),
+            (|trace| trace.constants.reach.x += 2e-9, |v| matches!(v, Violation::ContactGap(_))),
             (|trace| trace.events.swap(0, 1), |v| matches!(v, Violation::Backwards(_))),
         ];
         for (index, (tamper, kind)) in cases.into_iter().enumerate() {

@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn what_stays_above_zero_is_seen_at_once() {
+    fn positive_polynomial_is_detected_at_once() {
         assert!(least(&[1.0, -1.0, 0.5], 1.0, 1e-12).value > 0.0);
     }
 }

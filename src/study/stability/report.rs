@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::{Case, Figures, Finding, Progress, Swept, cases};
+use super::{Case, Figures, Finding, Progress, SweepResult, cases};
 use crate::printing::ProgressLine;
 
 /// Number of shots to play on each table of a case.
@@ -29,10 +29,10 @@ impl Plan {
 
     /// Returns the number of shots of a case.
     pub const fn shots(&self, case: &Case) -> u64 {
-        match case.size {
-            super::Size::Random => self.random,
-            super::Size::Adversarial => self.adversarial,
-            super::Size::Case => self.each_case,
+        match case.kind {
+            super::CaseKind::Random => self.random,
+            super::CaseKind::Adversarial => self.adversarial,
+            super::CaseKind::Case => self.each_case,
         }
     }
 }
@@ -59,9 +59,9 @@ pub struct Row {
 impl Row {
     /// Plays a case; `watch` receives the progress.
     pub fn of(case: &Case, plan: &Plan, watch: impl FnMut(Progress) + Send) -> Self {
-        let Swept { figures, findings: failed, first } = case.run(plan.shots(case), plan.seed, watch);
+        let SweepResult { figures, findings: failed, first } = case.run(plan.shots(case), plan.seed, watch);
         let example = first.as_ref().and_then(|finding| finding.violations.first()).map(ToString::to_string);
-        Self { name: case.name, checked: case.holds, figures, failed, example, finding: first, complete: true }
+        Self { name: case.name, checked: case.requirement, figures, failed, example, finding: first, complete: true }
     }
 
     /// Whether no shot failed.
@@ -71,9 +71,9 @@ impl Row {
 
     /// Returns the largest of all position errors, m.
     pub fn distance(&self) -> f64 {
-        let Figures { overlap, outside, jump, apart, .. } = self.figures;
+        let Figures { overlap, outside, jump, contact_gap, .. } = self.figures;
         // Balls that stay apart have no error.
-        [overlap, outside, jump, apart].iter().fold(0.0, |worst, figure| figure.value.max(worst))
+        [overlap, outside, jump, contact_gap].iter().fold(0.0, |worst, figure| figure.value.max(worst))
     }
 
     fn verdict(&self) -> String {
@@ -95,7 +95,7 @@ impl Row {
             format!("{:.1e}", self.distance()),
             multiple(self.figures.energy.value),
             multiple(self.figures.unexplained.value),
-            format!("{:.1e}", self.figures.missing.value.max(0.0)),
+            format!("{:.1e}", self.figures.unexplained_energy.value.max(0.0)),
             self.figures.events.to_string(),
             format!("{:.1}", 1e3 * self.figures.seconds),
             self.verdict(),
@@ -114,7 +114,7 @@ const COLUMNS: usize = 9;
 /// Width of a column of numbers, enough for ten million shots.
 const NUMBER: usize = 8;
 
-const HEADS: [&str; COLUMNS] = [
+const HEADINGS: [&str; COLUMNS] = [
     "case",
     "shots",
     "worst overlap, escape, jump or gap, m",
@@ -137,15 +137,15 @@ pub fn rows(plan: &Plan) -> impl Iterator<Item = Row> {
 }
 
 /// Headings of the table on a terminal, which has little room.
-const SHORT_HEADS: [&str; COLUMNS] =
+const SHORT_HEADINGS: [&str; COLUMNS] =
     ["case", "shots", "apart, m", "gained", "missing", "m²/s²", "events", "ms", "verdict"];
 
 /// Returns the headings of the table on a terminal, and their meaning.
-pub fn heads() -> String {
+pub fn headings() -> String {
     format!(
         "apart: worst overlap, escape, jump or gap; gained: energy gain / rounding; missing: unexplained energy / tolerance \
          and in m²/s²; events: most of a shot; ms: slowest shot\n\n{}",
-        line(&SHORT_HEADS.map(str::to_owned))
+        line(&SHORT_HEADINGS.map(str::to_owned))
     )
 }
 
@@ -166,7 +166,7 @@ fn line(cells: &[String; COLUMNS]) -> String {
 
 /// Returns the table in Markdown, with what each row checks.
 pub fn markdown(rows: &[Row]) -> String {
-    let mut text = format!("| {} | what must hold in addition to the invariants |\n", HEADS.join(" | "));
+    let mut text = format!("| {} | what must hold in addition to the invariants |\n", HEADINGS.join(" | "));
     text.push_str("|---|---:|---:|---:|---:|---:|---:|---:|---|---|\n");
     for row in rows {
         // Writing to a string cannot fail.
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn the_page_says_what_is_checked() {
+    fn page_describes_the_checks() {
         let page = page(&Plan::REPORT, &[row()]);
         assert!(page.contains("100000 random shots") && page.contains("1 of 1 rows hold") && page.contains("50 ms"));
         let columns = |line: &str| line.matches('|').count();
@@ -236,11 +236,11 @@ mod tests {
     }
 
     #[test]
-    fn a_row_says_what_it_is_and_whether_it_holds() {
+    fn row_shows_its_case_and_verdict() {
         let good = row();
         let bad = Row { failed: 2, example: Some("a ball is outside".to_owned()), ..row() };
-        let heads = heads();
-        let lines = [heads.lines().last().unwrap(), &good.line(), &bad.line()];
+        let headings = headings();
+        let lines = [headings.lines().last().unwrap(), &good.line(), &bad.line()];
         assert!(lines[1..].iter().all(|line| line.lines().count() == 1), "{lines:?}");
         let verdict = |line: &str| ["verdict", "holds", "2 fail"].iter().find_map(|word| line.find(word));
         let places = lines.each_ref().map(|line| verdict(line).map(|place| line[..place].chars().count()));

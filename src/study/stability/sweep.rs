@@ -52,20 +52,20 @@ pub struct Progress {
     /// Shots done.
     pub done: u64,
     /// Total number of shots.
-    pub of: u64,
+    pub total: u64,
     /// Findings so far.
     pub findings: u64,
 }
 
 impl fmt::Display for Progress {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{} of {} shots, {} findings", self.done, self.of, self.findings)
+        write!(formatter, "{} of {} shots, {} findings", self.done, self.total, self.findings)
     }
 }
 
 /// Result of a sweep.
 #[derive(Clone, Debug, Default)]
-pub struct Swept {
+pub struct SweepResult {
     /// The largest errors.
     pub figures: Figures,
     /// Number of shots with violations.
@@ -74,10 +74,10 @@ pub struct Swept {
     pub first: Option<Finding>,
 }
 
-impl Swept {
+impl SweepResult {
     /// Adds the result of later shots.
     #[must_use]
-    pub fn and(mut self, later: Self) -> Self {
+    pub fn merge(mut self, later: Self) -> Self {
         self.figures.merge(&later.figures);
         Self { findings: self.findings + later.findings, first: self.first.or(later.first), ..self }
     }
@@ -85,9 +85,9 @@ impl Swept {
 
 impl Sweep {
     /// Plays and checks all shots on all cores. `watch` receives the progress from time to time.
-    pub fn run(&self, watch: impl FnMut(Progress) + Send) -> Swept {
+    pub fn run(&self, watch: impl FnMut(Progress) + Send) -> SweepResult {
         let chunks: Vec<u64> = (0..self.shots.div_ceil(CHUNK)).collect();
-        let watched = Mutex::new((Progress { done: 0, of: self.shots, findings: 0 }, watch));
+        let watched = Mutex::new((Progress { done: 0, total: self.shots, findings: 0 }, watch));
         let swept = parallel::map(thread_count(), &chunks, |chunk| {
             let swept = self.chunk(*chunk);
             let (progress, watch) = &mut *watched.lock().unwrap_or_else(PoisonError::into_inner);
@@ -96,12 +96,12 @@ impl Sweep {
             watch(*progress);
             swept
         });
-        swept.into_iter().fold(Swept::default(), Swept::and)
+        swept.into_iter().fold(SweepResult::default(), SweepResult::merge)
     }
 
     /// Plays and checks the shots drawn from one seed.
-    fn chunk(&self, chunk: u64) -> Swept {
-        let (mut trace, mut swept) = (Trace::new(&self.table), Swept::default());
+    fn chunk(&self, chunk: u64) -> SweepResult {
+        let (mut trace, mut swept) = (Trace::new(&self.table), SweepResult::default());
         let limits = self.limits.on(&self.table);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.seed ^ chunk.wrapping_mul(0x9E37_79B9_7F4A_7C15));
         let begin = chunk * CHUNK;
@@ -147,22 +147,22 @@ mod tests {
     }
 
     #[test]
-    fn the_same_shots_are_played_whatever_thread_plays_them() {
+    fn shots_of_a_sweep_do_not_depend_on_threads() {
         let run = || Figures { seconds: 0.0, ..sweep().run(|_| {}).figures };
         let figures = run();
         assert_eq!((figures.shots, figures), (1050, run()));
     }
 
     #[test]
-    fn what_a_case_asks_besides_becomes_a_finding_and_the_first_that_is_drawn_is_kept() {
+    fn failed_check_is_a_finding_and_the_first_is_kept() {
         let picky = Sweep { check: Some(|_, _, _| Err("not to my taste".to_owned())), ..sweep() };
         let mut last = None;
-        let Swept { figures, findings, first } = picky.run(|progress| last = Some(progress));
-        let Progress { done, of, findings: reported } = last.unwrap();
-        assert_eq!([figures.shots, findings, done, of, reported], [1050; 5]);
+        let SweepResult { figures, findings, first } = picky.run(|progress| last = Some(progress));
+        let Progress { done, total, findings: reported } = last.unwrap();
+        assert_eq!([figures.shots, findings, done, total, reported], [1050; 5]);
         let first = first.unwrap();
         assert_eq!(first.shot, random::shot(&picky.table, &mut Xoshiro256PlusPlus::seed_from_u64(picky.seed)));
-        assert_eq!(first.what, "not to my taste");
+        assert_eq!(first.description, "not to my taste");
         let json = serde_json::to_value(&first).unwrap();
         assert!(json["layout"].is_array() && json["cue"]["theta_deg"].is_number(), "{json}");
         assert!(json["preset"] == sweep().table.name.as_str() && json.get("table").is_none(), "{json}");

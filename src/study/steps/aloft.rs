@@ -37,7 +37,7 @@ impl Stepper<'_> {
 
     /// Returns the vector from a ball in the air to the nose of `rail`, m.
     fn vector_to_nose(&self, state: &SpatialState, rail: Rail) -> DVec3 {
-        Nose::of(self.law.cushions.at(rail), self.constants.radius).way_from(&self.constants, rail, state.position)
+        Nose::of(self.law.cushions.at(rail), self.constants.radius).vector_from(&self.constants, rail, state.position)
     }
 
     /// Returns the same vector, or the horizontal vector towards the rail for a ball that is deep within it.
@@ -65,7 +65,7 @@ impl Stepper<'_> {
     /// Starts the cue ball with the state after the stroke.
     pub(super) fn start(&mut self, state: SpatialState) -> ControlFlow<()> {
         if state.velocity.z <= self.constants.tolerance.slowest_in_air {
-            self.balls[0] = Ball::launched(&self.constants, self.now, state.seen_from_above());
+            self.balls[0] = Ball::launched(&self.constants, self.now, state.horizontal_state());
             return ControlFlow::Continue(());
         }
         self.fly(0, state);
@@ -77,7 +77,7 @@ impl Stepper<'_> {
         let was_aloft = self.is_aloft(index);
         let time = self.now;
         if let Some(cloth) = self.cloth.filter(|_| state.position.z <= 0.0) {
-            cloth.answer(self.constants.radius, &mut state);
+            cloth.resolve(self.constants.radius, &mut state);
             state.position.z = 0.0;
         }
         if state.position.z > 0.0 || state.velocity.z > self.constants.tolerance.slowest_in_air {
@@ -89,7 +89,7 @@ impl Stepper<'_> {
                 self.observer.event(Event { time, kind: EventKind::Jumps(index) })
             };
         }
-        self.launch(index, state.seen_from_above());
+        self.launch(index, state.horizontal_state());
         if was_aloft {
             self.observer.event(Event { time, kind: EventKind::Lands(index) })
         } else {
@@ -120,14 +120,14 @@ impl Stepper<'_> {
         let mut state = self.balls[index].state;
         let square = state.velocity.z.powi(2) + 2.0 * cloth.gravity * state.position.z;
         (state.position.z, state.velocity.z) = (0.0, -square.max(0.0).sqrt());
-        cloth.answer(self.constants.radius, &mut state);
+        cloth.resolve(self.constants.radius, &mut state);
         if state.velocity.z > self.last_hop {
             self.close(index);
             self.fly(index, state);
             return ControlFlow::Continue(());
         }
         self.last_event = self.now;
-        self.launch(index, state.seen_from_above());
+        self.launch(index, state.horizontal_state());
         let time = self.now;
         self.observer.event(Event { time, kind: EventKind::Lands(index) })?;
         match self.balls[index].segment.motion {
@@ -160,7 +160,7 @@ impl Stepper<'_> {
 
     /// Takes a ball that has left the table out of play.
     pub(super) fn leave(&mut self, index: usize) {
-        let position = self.balls[index].state.seen_from_above().position;
+        let position = self.balls[index].state.horizontal_state().position;
         self.close(index);
         let segment = Segment { start: self.now, motion: Motion::OffTable, ..Segment::at_rest(position) };
         let state = SpatialState { position: position.extend(0.0), velocity: DVec3::ZERO, spin: DVec3::ZERO };

@@ -36,7 +36,7 @@ pub struct StepError(f64);
 
 /// The result of a stepped shot.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Stepped {
+pub struct SteppedShot {
     /// The final state of the balls.
     #[serde(skip)]
     pub end: End,
@@ -67,7 +67,13 @@ impl Steps {
     }
 
     /// Plays a shot as [`simulate`](crate::simulation::simulate) does, step by step.
-    pub fn simulate(self, table: &Table, layout: &Layout, impulse: &Impulse, observer: &mut dyn Observer) -> Stepped {
+    pub fn simulate(
+        self,
+        table: &Table,
+        layout: &Layout,
+        impulse: &Impulse,
+        observer: &mut dyn Observer,
+    ) -> SteppedShot {
         let mut stepper = Stepper::new(table, layout, self, observer);
         let velocity = impulse.velocity.extend(impulse.lift);
         let state = SpatialState { velocity, spin: impulse.spin, ..stepper.balls[0].state };
@@ -81,7 +87,7 @@ impl Steps {
         }
         let at_rest = stepper.at_rest();
         let deepest_overlap = stepper.deepest_overlap;
-        Stepped { end: stepper.finish(), steps, deepest_overlap, at_rest }
+        SteppedShot { end: stepper.finish(), steps, deepest_overlap, at_rest }
     }
 }
 
@@ -123,7 +129,7 @@ impl Ball {
         if let Some(hops) = self.segment.hops() {
             return aloft::falling(&self.state, hops.cloth.gravity, time);
         }
-        let BallState { position, velocity, spin } = self.state.seen_from_above();
+        let BallState { position, velocity, spin } = self.state.horizontal_state();
         Segment { position, velocity, spin, ..self.segment.clone() }.state_after(constants, time).into()
     }
 }
@@ -321,13 +327,13 @@ impl<'a> Stepper<'a> {
             }
             EventKind::BallRail(index, rail) if self.is_aloft(index) => return self.rebound_in_space(index, rail),
             EventKind::BallBall(first, second) => {
-                let [mut a, mut b] = [first, second].map(|ball| self.balls[ball].state.seen_from_above());
+                let [mut a, mut b] = [first, second].map(|ball| self.balls[ball].state.horizontal_state());
                 self.law.balls.resolve(c.radius, &mut a, &mut b);
                 self.launch(first, a);
                 self.launch(second, b);
             }
             EventKind::BallRail(index, rail) => {
-                let mut state = self.balls[index].state.seen_from_above();
+                let mut state = self.balls[index].state.horizontal_state();
                 let impulse = self.law.cushions.at(rail).resolve(c.radius, rail.normal(), &mut state);
                 if impulse.climb > c.lifts {
                     let mut climbing = SpatialState::from(state);
@@ -340,7 +346,7 @@ impl<'a> Stepper<'a> {
             // The ball rolls with its present velocity, even if the event is late.
             EventKind::SlidingRolling(index) => self.roll(index),
             EventKind::RollingStationary(index) => {
-                let BallState { position, spin, .. } = self.balls[index].state.seen_from_above();
+                let BallState { position, spin, .. } = self.balls[index].state.horizontal_state();
                 let spin = DVec2::ZERO.extend(spin.z);
                 self.launch(index, BallState { position, velocity: DVec2::ZERO, spin });
             }
@@ -358,7 +364,7 @@ impl<'a> Stepper<'a> {
 
     /// Makes a ball roll with its present velocity.
     fn roll(&mut self, index: usize) {
-        let mut state = self.balls[index].state.seen_from_above();
+        let mut state = self.balls[index].state.horizontal_state();
         state.spin = rolling_spin(self.constants.radius, state.velocity).extend(state.spin.z);
         self.launch(index, state);
     }
@@ -377,7 +383,7 @@ impl<'a> Stepper<'a> {
     fn finish(mut self) -> End {
         (0..BALLS).for_each(|index| self.close(index));
         let off_table = std::array::from_fn(|index| self.balls[index].segment.motion == Motion::OffTable);
-        End { time: self.last_event, balls: self.balls.map(|ball| ball.state.seen_from_above()), off_table }
+        End { time: self.last_event, balls: self.balls.map(|ball| ball.state.horizontal_state()), off_table }
     }
 }
 

@@ -6,15 +6,15 @@ use crate::{
     simulation::{Recording, Start},
 };
 
-fn record(steps: Steps, table: &Table, layout: &Layout, cue: &CueInputs) -> (Recording, Stepped) {
-    let play = Recording::played_by(table, layout, Start::Stroke(cue), |impulse, recorder| {
+fn record(steps: Steps, table: &Table, layout: &Layout, cue: &CueInputs) -> (Recording, SteppedShot) {
+    let play = Recording::record_with(table, layout, Start::Stroke(cue), |impulse, recorder| {
         let stepped = steps.simulate(table, layout, impulse, recorder);
         (stepped.end, stepped)
     });
     play.unwrap()
 }
 
-fn play(dt: f64, locate: bool, shot: &str) -> (Recording, Stepped) {
+fn play(dt: f64, locate: bool, shot: &str) -> (Recording, SteppedShot) {
     let table = Table::preset("textbook").unwrap();
     let cue = CueInputs::parse(shot).unwrap();
     record(Steps::new(dt, locate).unwrap(), &table, &Layout::opening(&table), &cue)
@@ -30,7 +30,7 @@ fn error(dt: f64, locate: bool) -> f64 {
 }
 
 #[test]
-fn a_tenth_of_the_step_is_about_a_tenth_of_the_error() {
+fn error_is_proportional_to_the_step() {
     let (coarse, fine) = (error(1e-3, false), error(1e-4, false));
     assert!(coarse > 1e-4 && fine < 0.3 * coarse, "{coarse:e}, {fine:e}");
 }
@@ -59,7 +59,7 @@ fn late_events_leave_overlaps_and_they_are_reported() {
 }
 
 #[test]
-fn every_step_ends_whatever_its_length() {
+fn stepped_shots_end_for_any_step_length() {
     for (dt, shot) in [(1.0, "0,0,0,0,6"), (0.3, "0,-0.5,0,40,8"), (0.1, "0.4,0.3,20,100,9")] {
         let (_, stepped) = play(dt, false, shot);
         assert!(stepped.steps as f64 * dt < 1e3);
@@ -86,7 +86,7 @@ fn error_of_a_jump(dt: f64, locate: bool) -> f64 {
 }
 
 #[test]
-fn flights_are_stepped_too_and_as_exact_as_the_engines_where_events_are_located() {
+fn stepped_flights_with_located_events_match_the_engine() {
     let (coarse, fine) = (error_of_a_jump(1e-3, false), error_of_a_jump(1e-5, false));
     assert!(coarse > 1e-4 && fine < 0.3 * coarse, "{coarse:e}, {fine:e}");
     let located = error_of_a_jump(1e-2, true);
@@ -94,7 +94,7 @@ fn flights_are_stepped_too_and_as_exact_as_the_engines_where_events_are_located(
 }
 
 #[test]
-fn a_ball_shot_over_the_rail_leaves_the_table_in_steps_too() {
+fn stepped_ball_shot_over_the_rail_leaves_the_table() {
     let table = Table { flight: Some(crate::table::Flight::default()), ..Table::default() };
     let layout = Layout::new([DVec2::new(0.9, 0.0), DVec2::new(0.0, 0.3), DVec2::new(0.0, -0.3)]);
     let cue = CueInputs::parse("0,0,30,0,9").unwrap();
@@ -103,7 +103,7 @@ fn a_ball_shot_over_the_rail_leaves_the_table_in_steps_too() {
 }
 
 #[test]
-fn an_unusable_step_is_named() {
+fn unusable_step_is_named_in_the_error() {
     for dt in [0.0, -1.0, f64::NAN, 1e-12, 3.0] {
         assert!(Steps::new(dt, false).unwrap_err().to_string().contains(&number(dt)));
     }

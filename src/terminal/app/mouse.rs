@@ -84,7 +84,7 @@ impl App {
         let time = self.coach.playback.time;
         let balls = self.coach.watched().map_or(self.coach.layout().balls, |shot| shot.recording.positions(time));
         let ball = ball_at(balls, mapping, self.caps.glyphs, (event.column, event.row))?;
-        let colour = self.coach.cue_ball().ordered([0, 1, 2])[ball];
+        let colour = self.coach.cue_ball().to_ball_order([0, 1, 2])[ball];
         // A click leaves the shot. Once the shot has started, the ball is drawn away from its position in the layout.
         let has_moved = self.coach.watched().is_some() && time > 0.0;
         let select = Action::Coach(CoachAction::Select(colour));

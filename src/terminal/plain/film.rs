@@ -2,7 +2,7 @@
 
 use crate::{
     coach::words::LengthUnit,
-    study::filmed::FITTED,
+    study::filmed::FITTED_SECONDS,
     table::{BALL_NAMES, BALLS, CueBall},
     terminal::{
         FilmReplay,
@@ -44,10 +44,10 @@ pub fn tell(number: u32, unit: LengthUnit) -> Result<String, String> {
             outcome(shot.is_point),
             fixed(unit.speed().0 * shot.filmed.speed(), 1),
             speech::of_speed(unit),
-            fixed(shot.filmed.lasts(), 1)
+            fixed(shot.filmed.duration(), 1)
         ),
         speech::places(table(), &shot.layout, CueBall::White, unit),
-        format!("The stroke was fitted on the first {FITTED} seconds; all that comes later is predicted."),
+        format!("The stroke was fitted on the first {FITTED_SECONDS} seconds; all that comes later is predicted."),
     ];
     let end = played.replay.duration();
     let small = match unit {
@@ -56,7 +56,7 @@ pub fn tell(number: u32, unit: LengthUnit) -> Result<String, String> {
     };
     let (in_a_metre, _) = unit.small();
     let distances = |time: f64| {
-        let metres = played.replay.apart(time);
+        let metres = played.replay.distances(time);
         let each = (0..BALLS).map(|ball| format!("{} {}", BALL_NAMES[ball], fixed(in_a_metre * metres[ball], 1)));
         each.collect::<Vec<_>>().join(", ")
     };

@@ -159,7 +159,7 @@ impl Conversation {
             Command::Where => self.places(),
             Command::Balls(text) => {
                 let layout = Layout::parse(&text, self.table()).map_err(|error| error.to_string())?;
-                layout.validate(self.table()).map_err(|error| error.told_to(self.cue_ball()).to_string())?;
+                layout.validate(self.table()).map_err(|error| error.for_player(self.cue_ball()).to_string())?;
                 self.place(layout)
             }
             Command::CueBall(cue_ball) if cue_ball == self.cue_ball() => format!("The cue ball is {cue_ball} already."),
@@ -168,7 +168,7 @@ impl Conversation {
                 self.drop_shots(format!("The cue ball is {cue_ball}."))
             }
             Command::Move(colour, step) => {
-                let ball = self.cue_ball().ordered([0, 1, 2])[colour];
+                let ball = self.cue_ball().to_ball_order([0, 1, 2])[colour];
                 let moved = slide(self.table(), self.layout(), ball, step);
                 let stopped = moved.stop_words(ball, self.cue_ball().names());
                 let stopped = stopped.map_or(String::new(), |place| format!("\nIt stops there, {place}."));

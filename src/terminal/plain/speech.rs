@@ -50,7 +50,7 @@ fn coordinate(metres: f64, unit: LengthUnit) -> String {
 /// Positions of the balls; the cue ball is named if it is not white.
 pub fn places(table: &Table, layout: &Layout, cue_ball: CueBall, unit: LengthUnit) -> String {
     let (_, small, _) = small(unit, 0);
-    let names = cue_ball.ordered(["White", "Yellow", "Red"]);
+    let names = cue_ball.to_ball_order(["White", "Yellow", "Red"]);
     let place = |ball: usize| {
         let at = layout.balls[ball];
         let diamonds = in_diamonds(table, at);
@@ -63,7 +63,7 @@ pub fn places(table: &Table, layout: &Layout, cue_ball: CueBall, unit: LengthUni
             coordinate(at.y, unit)
         )
     };
-    let places = cue_ball.ordered([0, 1, 2]).map(place).join("\n");
+    let places = cue_ball.to_ball_order([0, 1, 2]).map(place).join("\n");
     if cue_ball == CueBall::White { places } else { format!("{places}\nThe cue ball is {cue_ball}.") }
 }
 
@@ -217,11 +217,11 @@ pub fn events(recording: &Recording, all: bool, cue_ball: CueBall, unit: LengthU
         other => event_words(other, cue_ball),
     };
     let jump = |event: &Event| {
-        let jump = recording.jump_begun_by(event);
+        let jump = recording.jump_started_by(event);
         jump.map_or_else(String::new, |jump| format!(", {}", jump_words(&jump, unit)))
     };
     let line = |event: &Event| format!("{} seconds: {}{}.", fixed(event.time, 2), words(event.kind), jump(event));
-    let listed = recording.events().iter().filter(|event| all || recording.is_told(event));
+    let listed = recording.events().iter().filter(|event| all || recording.is_reported(event));
     let mut lines: Vec<String> = listed.map(line).collect();
     lines.push(format!("{} seconds: all balls lie still.", fixed(recording.duration(), 2)));
     lines.join("\n")

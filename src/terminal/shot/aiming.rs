@@ -2,7 +2,7 @@
 
 use crate::{
     game::Point,
-    physics::{CueInputs, turn},
+    physics::{CueInputs, signed_angle},
     table::{Layout, Table},
 };
 
@@ -39,7 +39,7 @@ pub fn at_ball(cue: &CueInputs, layout: &Layout, ball: usize) -> CueInputs {
 /// The object ball that the next press of the key aims at: the one closest to the present aim, or the other one if the stroke already aims
 /// full at it.
 pub fn next_ball(cue: &CueInputs, layout: &Layout) -> usize {
-    let off = |ball| turn(at_ball(cue, layout, ball).phi, cue.phi).abs();
+    let off = |ball| signed_angle(at_ball(cue, layout, ball).phi, cue.phi).abs();
     let nearer = if off(1) <= off(2) { 1 } else { 2 };
     if off(nearer) < 1e-9 { 3 - nearer } else { nearer }
 }

@@ -27,7 +27,7 @@ use crate::{
     coach::{Hit, Pattern, ShotWords, Technique, Verdict},
     game::Rule,
     physics::CueInputs,
-    simulation::{EventKind, Rail, Recording, ShotError, TOLD_HEIGHT},
+    simulation::{EventKind, REPORTED_HEIGHT, Rail, Recording, ShotError},
     table::{BALLS, CueBall, Layout, Table},
 };
 
@@ -50,7 +50,7 @@ pub struct Dot {
 impl Dot {
     /// Whether the ball is visibly in the air.
     pub fn is_aloft(&self) -> bool {
-        self.height >= TOLD_HEIGHT
+        self.height >= REPORTED_HEIGHT
     }
 }
 

@@ -1,7 +1,7 @@
 //! Side view of a jump: the ball's height over the distance, and the obstacles that it passes.
 
 use crate::{
-    simulation::{EventKind, Jump, Rail, Recording, TOLD_HEIGHT},
+    simulation::{EventKind, Jump, REPORTED_HEIGHT, Rail, Recording},
     table::{BALLS, Table},
 };
 
@@ -55,14 +55,14 @@ pub struct Profile {
 impl Profile {
     /// The highest jump of the cue ball, or of another ball if the cue ball does not jump. `None` if no jump is high enough to report.
     pub fn of(table: &Table, recording: &Recording) -> Option<Self> {
-        let visible = recording.jumps().into_iter().filter(Jump::is_told);
+        let visible = recording.jumps().into_iter().filter(Jump::is_reported);
         let order = |jump: &Jump| (jump.ball == 0, jump.height);
         let jump = visible.max_by(|one, other| {
             let ((cue_ball, height), (is_other, other)) = (order(one), order(other));
             cue_ball.cmp(&is_other).then(height.total_cmp(&other))
         })?;
         let whole = points(recording, &jump, jump.end);
-        let last = whole.iter().rfind(|point| point.height >= TOLD_HEIGHT)?.time;
+        let last = whole.iter().rfind(|point| point.height >= REPORTED_HEIGHT)?.time;
         let end = (jump.start + SHOWN_LENGTH * (last - jump.start)).min(jump.end);
         let points = points(recording, &jump, end);
         let mut passed = balls(table, recording, &jump, &points);
@@ -122,11 +122,11 @@ fn balls(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) ->
 
 /// The noses that the ball hits or flies over.
 fn noses(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) -> Vec<PassedObstacle> {
-    let top = |rail: Rail| table.rail.own(rail).height.or(table.rail.height).unwrap_or(table.radius);
+    let top = |rail: Rail| table.rail.overrides(rail).height.or(table.rail.height).unwrap_or(table.radius);
     recording
         .events()
         .iter()
-        .filter(|event| jump.is_at(event.time))
+        .filter(|event| jump.is_airborne_at(event.time))
         .filter_map(|event| match event.kind {
             EventKind::BallRail(ball, rail) if ball == jump.ball => Some((rail, event.time)),
             EventKind::LeavesTable(ball) if ball == jump.ball => {

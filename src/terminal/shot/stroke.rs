@@ -4,7 +4,7 @@ use std::mem::{Discriminant, discriminant};
 
 use crate::{
     coach::{SpokenError, SpokenStroke},
-    physics::{CueInputs, with_room},
+    physics::{CueInputs, raise_to_clear},
     table::{CueBall, Layout, Table},
     terminal::shot::{History, aiming},
 };
@@ -58,7 +58,7 @@ impl OwnStroke {
 
     /// The stroke as it will be played: the cue is raised if rails or balls behind it need that.
     pub fn raised(&self, table: &Table, layout: &Layout) -> CueInputs {
-        with_room(table, layout, self.cue()).unwrap_or(*self.cue())
+        raise_to_clear(table, layout, self.cue()).unwrap_or(*self.cue())
     }
 
     /// Changes the stroke.

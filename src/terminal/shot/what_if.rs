@@ -8,7 +8,7 @@ use std::sync::{
 use crate::{
     coach::{Units, Verdict},
     game::Rule,
-    physics::{CueInputs, with_room},
+    physics::{CueInputs, raise_to_clear},
     simulation::ShotError,
     statistics::SuccessRate,
     table::{CueBall, Layout, Table},
@@ -133,7 +133,7 @@ impl WhatIf {
 
 /// Simulates a stroke of the player's own. Returns the shot, its verdict, and whether there is room for the cue.
 fn struck(cue: &CueInputs, situation: Situation) -> Result<(Arc<Shot>, Verdict, bool), ShotError> {
-    let raised = with_room(situation.table, situation.layout, cue);
+    let raised = raise_to_clear(situation.table, situation.layout, cue);
     let shot = Shot::new(situation.table, situation.layout, raised.unwrap_or(*cue), false, "yours")?;
     let verdict = Verdict::of(situation.rule, situation.table, situation.layout, &shot.recording);
     Ok((Arc::new(Shot { solved: verdict.is_made(), ..shot }), verdict, raised.is_ok()))

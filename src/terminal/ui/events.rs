@@ -26,7 +26,7 @@ const WAIT: u16 = 34;
 /// Describes the event, in at most `room` columns if possible; for a jump, with its height and length if they fit.
 fn words_of(event: Event, recording: &Recording, unit: LengthUnit, room: usize, ui: &Ui) -> String {
     let words = event_words(event.kind, ui.theme.cue_ball);
-    let Some(jump) = recording.jump_begun_by(&event) else { return words };
+    let Some(jump) = recording.jump_started_by(&event) else { return words };
     let height = height_words(jump.height, unit);
     let name = ui.theme.names()[jump.ball];
     let all =

@@ -2,7 +2,7 @@
 
 use carom::{
     coach::{Cushion, RailPoint, SpokenStroke, Technique},
-    physics::{CueInputs, with_room},
+    physics::{CueInputs, raise_to_clear},
     simulation::Rail,
     table::{BALL_NAMES, CueBall, Layout, Table},
 };
@@ -88,7 +88,7 @@ fn nearest(
     let said = Technique::of(table, layout, said).ok()?;
     let at = |phi: f64| {
         let cue = CueInputs { phi, ..cue };
-        with_room(table, layout, &cue).unwrap_or(cue)
+        raise_to_clear(table, layout, &cue).unwrap_or(cue)
     };
     let (mut middle, mut half) = (cue.phi, half);
     for _ in 0..2 {

@@ -56,7 +56,7 @@ fn are_same(one: &[BallState; 2], other: &[BallState; 2]) -> bool {
 
 proptest! {
     #[test]
-    fn they_keep_their_momentum_part_by_the_restitution_and_lose_energy(law in laws(), (n, before) in meeting()) {
+    fn collision_keeps_momentum_obeys_restitution_and_loses_energy(law in laws(), (n, before) in meeting()) {
         let after = collide(&law, before);
         let momentum = |balls: &[BallState; 2]| balls[0].velocity + balls[1].velocity;
         prop_assert!(momentum(&after).distance(momentum(&before)) < 1e-13);
@@ -80,7 +80,7 @@ proptest! {
 
     /// A reflection mirrors velocities as polar vectors and spins as axial vectors.
     #[test]
-    fn mirrored_balls_part_mirrored(law in laws(), (_, before) in meeting()) {
+    fn mirrored_collision_has_mirrored_result(law in laws(), (_, before) in meeting()) {
         let mirror = |balls: [BallState; 2]| {
             balls.map(|ball| BallState {
                 position: ball.position * DVec2::new(1.0, -1.0),
@@ -93,7 +93,7 @@ proptest! {
 }
 
 #[test]
-fn in_space_balls_on_the_cloth_get_what_they_get_in_the_plane_but_for_the_lift() {
+fn spatial_collision_on_cloth_equals_planar_except_for_lift() {
     for name in crate::table::PRESETS {
         let table = Table::preset(name).unwrap();
         let (law, radius) = (BallImpact::of(&table), table.radius);

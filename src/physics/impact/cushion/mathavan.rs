@@ -22,7 +22,7 @@ const NEARLY_FREE: f64 = 0.02;
 
 /// Smallest rate of outward velocity per impulse: friction of nose and cloth cancels at most nine tenths of the driving force. Guard
 /// against constants with which friction could hold the ball in the rail.
-const LEAST_GAIN: f64 = 0.1;
+const MIN_GAIN: f64 = 0.1;
 
 /// Velocity along the normal into the table and along the cushion, and the equatorial speeds `R ω` of the spin about these two axes and the
 /// vertical, all m/s.
@@ -86,10 +86,10 @@ impl Law {
         rate(nose * against.normalize_or_zero())
     }
 
-    /// As [`Self::step`], but at least with the outward rate [`LEAST_GAIN`].
+    /// As [`Self::step`], but at least with the outward rate [`MIN_GAIN`].
     fn driven_out(&self, motion: &Motion, impulse: f64) -> Motion {
         let Motion { velocity, spin } = self.step(motion, impulse);
-        Motion { velocity: velocity.with_x(velocity.x.max(LEAST_GAIN)), spin }
+        Motion { velocity: velocity.with_x(velocity.x.max(MIN_GAIN)), spin }
     }
 
     /// Returns the derivative for a step of `impulse` by the midpoint method.
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn few_steps_are_as_near_as_is_said_and_more_come_nearer() {
+    fn few_steps_meet_the_stated_accuracy_and_more_converge() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(7);
         // Balls that approach at 1 m/s; every second one rolls.
         let starts: Vec<Motion> = (0..400)
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn many_steps_come_where_friction_alone_leads_that_never_holds() {
+    fn many_steps_converge_to_explicit_friction_without_sticking() {
         let (law, e) = (law(), 0.889);
         // Explicit tiny steps with friction against the slip at their start; while the nose should stick, the slip oscillates about zero.
         let explicit = |start: &Motion| {
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn on_every_accepted_cloth_no_ball_goes_on_into_the_rail_or_gains_energy() {
+    fn every_ball_leaves_the_rail_without_energy_gain() {
         let energy = |motion: &Motion| motion.velocity.length_squared() + 0.4 * motion.spin.length_squared();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(9);
         for cloth in [0.2, 0.5, 1.0] {
@@ -274,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_that_comes_straight_without_slip_below_leaves_with_the_work_that_is_given_back() {
+    fn without_friction_restitution_reduces_the_normal_speed() {
         // Without friction, the speed is reduced by the factor e alone.
         let smooth = Law { nose: 0.0, cloth: 0.0, ..law() };
         let mut motion = Motion { velocity: DVec2::new(-1.5, 0.7), spin: DVec3::new(0.1, 0.2, 0.3) };

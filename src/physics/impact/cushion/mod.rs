@@ -61,7 +61,7 @@ enum Law {
 impl Cushion {
     /// Returns the cushion of a rail of `table`.
     pub fn of(table: &Table, rail: Rail) -> Self {
-        let own = table.rail.own(rail);
+        let own = table.rail.overrides(rail);
         let restitution = own.e.unwrap_or(table.rail_restitution);
         let friction = own.mu.unwrap_or(table.rail_friction);
         let sine = own.height.or(table.rail.height).map_or(0.0, |height| height / table.radius - 1.0);

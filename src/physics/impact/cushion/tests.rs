@@ -32,7 +32,7 @@ fn moving() -> impl Strategy<Value = BallState> {
 
 proptest! {
     #[test]
-    fn no_rail_gives_energy(ball in moving(), height in 0.0308..0.040f64) {
+    fn rail_impacts_gain_no_energy(ball in moving(), height in 0.0308..0.040f64) {
         for model in MODELS {
             let after = hit(&cushion(model, height), &ball);
             let (before, after) = (ball.specific_energy(RADIUS), after.specific_energy(RADIUS));
@@ -41,7 +41,7 @@ proptest! {
     }
 
     #[test]
-    fn the_deadest_rail_lets_no_ball_through(
+    fn lossy_rails_let_no_ball_through(
         ball in moving(),
         height in 0.0308..0.049f64,
         (rail_restitution, rail_friction) in (0.0..0.5f64, 0.0..0.99f64),
@@ -58,7 +58,7 @@ proptest! {
     }
 
     #[test]
-    fn a_mirrored_ball_comes_back_mirrored(ball in moving(), height in 0.0308..0.040f64) {
+    fn mirrored_ball_rebounds_mirrored(ball in moving(), height in 0.0308..0.040f64) {
         // Mirrored along the cushion: spins about axes in the mirror plane change their sign.
         let mirror = |ball: &BallState| BallState {
             velocity: ball.velocity * DVec2::new(1.0, -1.0),
@@ -72,13 +72,13 @@ proptest! {
     }
 
     #[test]
-    fn at_the_height_of_the_centre_the_sharp_nose_is_the_equator(ball in moving()) {
+    fn nose_at_centre_height_equals_equator_model(ball in moving()) {
         let (nose, equator) = (hit(&cushion(RailModel::Nose, RADIUS), &ball), hit(&cushion(RailModel::Equator, RADIUS), &ball));
         prop_assert!(nose.velocity.distance(equator.velocity) < 1e-13 && nose.spin.distance(equator.spin) < 1e-11);
     }
 
     #[test]
-    fn at_the_height_of_the_centre_the_ball_leaves_by_the_restitution_and_its_slip_does_not_turn_round(
+    fn impact_at_centre_height_obeys_restitution_without_reversing_slip(
         ball in moving(), e in 0.0..=1.0f64, mu in 0.0..1.0f64,
     ) {
         let (n, mut after) = (DVec2::NEG_X, ball);
@@ -91,7 +91,7 @@ proptest! {
 
     /// An impact without loss is undone by the same impact with reversed velocities.
     #[test]
-    fn an_impact_without_loss_at_the_height_of_the_centre_is_reversible(ball in moving()) {
+    fn lossless_impact_at_centre_height_is_reversible(ball in moving()) {
         let there = |mut ball: BallState| {
             collide_rail(RADIUS, 1.0, 0.0, DVec2::NEG_X, &mut ball);
             BallState { velocity: -ball.velocity, spin: -ball.spin, ..ball }
@@ -101,7 +101,7 @@ proptest! {
     }
 
     #[test]
-    fn smooth_friction_never_exceeds_coulomb_nor_its_most(ball in moving()) {
+    fn smooth_friction_never_exceeds_coulomb_or_its_limit(ball in moving()) {
         let [smooth, sharp] = [RailModel::Smooth, RailModel::Nose].map(|model| hit(&cushion(model, 0.0365), &ball));
         let taken = |after: BallState| (after.spin - ball.spin).length();
         prop_assert!(taken(smooth) <= 1.146 * taken(sharp) * (1.0 + 1e-12));
@@ -109,7 +109,7 @@ proptest! {
 }
 
 #[test]
-fn the_integrated_law_has_no_speed_of_its_own() {
+fn integrated_law_scales_with_speed() {
     let ball = BallState { position: DVec2::ZERO, velocity: DVec2::new(1.2, 0.9), spin: DVec3::new(-20.0, 35.0, 40.0) };
     let cushion = cushion(RailModel::Mathavan, 0.0365);
     let slow = BallState { velocity: 1e-3 * ball.velocity, spin: 1e-3 * ball.spin, ..ball };

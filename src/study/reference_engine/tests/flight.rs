@@ -5,7 +5,7 @@ use crate::{
     simulation::{EventKind, Rail},
     study::{
         Errors, Method, StudyShot, Truth,
-        shots::{Steepest, random_shots},
+        shots::{MaxElevation, random_shots},
     },
     table::{Flight, RailModel, Rails, Table},
 };
@@ -38,7 +38,7 @@ fn tables() -> [Table; 5] {
 fn both_engines_agree_on_flights() {
     for (index, table) in tables().iter().enumerate() {
         let (mut units, mut jumps) = (Vec::new(), 0);
-        for shot in &random_shots(table, 80, 5, Steepest::FLIGHTS) {
+        for shot in &random_shots(table, 80, 5, MaxElevation::FLIGHTS) {
             let truth = Truth::of(table, shot).unwrap();
             let errors = Errors::of(&truth, &Method::Engine.play(table, shot).unwrap());
             assert_eq!(errors.differs_at, None, "table {index}: {}", shot.command_line(&table.name));
@@ -75,7 +75,7 @@ fn a_ball_thrown_straight_up_hops_for_the_sum_of_all_hops() {
 }
 
 #[test]
-fn a_ball_with_much_follow_climbs_the_nose_and_one_shot_over_it_is_off_the_table() {
+fn strong_follow_climbs_the_nose_and_high_shots_leave_the_table() {
     let table = Table::default();
     let climbs = played(&table, [5.0, 0.0, 0.0], [0.0, 900.0, 0.0]);
     let kinds: Vec<_> = climbs.events.iter().map(|event| event.1).take(2).collect();
@@ -87,7 +87,7 @@ fn a_ball_with_much_follow_climbs_the_nose_and_one_shot_over_it_is_off_the_table
 }
 
 #[test]
-fn a_stroke_presses_the_ball_into_the_cloth_as_the_simulators_does() {
+fn stroke_into_the_cloth_agrees_with_the_engine() {
     let table = Table::default();
     let (numbers, of) = (Numbers::<D>::of(&table), D::of);
     for (b, theta) in [(0.1, 0.05), (-0.3, 0.6), (0.4, 1.4)] {

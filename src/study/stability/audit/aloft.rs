@@ -11,7 +11,7 @@ use crate::{
     physics::{SpatialState, slip},
     simulation::{Event, EventKind},
     study::reference_engine::{
-        Ball, Contact, Motion, Numbers, Vector, collide_aloft, collide_at_once, opening_aloft, settle,
+        Ball, Contact, Motion, Numbers, Vector, collide_aloft, collide_simultaneously, opening_aloft, settle,
     },
     table::{BALLS, Table},
 };
@@ -26,7 +26,7 @@ const GRAZING: f64 = 16.0 * f64::EPSILON;
 /// spin.
 pub fn energy(table: &Table, ball: &SpatialState) -> f64 {
     let climb = ball.velocity.z;
-    ball.seen_from_above().specific_energy(table.radius) + (0.5 * climb * climb + table.gravity * ball.position.z)
+    ball.horizontal_state().specific_energy(table.radius) + (0.5 * climb * climb + table.gravity * ball.position.z)
 }
 
 /// Returns the energy that the cloth dissipates in the first `landings` landings of a flight from the state `start`, m²/s².
@@ -124,7 +124,7 @@ pub fn impacts(
     let mut balls: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
         let SpatialState { position, velocity, spin } = before[ball];
         let [position, velocity, spin] = [position, velocity, spin].map(|v| Vector::new(v.x, v.y, v.z));
-        let mut state = Ball { velocity, spin, ..Ball::still(position) };
+        let mut state = Ball { velocity, spin, ..Ball::at_rest(position) };
         state.motion = if flew[ball] { Motion::Flying } else { state.on_cloth(&numbers, 0.0) };
         if group[ball] && flew[ball] && position.z <= 0.0 && velocity.z <= slowest {
             lost += settle(&numbers, &mut state);
@@ -141,9 +141,9 @@ pub fn impacts(
         .collect();
     let after: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
         let [position, velocity] = [after[ball].position, after[ball].velocity].map(|v| Vector::new(v.x, v.y, v.z));
-        Ball { velocity, ..Ball::still(position) }
+        Ball { velocity, ..Ball::at_rest(position) }
     });
-    let rests = |contact: &Contact| contact.is_among(rests) && contact.opening(&after) < STOPPED_SPEED;
+    let rests = |contact: &Contact| contact.is_among(rests) && contact.opening_speed(&after) < STOPPED_SPEED;
     let overlap = contacts.iter().fold(0.0_f64, |most, contact| most.max(-contact.gap(&numbers, &balls)));
     let mut gripping: Vec<Contact> = Vec::new();
     for contact in contacts.iter().filter(|contact| rests(contact)) {
@@ -177,7 +177,7 @@ pub fn impacts(
         } else {
             let closes = |contact: &Contact| {
                 let least = if assumed.grazes { 0.0 } else { rounding(contact, &balls) };
-                !contact.is_aloft(&balls) && contact.opening(&balls) < -least
+                !contact.is_aloft(&balls) && contact.opening_speed(&balls) < -least
             };
             let (mut round, mut staying) = (vec![contact], Vec::from_iter(stays.then_some(contact)));
             while let Some((other, stays, _)) =
@@ -187,15 +187,15 @@ pub fn impacts(
                 staying.extend(stays.then_some(other));
             }
             for contact in &staying {
-                let left_out =
-                    Bounces::of(table, contact.balls().0, -contact.opening(&balls), contact.restitution(&numbers));
+                let closing_speed = -contact.opening_speed(&balls);
+                let left_out = Bounces::of(table, contact.balls().0, closing_speed, contact.restitution(&numbers));
                 bounces =
                     bounces.into_iter().chain([left_out]).max_by(|one, other| one.energy.total_cmp(&other.energy));
             }
-            let is_slow = |contact: &Contact| -contact.opening(&balls) < fastest_micro_collision(table);
+            let is_slow = |contact: &Contact| -contact.opening_speed(&balls) < fastest_micro_collision(table);
             let law = if assumed.is_micro && round.iter().all(is_slow) { &lossless } else { &numbers };
             // If no impulses are found, nothing is explained.
-            lost += collide_at_once(law, &mut balls, &round, &staying, &mut Vec::new()).unwrap_or(0.0);
+            lost += collide_simultaneously(law, &mut balls, &round, &staying, &mut Vec::new()).unwrap_or(0.0);
         }
         for ball in balls.iter_mut().filter(|ball| ball.velocity.z > 0.0) {
             ball.motion = Motion::Flying;

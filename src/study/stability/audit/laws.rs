@@ -3,21 +3,21 @@
 
 use crate::{
     physics::{BallState, Motion},
-    study::reference_engine::{Ball, Contact, Meeting, Numbers, balls_collide, rail_collides, rail_normal},
+    study::reference_engine::{Ball, Contact, Numbers, RailLaw, balls_collide, rail_collides, rail_normal},
     table::{BALLS, Table},
 };
 
 /// Returns the energy that an impact at one contact dissipates by the formulas of the reference engine, m²/s² (thesis equations
 /// 17 to 23, and other models of a table's parts). `None` for Mathavan's rails, which that engine does not implement.
 pub fn impact_loss(numbers: &Numbers<f64>, contact: Contact, balls: &[Ball<f64>; BALLS]) -> Option<f64> {
-    if contact.opening(balls) >= 0.0 {
+    if contact.opening_speed(balls) >= 0.0 {
         return Some(0.0);
     }
     match contact {
         Contact::Balls(first, second) => Some(balls_collide(numbers, &mut { balls[first] }, &mut { balls[second] })),
         Contact::Rail(ball, rail) => {
             let cushion = numbers.cushion(rail);
-            let is_known = !matches!(cushion.meeting, Meeting::Integrated);
+            let is_known = !matches!(cushion.law, RailLaw::Integrated);
             is_known.then(|| rail_collides(numbers, cushion, rail_normal(rail), &mut { balls[ball] }))
         }
     }

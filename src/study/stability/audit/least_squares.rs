@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn factors_come_back_and_what_is_beyond_them_is_left() {
+    fn fit_recovers_the_factors_and_leaves_the_residual() {
         let columns = [column(&[1.0, 2.0]), column(&[0.0, 1.0, 1.0]), column(&[3.0, 0.0, 1.0])];
         let target = column(&[1.0 + 6.0, 2.0 - 1.0, -1.0 + 2.0, 5.0]);
         let found = fit(&columns, &target);
@@ -106,7 +106,7 @@ mod tests {
 
     /// The case of balls almost in a row that push each other.
     #[test]
-    fn columns_that_all_but_repeat_each_other_explain_what_they_differ_by() {
+    fn nearly_equal_columns_explain_their_difference() {
         let apart = |angle: f64| fit(&[column(&[1.0, 0.0]), column(&[1.0, angle])], &column(&[1.0, 0.5e-10]));
         let left = |found: &Fit| dot(&found.residual, &found.residual).sqrt();
         assert!(apart(1e-10).factors.is_none() && left(&apart(1e-10)) < 1e-24);
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_that_repeat_each_other_have_no_factors_of_their_own() {
+    fn equal_columns_have_no_unique_factors() {
         let found = fit(&[column(&[1.0, 1.0]), column(&[2.0, 2.0])], &column(&[3.0, 3.0]));
         assert!(found.factors.is_none() && dot(&found.residual, &found.residual) < 1e-28);
     }

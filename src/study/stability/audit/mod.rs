@@ -90,8 +90,8 @@ pub(super) fn audit(table: &Table, trace: &Trace, figures: &mut Figures) -> Acco
         audit.pieces(now, figures);
     }
     let Account { unexplained, allowed, .. } = audit.account;
-    figures.unexplained.note(unexplained.abs() / allowed.max(f64::MIN_POSITIVE), trace.end.time);
-    figures.missing.note(unexplained.abs(), trace.end.time);
+    figures.unexplained.record(unexplained.abs() / allowed.max(f64::MIN_POSITIVE), trace.end.time);
+    figures.unexplained_energy.record(unexplained.abs(), trace.end.time);
     audit.account
 }
 
@@ -118,7 +118,7 @@ impl Audit<'_> {
         let rests = self.courses.map(|course| course.resting().is_some());
         let flies = self.courses.map(|course| course.flies());
         let is_off = self.courses.map(|course| course.is_off(self.trace));
-        let [before, after] = [&in_space, &after_in_space].map(|balls| balls.map(|ball| ball.seen_from_above()));
+        let [before, after] = [&in_space, &after_in_space].map(|balls| balls.map(|ball| ball.horizontal_state()));
         let mut closed = closed_contacts(self.numbers, &reference_balls(&after), self.gap);
         let can_touch = std::array::from_fn(|ball| changed[ball] && !flies[ball] && !is_off[ball]);
         closed.retain(|contact| contact.is_among(can_touch));
@@ -177,7 +177,7 @@ impl Audit<'_> {
             let mut returned = 0.0;
             for member in members().filter(|&member| rested[member] && !rests[member]) {
                 if let Some((since, bounces)) = self.courses[member].bounces.take() {
-                    let left = bounces.energy * (1.0 - (now - since) / bounces.lasts).max(0.0).powi(2);
+                    let left = bounces.energy * (1.0 - (now - since) / bounces.duration).max(0.0).powi(2);
                     // At least the energy of the bounces that are not over by now comes back, at most all of it.
                     unexplained = (unexplained + left).max((unexplained + bounces.energy).min(0.0));
                     returned += bounces.energy;
@@ -288,11 +288,13 @@ impl Audit<'_> {
     }
 
     fn note(&mut self, figures: &mut Figures, lost: f64, unexplained: f64, uncertainty: &Uncertainty, allowed: f64) {
-        figures.gained.note(-lost, uncertainty.time);
-        figures.energy.note(if lost < 0.0 { -lost / uncertainty.of_a_gain(self.table) } else { 0.0 }, uncertainty.time);
-        figures.missing.note(unexplained.abs(), uncertainty.time);
+        figures.gained.record(-lost, uncertainty.time);
+        figures
+            .energy
+            .record(if lost < 0.0 { -lost / uncertainty.of_a_gain(self.table) } else { 0.0 }, uncertainty.time);
+        figures.unexplained_energy.record(unexplained.abs(), uncertainty.time);
         // Without energy there is no rounding.
-        figures.unexplained.note(unexplained.abs() / allowed.max(f64::MIN_POSITIVE), uncertainty.time);
+        figures.unexplained.record(unexplained.abs() / allowed.max(f64::MIN_POSITIVE), uncertainty.time);
         self.account.unexplained += unexplained;
         self.account.allowed += allowed;
     }

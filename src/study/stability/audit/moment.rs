@@ -44,7 +44,7 @@ pub struct Bounces {
     /// Energy of the first omitted bounce, m²/s².
     pub energy: f64,
     /// Minimum duration of the bounces, s.
-    pub lasts: f64,
+    pub duration: f64,
 }
 
 impl Bounces {
@@ -54,7 +54,7 @@ impl Bounces {
         // At most the friction of the cloth under all balls presses them together.
         let pull = BALLS as f64 * table.sliding_friction * table.gravity;
         let speed = e * speed.max(0.0);
-        Self { ball, energy: 0.5 * speed * speed, lasts: 2.0 * speed / (pull * (1.0 - e)) }
+        Self { ball, energy: 0.5 * speed * speed, duration: 2.0 * speed / (pull * (1.0 - e)) }
     }
 }
 
@@ -152,7 +152,7 @@ impl Moment<'_> {
 
     /// Returns the closing speed of a contact before the change, m/s.
     fn closing_speed(&self, contact: Contact) -> f64 {
-        -contact.relative(&reference_balls(&self.before)).dot(contact.normal(&reference_balls(&self.after)))
+        -contact.relative_velocity(&reference_balls(&self.before)).dot(contact.normal(&reference_balls(&self.after)))
     }
 
     /// Returns the directions of a contact at the positions after the change.
@@ -186,7 +186,7 @@ impl Moment<'_> {
     /// in which balls begin to rest.
     fn joins_others(&self, impact: Contact, group: [bool; BALLS]) -> bool {
         let rests = |contact: &Contact| contact.is_among(group) && contact.is_among(self.rests);
-        (0..BALLS).any(|ball| group[ball] && !impact.has(ball))
+        (0..BALLS).any(|ball| group[ball] && !impact.involves(ball))
             || self.closed.iter().any(|contact| contact.balls() != impact.balls() && rests(contact))
     }
 

@@ -33,7 +33,7 @@ pub fn energy(motion: &Column) -> f64 {
 pub fn reference_balls(balls: &[BallState; BALLS]) -> [Ball<f64>; BALLS] {
     balls.map(|BallState { position, velocity, spin }| {
         let [position, velocity] = [position, velocity].map(|v| Vector::new(v.x, v.y, 0.0));
-        Ball { velocity, spin: Vector::new(spin.x, spin.y, spin.z), ..Ball::still(position) }
+        Ball { velocity, spin: Vector::new(spin.x, spin.y, spin.z), ..Ball::at_rest(position) }
     })
 }
 

@@ -85,7 +85,7 @@ pub fn work(
         if let Some(loss) = loss.flatten() {
             (sum.least, sum.most) = (sum.least + loss, sum.most + loss);
             *member = false;
-            contacts.retain(|contact| !contact.has(ball));
+            contacts.retain(|contact| !contact.involves(ball));
         }
     }
     if members == [false; BALLS] {
@@ -138,7 +138,7 @@ fn on_one_cushion(
     ends: &[Column; 2],
     time: f64,
 ) -> Option<f64> {
-    let mut own = contacts.iter().filter(|contact| contact.has(ball));
+    let mut own = contacts.iter().filter(|contact| contact.involves(ball));
     let (Some(contact @ Contact::Rail(_, rail)), None) = (own.next(), own.next()) else { return None };
     let [_, along, up] = directions(numbers, *contact, &reference_balls(&[*state; BALLS]));
     let (slides, rubs) = (slips(ends, &on_cloth(numbers, ball)), slips(ends, &[along, up]));

@@ -9,7 +9,7 @@ use crate::{
     physics::{BallState, CueDegrees},
     simulation::{Course, Rail},
     study::stability::{Case, Shot, cases, random},
-    table::{Flight, JUDGED, Layout, RailModel, Rails},
+    table::{Flight, Layout, RailModel, Rails, THESIS_PRESETS},
 };
 
 /// Returns the largest unexplained energy in a shot after tampering, as a multiple of the tolerance.
@@ -86,7 +86,7 @@ fn stop_from(speed: f64, table: &Table, trace: &mut Trace) {
 
 #[test]
 fn ordinary_shots_leave_nothing_unexplained() {
-    for name in JUDGED {
+    for name in THESIS_PRESETS {
         let table = Table::preset(name).unwrap();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
         let left = (0..150).map(|_| unexplained(&table, &random::shot(&table, &mut rng), |_| {}));
@@ -99,7 +99,7 @@ fn ordinary_shots_leave_nothing_unexplained() {
 }
 
 #[test]
-fn a_ball_that_is_stopped_dead_is_seen() {
+fn sudden_stop_of_a_ball_is_detected() {
     let (table, shot) = lively();
     let stop = |trace: &mut Trace| {
         let segment = &mut trace.pieces[0][1].segment;
@@ -109,7 +109,7 @@ fn a_ball_that_is_stopped_dead_is_seen() {
 }
 
 #[test]
-fn a_roll_that_ends_early_is_seen_down_to_a_thousandth_of_a_millimetre_a_second() {
+fn early_end_of_a_roll_is_detected() {
     let (table, shot) = lively();
     for (speed, seen) in [(1e-3, 1e6), (1e-6, 1.0)] {
         let left = unexplained(&table, &shot, |trace| stop_from(speed, &table, trace));
@@ -118,7 +118,7 @@ fn a_roll_that_ends_early_is_seen_down_to_a_thousandth_of_a_millimetre_a_second(
 }
 
 #[test]
-fn an_impact_that_takes_too_much_is_seen_and_one_that_takes_too_little() {
+fn impact_with_wrong_energy_loss_is_detected() {
     let (table, shot) = lively();
     for share in [1.0 - 1e-9, 1.0 + 1e-9] {
         let left = unexplained(&table, &shot, |trace| trace.pieces[0][1].segment.velocity *= share);
@@ -136,7 +136,7 @@ fn impacts_on_rails_of_another_law_are_not_judged() {
 }
 
 #[test]
-fn friction_that_takes_too_much_on_the_way_is_seen() {
+fn excess_friction_loss_is_detected() {
     let (table, shot) = lively();
     for motion in [Motion::Sliding, Motion::Rolling] {
         let brake = |trace: &mut Trace| piece_of(trace, motion, false).segment.half_acceleration *= 1.0 + 1e-9;
@@ -146,7 +146,7 @@ fn friction_that_takes_too_much_on_the_way_is_seen() {
 }
 
 #[test]
-fn a_resting_contact_that_takes_too_much_is_seen() {
+fn excess_loss_of_a_resting_contact_is_detected() {
     let (table, shot) = pressed();
     let drag = |trace: &mut Trace| {
         let piece = piece_of(trace, Motion::Resting, false);
@@ -161,7 +161,7 @@ fn a_resting_contact_that_takes_too_much_is_seen() {
 
 /// Balls pressed between others and cushions, audited by the laws of their own table and of others.
 #[test]
-fn coupled_contacts_whose_frictions_are_not_those_of_the_table_are_seen() {
+fn wrong_friction_in_coupled_contacts_is_detected() {
     let case = case_called("a ball pressed between ball and cushion");
     let table = (case.tables)().into_iter().find(|table| table.name == "thesis").unwrap();
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
@@ -187,7 +187,7 @@ fn coupled_contacts_whose_frictions_are_not_those_of_the_table_are_seen() {
 
 /// A stroke with a raised cue at a ball near by, audited by the laws of its own table and of others.
 #[test]
-fn in_the_air_impacts_and_landings_that_take_what_their_laws_do_not_are_seen() {
+fn wrong_energy_losses_in_the_air_are_detected() {
     let flight = Flight { restitution: 0.5, friction: Some(0.2) };
     let table = Table { flight: Some(flight), ..Table::preset("textbook").unwrap() };
     let layout = Layout::new([DVec2::new(-0.5, 0.0), DVec2::new(-0.36, 0.01), DVec2::new(1.0, 0.5)]);
@@ -222,7 +222,7 @@ fn dead_impact(table: &Table, rests: bool) -> Residual {
 }
 
 #[test]
-fn an_impact_takes_everything_only_where_the_bounces_that_are_left_out_have_their_time() {
+fn impact_loses_all_energy_only_with_time_for_omitted_bounces() {
     let table = Table::preset("textbook").unwrap();
     let e = table.rail_restitution;
     let Residual { unexplained, bounces } = dead_impact(&table, false);
@@ -230,5 +230,5 @@ fn an_impact_takes_everything_only_where_the_bounces_that_are_left_out_have_thei
     let Residual { unexplained, bounces } = dead_impact(&table, true);
     let bounces = bounces.unwrap();
     assert!(unexplained.abs() < 1e-15 && (bounces.energy - 0.5e-6 * e * e).abs() < 1e-15);
-    assert!(bounces.lasts > 1e-3);
+    assert!(bounces.duration > 1e-3);
 }

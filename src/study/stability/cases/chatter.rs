@@ -22,13 +22,13 @@ pub const CASES: &[Case] = &[
 
 /// Maximum number of events of one chatter, from the first impact to the end of the resulting contact. After that the balls may
 /// meet again and start another chatter.
-const MOST_EVENTS: usize = 60;
+const MAX_EVENTS: usize = 60;
 
 /// A flight longer than the longest before by this factor starts another chatter.
 const LONGER: f64 = 2.0;
 
 /// Maximum number of chatters of a shot.
-const MOST_CHATTERS: usize = 12;
+const MAX_CHATTERS: usize = 12;
 
 const HOLDS: &str = "at most 60 events a chatter, regardless of its bounces, and 12 chatters; a flight twice as long as those before begins another";
 
@@ -100,10 +100,10 @@ fn few_events(_: &Table, _: &Shot, trace: &Trace) -> Result<(), String> {
         before.len() + after.iter().filter(|event| !event.kind.is_contact()).count()
     };
     let chatters: Vec<usize> = chatters(&trace.events).into_iter().map(one).collect();
-    if let Some(most) = chatters.iter().find(|events| **events > MOST_EVENTS) {
+    if let Some(most) = chatters.iter().find(|events| **events > MAX_EVENTS) {
         return Err(format!("one chatter takes {most} events"));
     }
-    if chatters.len() <= MOST_CHATTERS { Ok(()) } else { Err(format!("it chatters {} times", chatters.len())) }
+    if chatters.len() <= MAX_CHATTERS { Ok(()) } else { Err(format!("it chatters {} times", chatters.len())) }
 }
 
 #[cfg(test)]

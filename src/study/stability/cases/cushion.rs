@@ -32,7 +32,7 @@ const MOMENT: f64 = 1e-13;
 fn on_cushion(table: &Table, rng: &mut Xoshiro256PlusPlus) -> (DVec2, Rail) {
     let rail = draw::one_of(rng, &Rail::ALL);
     let n = rail.normal();
-    let anywhere = draw::place(table, rng);
+    let anywhere = draw::position(table, rng);
     (anywhere * (DVec2::ONE - n.abs()) - n * table.reach(), rail)
 }
 
@@ -42,7 +42,7 @@ fn driving(table: &Table, target: DVec2, towards: DVec2, rng: &mut Xoshiro256Plu
     let from = target - 2.0 * table.radius * towards - rng.random_range(0.0..0.6) * direction;
     let b = draw::one_of(rng, &[-0.5, 0.0, 0.4, 0.9]);
     let cue = CueDegrees { b, ..CueDegrees::centre(direction.to_angle().to_degrees(), rng.random_range(0.5..8.0)) };
-    let layout = Layout::new([from, target, draw::place(table, rng)]);
+    let layout = Layout::new([from, target, draw::position(table, rng)]);
     layout.validate(table).is_ok().then_some(Shot { layout, cue })
 }
 

@@ -4,7 +4,7 @@ use glam::DVec2;
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, Size, variant};
+use super::{Case, CaseKind, variant};
 use crate::{
     physics::{CueDegrees, Cushions, strike},
     simulation::{EventKind, Rail},
@@ -15,9 +15,9 @@ use crate::{
 pub const CASES: &[Case] = &[
     Case::new("grazing a ball from above, relative depth 1e-12 to 1e-3", flying, graze)
         .checked("hit or missed as the exact numbers predict", hit_or_missed),
-    Case::new("random shots with the cue raised by up to 60°", flying, raised).of_size(Size::Adversarial),
+    Case::new("random shots with the cue raised by up to 60°", flying, raised).of_kind(CaseKind::Adversarial),
     Case::new("balls that touch or almost touch, the cue raised by up to 60°", flying_by_thesis, raised_at_touching)
-        .of_size(Size::Adversarial),
+        .of_kind(CaseKind::Adversarial),
     Case::new("landing on the nose of a cushion", flying, on_the_nose),
     Case::new("landing exactly on a ball's top", flying, on_top),
     Case::new("endless hops, e_c = 0.99", lively, hops),

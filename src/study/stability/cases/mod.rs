@@ -14,8 +14,8 @@ mod sweeps;
 mod tables;
 mod touching;
 
-use super::{Check, Generator, Limits, Progress, Sweep, Swept};
-use crate::table::{JUDGED, Table};
+use super::{Check, Generator, Limits, Progress, Sweep, SweepResult};
+use crate::table::{THESIS_PRESETS, Table};
 
 /// One row of the stability table.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +23,7 @@ pub struct Case {
     /// What is hard about the case.
     pub name: &'static str,
     /// What must hold in addition to the invariants.
-    pub holds: &'static str,
+    pub requirement: &'static str,
     /// The tables of the case.
     pub tables: fn() -> Vec<Table>,
     /// Draws a shot.
@@ -33,12 +33,12 @@ pub struct Case {
     /// Limits of the invariants.
     pub limits: Limits,
     /// The kind of the case, which determines its number of shots.
-    pub size: Size,
+    pub kind: CaseKind,
 }
 
 /// The field of [`super::Plan`] with the number of shots of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Size {
+pub enum CaseKind {
     /// The number of random shots.
     Random,
     /// The number of adversarial shots.
@@ -68,21 +68,21 @@ pub fn all() -> Vec<Case> {
 impl Case {
     /// Creates a stiff or extreme case in which the invariants must hold.
     const fn new(name: &'static str, tables: fn() -> Vec<Table>, shot: Generator) -> Self {
-        Self { name, holds: "", tables, shot, check: None, limits: Limits::STRICT, size: Size::Case }
+        Self { name, requirement: "", tables, shot, check: None, limits: Limits::STRICT, kind: CaseKind::Case }
     }
 
     /// Adds a description of what must hold in addition.
-    const fn holding(self, holds: &'static str) -> Self {
-        Self { holds, ..self }
+    const fn with_requirement(self, requirement: &'static str) -> Self {
+        Self { requirement, ..self }
     }
 
     /// Adds a check and its description.
-    const fn checked(self, holds: &'static str, check: Check) -> Self {
-        Self { check: Some(check), ..self.holding(holds) }
+    const fn checked(self, requirement: &'static str, check: Check) -> Self {
+        Self { check: Some(check), ..self.with_requirement(requirement) }
     }
 
-    const fn of_size(self, size: Size) -> Self {
-        Self { size, ..self }
+    const fn of_kind(self, kind: CaseKind) -> Self {
+        Self { kind, ..self }
     }
 
     /// Removes the limit of events, for tables on which shots inherently have more.
@@ -91,20 +91,23 @@ impl Case {
     }
 
     /// Plays `shots` shots on each table of the case. `watch` is that of [`Sweep::run`].
-    pub fn run(&self, shots: u64, seed: u64, mut watch: impl FnMut(Progress) + Send) -> Swept {
+    pub fn run(&self, shots: u64, seed: u64, mut watch: impl FnMut(Progress) + Send) -> SweepResult {
         let on = |table| Sweep { table, generator: self.shot, check: self.check, shots, seed, limits: self.limits };
-        (self.tables)().into_iter().map(|table| on(table).run(&mut watch)).fold(Swept::default(), Swept::and)
+        (self.tables)()
+            .into_iter()
+            .map(|table| on(table).run(&mut watch))
+            .fold(SweepResult::default(), SweepResult::merge)
     }
 }
 
 /// Returns the bundled tables.
 fn presets() -> Vec<Table> {
-    JUDGED.iter().filter_map(|name| Table::preset(name).ok()).collect()
+    THESIS_PRESETS.iter().filter_map(|name| Table::preset(name).ok()).collect()
 }
 
 /// Returns the bundled tables, each as a [`variant`].
 fn variants(what: &str, change: impl Fn(&mut Table)) -> Vec<Table> {
-    JUDGED.iter().filter_map(|name| variant(name, what, &change)).collect()
+    THESIS_PRESETS.iter().filter_map(|name| variant(name, what, &change)).collect()
 }
 
 /// Returns a bundled table with changed values and a name that states the change; `None` if the values are rejected.

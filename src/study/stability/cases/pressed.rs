@@ -46,16 +46,16 @@ fn pressing(phi_deg: f64, rng: &mut Xoshiro256PlusPlus) -> CueDegrees {
     }
 }
 
-fn place_on(rail: Rail, table: &Table, rng: &mut Xoshiro256PlusPlus) -> DVec2 {
+fn position_on(rail: Rail, table: &Table, rng: &mut Xoshiro256PlusPlus) -> DVec2 {
     let n = rail.normal();
-    0.9 * draw::place(table, rng) * (DVec2::ONE - n.abs()) - n * table.reach()
+    0.9 * draw::position(table, rng) * (DVec2::ONE - n.abs()) - n * table.reach()
 }
 
 fn on_cushion(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let rail = draw::one_of(rng, &Rail::ALL);
     let direction = DVec2::from_angle(rng.random_range(-1.2..1.2)).rotate(-rail.normal());
     let back = if rng.random_bool(0.3) { 0.0 } else { rng.random_range(0.0..0.3) };
-    let from = place_on(rail, table, rng) + back * rail.normal();
+    let from = position_on(rail, table, rng) + back * rail.normal();
     Shot { layout: draw::with_others(table, &[from], rng), cue: pressing(direction.to_angle().to_degrees(), rng) }
 }
 
@@ -70,10 +70,10 @@ fn on_two_cushions(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
 
 fn on_ball(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     loop {
-        let from = 0.8 * draw::place(table, rng);
+        let from = 0.8 * draw::position(table, rng);
         let direction = DVec2::from_angle(rng.random_range(-3.2..3.2));
         let apart = 2.0 * table.radius + if rng.random_bool(0.5) { 0.0 } else { rng.random_range(0.0..0.3) };
-        let layout = Layout::new([from, from + apart * direction, draw::place(table, rng)]);
+        let layout = Layout::new([from, from + apart * direction, draw::position(table, rng)]);
         if layout.validate(table).is_ok() {
             let turn = draw::one_of(rng, &[0.0, 0.0, 1e-6, 0.05]) * rng.random_range(-1.0..1.0);
             return Shot { layout, cue: pressing((direction.to_angle() + turn).to_degrees(), rng) };
@@ -84,11 +84,11 @@ fn on_ball(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
 fn between(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     loop {
         let rail = draw::one_of(rng, &Rail::ALL);
-        let target = place_on(rail, table, rng);
+        let target = position_on(rail, table, rng);
         let direction = DVec2::from_angle(draw::one_of(rng, &[0.0, 0.1, 0.8]) * rng.random_range(-1.0..1.0));
         let direction = direction.rotate(-rail.normal());
         let apart = 2.0 * table.radius + if rng.random_bool(0.5) { 0.0 } else { rng.random_range(0.0..0.3) };
-        let layout = Layout::new([target - apart * direction, target, draw::place(table, rng)]);
+        let layout = Layout::new([target - apart * direction, target, draw::position(table, rng)]);
         if layout.validate(table).is_ok() {
             let turn = draw::one_of(rng, &[0.0, 0.0, 0.05]) * rng.random_range(-1.0..1.0);
             return Shot { layout, cue: pressing((direction.to_angle() + turn).to_degrees(), rng) };
@@ -101,7 +101,7 @@ fn against_smooth_cushion(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     let rail = draw::one_of(rng, &Rail::ALL);
     let along = rng.random_range(-1.3..1.3_f64);
     let direction = DVec2::from_angle(along).rotate(-rail.normal());
-    let from = 0.2 * place_on(rail, table, rng) * (DVec2::ONE - rail.normal().abs()) - rail.normal() * table.reach();
+    let from = 0.2 * position_on(rail, table, rng) * (DVec2::ONE - rail.normal().abs()) - rail.normal() * table.reach();
     let far = (0.9 * table.reach()) * rail.normal();
     let layout = Layout::new([from, far, far + 4.0 * table.radius * rail.normal().perp()]);
     let speed = rng.random_range(0.05..0.8);

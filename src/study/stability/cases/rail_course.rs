@@ -84,7 +84,7 @@ mod tests {
     use crate::{physics::CueDegrees, table::Layout};
 
     #[test]
-    fn a_ball_that_ends_its_slip_with_next_to_no_speed_may_stop_at_once() {
+    fn very_slow_ball_may_stop_when_its_slip_ends() {
         let mut table = Table::preset("textbook").unwrap();
         (table.rail_friction, table.rail_restitution) = (0.0, 0.0);
         let from = DVec2::new(-1.389_249_999_999_999_9, 0.103_462_840_455_506_34);

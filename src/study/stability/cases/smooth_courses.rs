@@ -40,7 +40,7 @@ fn follow(phi_deg: f64, rng: &mut Xoshiro256PlusPlus) -> CueDegrees {
 
 /// Draws a shot straight at a touching ball, far from every cushion.
 fn behind(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
-    let from = 0.3 * draw::place(table, rng);
+    let from = 0.3 * draw::position(table, rng);
     // A direction that is exact in binary, or any.
     let along = if rng.random_bool(0.5) { 0.0 } else { rng.random_range(-180.0..180.0_f64) };
     let second = from + 2.0 * table.radius * DVec2::from_angle(along.to_radians());
@@ -72,7 +72,7 @@ fn both_go_on(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
 /// Draws a shot straight at a touching ball that also touches a cushion.
 fn squeezing(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
     // Along x the direction is exact: the pressing force has no transverse component.
-    let along = 0.5 * draw::place(table, rng).y;
+    let along = 0.5 * draw::position(table, rng).y;
     let target = DVec2::new(table.half_length(), along);
     let from = target - DVec2::new(2.0 * table.radius, 0.0);
     let other = DVec2::new(-0.5 * table.half_length(), 0.0);

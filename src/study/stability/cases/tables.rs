@@ -12,10 +12,10 @@ use crate::{
 
 pub const CASES: &[Case] = &[
     Case::new("next to no friction", next_to_no_friction, shot)
-        .holding("every shot ends; a cloth without any friction is rejected")
+        .with_requirement("every shot ends; a cloth without any friction is rejected")
         .any_events(),
     Case::new("friction of 10 and 1000 on the cloth, 0.99 in contacts", large_friction, shot)
-        .holding("friction of 1 and more in contacts, whose forces would not be unique, is rejected"),
+        .with_requirement("friction of 1 and more in contacts, whose forces would not be unique, is rejected"),
     Case::new("no restitution, e = 0", || restitution(0.0), shot),
     Case::new("restitution e = 0.3", || restitution(0.3), shot),
     Case::new("full restitution, e = 1", || restitution(1.0), shot).any_events(),

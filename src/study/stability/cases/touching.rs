@@ -29,7 +29,7 @@ const OPERATIONS: f64 = 64.0;
 
 /// Draws a position at which a small group of three balls is clear of the cushions.
 fn middle(table: &Table, rng: &mut Xoshiro256PlusPlus) -> DVec2 {
-    draw::place(table, rng) * 0.6
+    draw::position(table, rng) * 0.6
 }
 
 fn any_stroke(rng: &mut Xoshiro256PlusPlus) -> CueDegrees {

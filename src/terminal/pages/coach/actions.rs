@@ -76,7 +76,7 @@ impl CoachPage {
         let terms = self.query.terms();
         match action {
             // The number keys select balls by colour, not by role.
-            Action::Select(ball) => self.select(self.cue_ball().ordered([0, 1, 2])[ball]),
+            Action::Select(ball) => self.select(self.cue_ball().to_ball_order([0, 1, 2])[ball]),
             Action::SelectOther(balls) => self.select((self.selected + BALLS).saturating_add_signed(balls) % BALLS),
             Action::Move(x, y, scale) => self.move_ball(DVec2::new(f64::from(x), f64::from(y)), scale),
             Action::Step(steps) => self.choose_step(self.step.saturating_add_signed(steps)),
@@ -155,7 +155,7 @@ impl CoachPage {
     fn take_other_ball(&mut self) {
         let cue_ball = self.cue_ball().other();
         let layout = self.layout().for_the_opponent();
-        self.selected = CueBall::Yellow.ordered([0, 1, 2])[self.selected];
+        self.selected = CueBall::Yellow.to_ball_order([0, 1, 2])[self.selected];
         self.place(layout);
         self.history.present_mut().cue_ball = cue_ball;
         self.message = Some(Message::plain(format!("{cue_ball} is the cue ball now; Enter asks the coach")));
@@ -269,7 +269,7 @@ impl CoachPage {
             present.advised = left.advised;
         }
         if left.cue_ball != present.cue_ball {
-            self.selected = CueBall::Yellow.ordered([0, 1, 2])[self.selected];
+            self.selected = CueBall::Yellow.to_ball_order([0, 1, 2])[self.selected];
         }
         self.query.policy.clone_from(&present.policy);
         let before = self.query.terms();

@@ -447,7 +447,7 @@ impl CoachPage {
     /// The events of `shot` that the event list displays.
     pub fn events(&self, shot: &Shot) -> Vec<Event> {
         let all = shot.recording.events().iter();
-        all.filter(|event| self.has_all_events || shot.recording.is_told(event)).copied().collect()
+        all.filter(|event| self.has_all_events || shot.recording.is_reported(event)).copied().collect()
     }
 
     /// The result of the watched shot; `None` until the balls have stopped.

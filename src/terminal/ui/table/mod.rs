@@ -10,7 +10,7 @@ use glam::DVec2;
 use ratatui::{layout::Rect, style::Color};
 
 use crate::{
-    simulation::TOLD_HEIGHT,
+    simulation::REPORTED_HEIGHT,
     table::{BALLS, Layout, PAIRS, Table},
     terminal::{
         Glyphs, Mapping, Shot,
@@ -113,7 +113,7 @@ pub fn draw_table(view: &TableView, area: Rect, ui: &mut Ui) {
     let sprite = Sprite::new(&mapping, glyphs);
     let reach = sprite.reach(&mapping, glyphs);
     let clear = (CLEAR_RADII * mapping.radius).max(CLEAR_PICTURES * reach);
-    let visible_height = |height: f64| if height < TOLD_HEIGHT { 0.0 } else { height };
+    let visible_height = |height: f64| if height < REPORTED_HEIGHT { 0.0 } else { height };
     let heights =
         std::array::from_fn(|ball| shot.map_or(0.0, |shot| visible_height(shot.recording.height(ball, view.time))));
     let off_table = std::array::from_fn(|ball| shot.is_some_and(|shot| is_gone(shot, ball, view.time, &mapping)));

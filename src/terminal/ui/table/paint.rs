@@ -105,7 +105,7 @@ fn in_letters(picture: &TablePicture, ui: &mut Ui) {
         put(spot.place, spot.letter, spot.color);
     }
     picture.each_other_dot(|place| put(place, caps.pick(OTHER[0], OTHER[1]), theme.way));
-    let dots = theme.cue_ball.ordered(caps.pick(DOTS, PLAIN_DOTS));
+    let dots = theme.cue_ball.to_ball_order(caps.pick(DOTS, PLAIN_DOTS));
     let (letters, trail) = (theme.letters(), caps.pick(TRAIL[0], TRAIL[1]));
     picture.each_dot(|ball, dot, age| {
         let sign = match age {

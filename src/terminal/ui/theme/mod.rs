@@ -152,7 +152,7 @@ impl Theme {
         }
         // Applying it twice gives the original order.
         let [balls, signs, paths] =
-            [self.balls, self.signs, self.paths].map(|colours| CueBall::Yellow.ordered(colours));
+            [self.balls, self.signs, self.paths].map(|colours| CueBall::Yellow.to_ball_order(colours));
         Self { cue_ball, balls, signs, paths, face: balls[0], ..*self }
     }
 
@@ -163,7 +163,7 @@ impl Theme {
 
     /// Letters of the balls.
     pub fn letters(&self) -> [char; 3] {
-        self.cue_ball.ordered(['W', 'Y', 'R'])
+        self.cue_ball.to_ball_order(['W', 'Y', 'R'])
     }
 
     /// Whether only letters and modifiers distinguish things.
@@ -214,7 +214,7 @@ impl Theme {
             (Color::Rgb(r, g, b), Color::Rgb(cloth_r, cloth_g, cloth_b)) => {
                 Color::Rgb(r.midpoint(cloth_r), g.midpoint(cloth_g), b.midpoint(cloth_b))
             }
-            (Color::Indexed(_), _) => Color::Indexed(self.cue_ball.ordered([73, 107, 131])[ball]),
+            (Color::Indexed(_), _) => Color::Indexed(self.cue_ball.to_ball_order([73, 107, 131])[ball]),
             (Color::Reset, _) => Color::Reset,
             _ => Color::Cyan,
         }

@@ -7,7 +7,7 @@ use crate::{
         Units,
         words::{LengthUnit, TipUnit},
     },
-    study::filmed::FITTED,
+    study::filmed::FITTED_SECONDS,
     table::{BALL_NAMES, BALLS},
     terminal::{
         FilmReplay, Glyphs,
@@ -35,7 +35,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     let view = TableView {
         shot: played.map(|played| played.shot.as_ref()),
         time: film.playback.time,
-        film: played.map(|played| played.replay.filmed_places(film.playback.time)),
+        film: played.map(|played| played.replay.filmed_positions(film.playback.time)),
         ..TableView::new(table(), &listed.layout)
     };
     draw_table(&view, panes.table, ui);
@@ -60,7 +60,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
 fn about(listed: &Listed, unit: LengthUnit, dot: &str) -> String {
     let filmed = &listed.filmed;
     let speed = speed_words(filmed.speed(), unit, 1);
-    [outcome(listed).to_owned(), speed, format!("{} s", fixed(filmed.lasts(), 1))].join(dot)
+    [outcome(listed).to_owned(), speed, format!("{} s", fixed(filmed.duration(), 1))].join(dot)
 }
 
 /// Formats a distance in the smaller unit.
@@ -71,13 +71,13 @@ fn distance(metres: f64, unit: LengthUnit) -> String {
 
 /// The distance between the simulated and the filmed cue ball, and whether the film at this time was used for the fit.
 fn status_line(played: &FilmReplay, listed: &Listed, time: f64, unit: LengthUnit) -> Message {
-    let white = distance(played.replay.apart(time)[0], unit);
+    let white = distance(played.replay.distances(time)[0], unit);
     if time >= played.replay.duration() {
         let simulated = if played.shot.solved { "a point" } else { "no point" };
         let filmed = if listed.is_point { "a point" } else { "no point" };
         return Message::plain(format!("at rest, white {white} from the film; simulated {simulated}, filmed {filmed}"));
     }
-    let basis = if time <= FITTED { "within the fitted 2 s" } else { "predicted from the first 2 s" };
+    let basis = if time <= FITTED_SECONDS { "within the fitted 2 s" } else { "predicted from the first 2 s" };
     Message::plain(format!("white is {white} from the film at {} s, {basis}", fixed(time, 1)))
 }
 
@@ -106,7 +106,7 @@ fn draw_distances(played: Option<&FilmReplay>, time: f64, unit: LengthUnit, area
     let inner = draw_title(title, area, ui);
     let Some(played) = played else { return };
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
-    let apart = played.replay.apart(time);
+    let apart = played.replay.distances(time);
     let distances: Vec<String> =
         (0..BALLS).map(|n| format!("{} {}", BALL_NAMES[n], distance(apart[n], unit))).collect();
     let legend = if ui.caps.glyphs == Glyphs::Letters {

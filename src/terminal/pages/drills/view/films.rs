@@ -69,7 +69,7 @@ fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
             ui.buffer.set_string(inner.x + NUMBER_END + 2, y, "point", style);
         }
         write_right(ui.buffer, inner.x, inner.x + SPEED_END, y, &fixed(factor * filmed.speed(), 1), style);
-        write_right(ui.buffer, inner.x, inner.x + LENGTH_END, y, &fixed(filmed.lasts(), 1), style);
+        write_right(ui.buffer, inner.x, inner.x + LENGTH_END, y, &fixed(filmed.duration(), 1), style);
     }
 }
 

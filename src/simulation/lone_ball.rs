@@ -10,11 +10,11 @@ use std::ops::ControlFlow;
 use super::{
     EventKind, Observer, Segment,
     ball_ball::Triangle,
-    contacts::{PAIRS_OF, is_in_corner, put_at_cushion},
-    cushions::cushion_ahead,
+    contacts::{PAIRS_OF, is_in_corner, move_to_cushion},
+    cushions::next_cushion_impact,
     engine::{Ball, ContactMode, Engine},
     guards::MAX_ITERATIONS,
-    predict::Ahead,
+    predict::Prediction,
     savings::Savings,
 };
 use crate::{physics::Motion, table::BALLS};
@@ -22,7 +22,7 @@ use crate::{physics::Motion, table::BALLS};
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Whether ball `index` is the only moving ball, free, and with no other ball in its path.
     #[inline(always)]
-    pub(super) fn moves_alone(&self, index: usize) -> bool {
+    pub(super) fn is_only_moving_ball(&self, index: usize) -> bool {
         let still = |ball: usize| self.balls[ball].segment.motion == Motion::Stationary;
         matches!(self.balls[index].segment.motion, Motion::Sliding | Motion::Rolling)
             && PAIRS_OF[index].iter().all(|&(pair, other)| still(other) && self.times[BALLS + pair] == f64::INFINITY)
@@ -31,23 +31,23 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 
     /// Processes events from `now` on while ball `index` moves alone; `now` becomes the time of the last event.
-    pub(super) fn play_alone(&mut self, index: usize, now: &mut f64) -> ControlFlow<()> {
+    pub(super) fn play_lone_ball(&mut self, index: usize, now: &mut f64) -> ControlFlow<()> {
         let others = PAIRS_OF[index].map(|(_, other)| self.balls[other].segment.position);
         let constants = &{ self.constants };
         let near = (constants.diameter + constants.tolerance.touching).powi(2);
-        let mut ball = self.balls[index].alone();
+        let mut ball = self.balls[index].to_free();
         loop {
             self.iterations += 1;
             if self.iterations > MAX_ITERATIONS {
                 break;
             }
-            let Ball { segment, lasts, rail_after, rail, .. } = &ball;
-            let next = ball.ends();
-            let (mut after, lasts_after, kind);
-            if rail_after < lasts {
+            let Ball { segment, duration, rail_after, rail, .. } = &ball;
+            let next = ball.next_event_time();
+            let (mut after, duration_after, kind);
+            if rail_after < duration {
                 let n = rail.normal();
                 let mut state = segment.state_after(constants, *rail_after);
-                put_at_cushion(constants, n, &mut state.position);
+                move_to_cushion(constants, n, &mut state.position);
                 let impulse = self.law.cushions.at(*rail).resolve(constants.radius, n, &mut state);
                 // Possible part of a chatter, simultaneous contact with two cushions or a ball, or leaving the cloth.
                 if state.velocity.dot(n) <= constants.tolerance.slow_bounce
@@ -57,13 +57,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 {
                     break;
                 }
-                (after, lasts_after) = Segment::free(constants, next, &state);
+                (after, duration_after) = Segment::free(constants, next, &state);
                 kind = Some(EventKind::BallRail(index, *rail));
             } else {
                 if segment.motion == Motion::Rolling && segment.rolls_to_rest(constants) {
                     break;
                 }
-                (after, lasts_after) = segment.successor(constants, *lasts);
+                (after, duration_after) = segment.successor(constants, *duration);
                 after.start = next;
                 kind = (segment.motion == Motion::Sliding).then_some(EventKind::SlidingRolling(index));
             }
@@ -75,36 +75,36 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             }
             *now = next;
             let flow = kind.map_or(ControlFlow::Continue(()), |kind| self.report(next, kind));
-            let (ahead, rail) = cushion_ahead::<S>(constants, &after, lasts_after);
-            let rail_after = if let Ahead::Meeting(after) = ahead { after } else { f64::INFINITY };
-            ball = Ball { segment: after, lasts: lasts_after, rail_after, rail, mode: ContactMode::Free };
+            let (ahead, rail) = next_cushion_impact::<S>(constants, &after, duration_after);
+            let rail_after = if let Prediction::Impact(after) = ahead { after } else { f64::INFINITY };
+            ball = Ball { segment: after, duration: duration_after, rail_after, rail, mode: ContactMode::Free };
             let Segment { position, velocity, half_acceleration, .. } = ball.segment;
-            let triangle = Triangle::new(position, velocity, half_acceleration, ball.ends() - next);
+            let triangle = Triangle::new(position, velocity, half_acceleration, ball.next_event_time() - next);
             let clears = |other| {
-                S::COURSES_APART && triangle.clears(other, constants.diameter + constants.tolerance.surely_apart)
+                S::SEPARATED_COURSES && triangle.clears(other, constants.diameter + constants.tolerance.certain_gap)
             };
-            if flow.is_break() || ahead == Ahead::Pressed || !(clears(others[0]) & clears(others[1])) {
-                if ahead == Ahead::Pressed {
-                    self.set(index, ball.segment, ball.lasts);
+            if flow.is_break() || ahead == Prediction::Pressed || !(clears(others[0]) & clears(others[1])) {
+                if ahead == Prediction::Pressed {
+                    self.set(index, ball.segment, ball.duration);
                 } else {
-                    self.follow(index, ball);
+                    self.store_ball(index, ball);
                 }
                 flow?;
-                self.look_ahead_of(next, index)?;
-                if !self.moves_alone(index) {
+                self.predict_ball(next, index)?;
+                if !self.is_only_moving_ball(index) {
                     return ControlFlow::Continue(());
                 }
-                ball = self.balls[index].alone();
+                ball = self.balls[index].to_free();
             }
         }
-        self.follow(index, ball);
+        self.store_ball(index, ball);
         ControlFlow::Continue(())
     }
 
     /// Stores a ball whose next event is known.
     #[inline(always)]
-    fn follow(&mut self, index: usize, ball: Ball) {
-        self.times[index] = ball.ends();
+    fn store_ball(&mut self, index: usize, ball: Ball) {
+        self.times[index] = ball.next_event_time();
         self.balls[index] = ball;
     }
 }
@@ -112,7 +112,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 impl Ball {
     /// Returns a copy that the compiler knows to be free and without a curved trajectory.
     #[inline(always)]
-    fn alone(&self) -> Self {
+    fn to_free(&self) -> Self {
         let &Segment { start, position, velocity, half_acceleration, spin, motion, .. } = &self.segment;
         Self {
             segment: Segment { start, position, velocity, half_acceleration, spin, motion, course: None },
@@ -123,7 +123,7 @@ impl Ball {
 
     /// Returns the time of the next event, s.
     #[inline(always)]
-    fn ends(&self) -> f64 {
-        self.segment.start + if self.rail_after < self.lasts { self.rail_after } else { self.lasts }
+    fn next_event_time(&self) -> f64 {
+        self.segment.start + if self.rail_after < self.duration { self.rail_after } else { self.duration }
     }
 }

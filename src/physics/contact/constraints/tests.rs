@@ -23,7 +23,7 @@ fn stopped(opening: f64, given: f64) -> f64 {
 }
 
 #[test]
-fn an_impulse_that_would_have_to_pull_gains_no_energy() {
+fn pulling_impulse_gains_no_energy() {
     assert!(stopped(1e-9, 0.0) <= f64::EPSILON);
     // A closing contact is pushed and has friction.
     assert!(stopped(-1e-9, 0.0) < -1e-11);
@@ -31,20 +31,20 @@ fn an_impulse_that_would_have_to_pull_gains_no_energy() {
 
 /// If such a speed were treated as rounding of the spin's 40 rad/s, it would remain and carry the ball away.
 #[test]
-fn a_speed_that_is_rounding_beside_a_spin_is_stopped() {
+fn speed_within_rounding_of_a_spin_is_stopped() {
     assert!(stopped(1e-13, 0.0) <= f64::EPSILON);
     assert!(stopped(-1e-13, 0.0) <= f64::EPSILON);
 }
 
 #[test]
-fn a_push_that_was_too_large_is_taken_back_with_its_friction() {
+fn excess_push_is_reduced_together_with_its_friction() {
     assert!(stopped(1e-9, 1e-6) > 1e-11);
 }
 
 /// A ball slides along a ball at rest, between that ball and a cushion: its trajectory would have to curve to touch both. Held by the
 /// forces of the first instant, it would gain energy.
 #[test]
-fn a_ball_cannot_both_stay_on_a_cushion_and_go_round_another() {
+fn cushion_and_curved_ball_contact_are_inconsistent() {
     let table = Table::preset("textbook").unwrap();
     let slack = |speed: f64| {
         let mut balls =

@@ -91,12 +91,12 @@ pub(super) fn measure(table: &Table, shot: &Shot, trace: &Trace, figures: &mut F
             // A ball that has left the table is at the point where it left, seen from above.
             let off = stretch.motion == Motion::OffTable;
             let begins = if off { stretch.place[0].with_z(last.z) } else { stretch.place[0] };
-            figures.jump.note(last.distance(begins), stretch.begin);
+            figures.jump.record(last.distance(begins), stretch.begin);
             last = stretch.at(stretch.end);
             measure_outside(&cushions, &trace.constants, stretch, figures);
         }
         if trace.kept_until == f64::INFINITY {
-            figures.jump.note(last.truncate().distance(trace.end.balls[ball].position), trace.end.time);
+            figures.jump.record(last.truncate().distance(trace.end.balls[ball].position), trace.end.time);
         }
     }
     for (first, second) in PAIRS {
@@ -123,7 +123,7 @@ fn measure_outside(cushions: &Cushions, constants: &Constants, stretch: &Stretch
                 continue;
             }
             let found = least(&inwards[..stretch.terms], lasts, PRECISION);
-            figures.outside.note(-found.value, stretch.begin + found.at);
+            figures.outside.record(-found.value, stretch.begin + found.at);
             continue;
         }
         // From the nose to the ball's centre: inwards and upwards.
@@ -139,7 +139,7 @@ fn measure_outside(cushions: &Cushions, constants: &Constants, stretch: &Stretch
         ];
         let found = least(&gap, lasts, 2.0 * constants.radius * PRECISION);
         if x + v * found.at > 0.0 {
-            figures.outside.note(-found.value / (2.0 * constants.radius), stretch.begin + found.at);
+            figures.outside.record(-found.value / (2.0 * constants.radius), stretch.begin + found.at);
         }
     }
 }
@@ -173,7 +173,7 @@ fn measure_overlaps(constants: &Constants, first: &[Stretch], second: &[Stretch]
                 gap[0] = (d[0].length() - diameter) * (d[0].length() + diameter);
                 let found = least(&gap[..2 * terms - 1], time, 2.0 * diameter * PRECISION);
                 let depth = -found.value / (diameter + (found.value + diameter * diameter).max(0.0).sqrt());
-                figures.overlap.note(depth, from + found.at);
+                figures.overlap.record(depth, from + found.at);
             }
         }
         if one.end <= other.end {
@@ -206,6 +206,6 @@ fn measure_contact_gaps(cushions: &Cushions, trace: &Trace, balls: &[Vec<Stretch
             }
             _ => continue,
         };
-        figures.apart.note(apart.abs(), event.time);
+        figures.contact_gap.record(apart.abs(), event.time);
     }
 }

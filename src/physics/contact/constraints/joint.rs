@@ -86,7 +86,7 @@ impl Joint {
             at: 0,
             unknowns: if against.is_some() { 1 } else { 3 },
             slip_friction: -mu * against.unwrap_or(DVec2::ZERO),
-            bias: contact.bends(radius, balls, n),
+            bias: contact.rotation_bias(radius, balls, n),
         }
     }
 

@@ -18,7 +18,7 @@ macro_rules! in_room {
     }};
 }
 
-mod easing;
+mod filippov;
 mod joint;
 mod sticking;
 mod stopping;
@@ -26,7 +26,7 @@ mod stopping;
 use glam::{DVec2, DVec3};
 
 use self::joint::{Joint, Movement, Response, Triple};
-use self::sticking::{Cloth, Sticking};
+use self::sticking::{ClothMode, Sticking};
 pub use self::stopping::stop_by_impulses;
 use super::{
     ActiveSet, Contact, Forces, Friction, MAX_CONTACTS, Scene,
@@ -53,13 +53,13 @@ const ROUNDING: f64 = 4096.0 * f64::EPSILON;
 
 /// Linear system of one active set in one state, with a compile-time capacity for contacts. It is solved about thirty times per integration
 /// step, mostly for one or two contacts, and arrays of full capacity would be filled and moved each time.
-struct Held<const ROOM: usize> {
+struct ConstraintSystem<const ROOM: usize> {
     joints: [Joint; ROOM],
     contacts: usize,
     sticking: [Sticking; BALLS],
     members: [bool; BALLS],
     /// The unknowns of each contact.
-    sizes: [Triple; ROOM],
+    values: [Triple; ROOM],
     /// Whether the unknowns are known to be non-unique: the balls are over-constrained.
     redundant: bool,
     /// Opening rate of a contact, m/s², if the curvature of the trajectories separates over-constrained contacts; otherwise zero.
@@ -77,7 +77,7 @@ fn entries<const ROOM: usize>(matrix: &mut Matrix<ROOM>) -> &mut [f64] {
     matrix.as_flattened_mut().as_flattened_mut().as_flattened_mut()
 }
 
-impl<const ROOM: usize> Held<ROOM> {
+impl<const ROOM: usize> ConstraintSystem<ROOM> {
     /// Creates the system of the contacts; `has_friction` decides whether the normal force of a slipping contact includes its friction.
     #[inline(always)]
     fn new(scene: Scene<'_>, has_friction: impl Fn(&Contact) -> bool) -> Self {
@@ -92,8 +92,8 @@ impl<const ROOM: usize> Held<ROOM> {
             joints,
             contacts: contacts.len().min(ROOM),
             sticking: std::array::from_fn(|ball| Sticking::of(set, ball)),
-            members: std::array::from_fn(|ball| scene.holds(ball)),
-            sizes: [[0.0; 3]; ROOM],
+            members: std::array::from_fn(|ball| scene.involves(ball)),
+            values: [[0.0; 3]; ROOM],
             redundant: false,
             inconsistent: 0.0,
         }
@@ -107,7 +107,7 @@ impl<const ROOM: usize> Held<ROOM> {
             system.redundant = similar.redundant;
             for (index, joint) in system.joints[..system.contacts].iter().enumerate() {
                 let friction = if joint.unknowns == 3 { similar.friction[index] } else { DVec2::ZERO };
-                system.sizes[index] = [similar.normal[index], friction.x, friction.y];
+                system.values[index] = [similar.normal[index], friction.x, friction.y];
             }
         }
         system
@@ -144,7 +144,8 @@ impl<const ROOM: usize> Held<ROOM> {
             for (unknown, response) in responses[..joint.unknowns].iter_mut().enumerate() {
                 let (push, twist) = joint.act(joint.unit(unknown));
                 for (place, (ball, sense)) in joint.members().enumerate() {
-                    (response.linear[place], response.angular[place]) = self.sticking[ball].held(sense * push, twist);
+                    (response.linear[place], response.angular[place]) =
+                        self.sticking[ball].remaining_motion(sense * push, twist);
                 }
             }
         }
@@ -169,68 +170,68 @@ impl<const ROOM: usize> Held<ROOM> {
         matrix
     }
 
-    /// Computes the unknowns for which all rates vanish, if the balls would move like `free` without the contacts. `bends` selects whether
-    /// the curvature of the trajectories counts. Returns the remaining motion, even if curvature separates over-constrained contacts.
-    /// `None` if the rates cannot vanish together for any other reason.
+    /// Computes the unknowns for which all rates vanish, if the balls would move like `free` without the contacts. `with_bias` selects
+    /// whether the curvature of the trajectories counts. Returns the remaining motion, even if curvature separates over-constrained
+    /// contacts. `None` if the rates cannot vanish together for any other reason.
     #[inline(always)]
-    fn solve(&mut self, free: &Movement, bends: bool) -> Option<Movement> {
+    fn solve(&mut self, free: &Movement, with_bias: bool) -> Option<Movement> {
         let shape = self.joints().iter().rev().fold(0, |shape, joint| 4 * shape + joint.unknowns);
         // Compile-time counts make the most frequent systems cheaper: combinations of slipping and sticking contacts.
         match (ROOM, shape) {
-            (1, 0b01) => self.solve_in_shape::<0b01>(free, bends),
-            (1, 0b11) => self.solve_in_shape::<0b11>(free, bends),
-            (2, 0b11_01) => self.solve_in_shape::<0b11_01>(free, bends),
-            (2, 0b11_10) => self.solve_in_shape::<0b11_10>(free, bends),
-            (2, 0b11_11) => self.solve_in_shape::<0b11_11>(free, bends),
-            _ => self.solve_in_shape::<0>(free, bends),
+            (1, 0b01) => self.solve_in_shape::<0b01>(free, with_bias),
+            (1, 0b11) => self.solve_in_shape::<0b11>(free, with_bias),
+            (2, 0b11_01) => self.solve_in_shape::<0b11_01>(free, with_bias),
+            (2, 0b11_10) => self.solve_in_shape::<0b11_10>(free, with_bias),
+            (2, 0b11_11) => self.solve_in_shape::<0b11_11>(free, with_bias),
+            _ => self.solve_in_shape::<0>(free, with_bias),
         }
     }
 
-    /// As [`Self::solve`], with the number of unknowns per contact known at compile time: see [`Held::number`].
+    /// As [`Self::solve`], with the number of unknowns per contact known at compile time: see [`ConstraintSystem::number`].
     #[inline(always)]
-    fn solve_in_shape<const SHAPE: usize>(&mut self, free: &Movement, bends: bool) -> Option<Movement> {
+    fn solve_in_shape<const SHAPE: usize>(&mut self, free: &Movement, with_bias: bool) -> Option<Movement> {
         self.number::<SHAPE>();
         let responses = self.responses();
         if !self.redundant {
             let mut moved = self.without_unknowns(free);
-            let (mut matrix, mut side) = (self.matrix(&responses), self.right_side(&moved, bends));
+            let (mut matrix, mut side) = (self.matrix(&responses), self.right_side(&moved, with_bias));
             if eliminate(entries(&mut matrix), &mut side.as_flattened_mut()[..self.unknowns()]) {
                 self.clear();
                 self.add(side.as_flattened(), &responses, &mut moved);
                 return Some(moved);
             }
         }
-        self.refine(&responses, free, bends)
+        self.refine(&responses, free, with_bias)
     }
 
     /// Returns the motion of the balls before the unknowns act: under `free` accelerations and a prescribed upward friction.
     #[inline(always)]
     fn without_unknowns(&self, free: &Movement) -> Movement {
         let mut moved = *free;
-        for (joint, sizes) in self.joints.iter().zip(&self.sizes).filter(|(joint, _)| joint.unknowns == 2) {
-            moved.angular[joint.first] += joint.act([0.0, 0.0, sizes[2]]).1;
+        for (joint, values) in self.joints.iter().zip(&self.values).filter(|(joint, _)| joint.unknowns == 2) {
+            moved.angular[joint.first] += joint.act([0.0, 0.0, values[2]]).1;
         }
-        self.held(&moved)
+        self.with_cloth(&moved)
     }
 
     /// Sets the unknowns to zero.
     #[inline(always)]
     fn clear(&mut self) {
-        for (joint, sizes) in self.joints.iter().zip(&mut self.sizes) {
-            sizes[..joint.unknowns].fill(0.0);
+        for (joint, values) in self.joints.iter().zip(&mut self.values) {
+            values[..joint.unknowns].fill(0.0);
         }
     }
 
-    /// Returns the right-hand side of the system: minus the rates that the unknowns must cancel. `bends` selects whether the curvature of
-    /// the trajectories counts.
+    /// Returns the right-hand side of the system: minus the rates that the unknowns must cancel. `with_bias` selects whether the
+    /// curvature of the trajectories counts.
     #[inline(always)]
-    fn right_side(&self, moved: &Movement, bends: bool) -> [[f64; 3]; ROOM] {
+    fn right_side(&self, moved: &Movement, with_bias: bool) -> [[f64; 3]; ROOM] {
         let mut side = [[0.0; 3]; ROOM];
         for joint in &self.joints {
             let rates = joint.rates(moved);
             let places = &mut side.as_flattened_mut()[joint.at..][..joint.unknowns];
             for ((place, rate), bias) in places.iter_mut().zip(rates).zip(joint.bias) {
-                *place = -(rate + if bends { bias } else { 0.0 });
+                *place = -(rate + if with_bias { bias } else { 0.0 });
             }
         }
         side
@@ -239,10 +240,10 @@ impl<const ROOM: usize> Held<ROOM> {
     /// Adds changes to the unknowns, and their effect to a motion.
     #[inline(always)]
     fn add(&mut self, changes: &[f64], responses: &Responses<ROOM>, moved: &mut Movement) {
-        for ((joint, sizes), responses) in self.joints.iter().zip(&mut self.sizes).zip(responses) {
+        for ((joint, values), responses) in self.joints.iter().zip(&mut self.values).zip(responses) {
             for unknown in 0..joint.unknowns {
                 let change = changes[joint.at + unknown];
-                sizes[unknown] += change;
+                values[unknown] += change;
                 joint.add(moved, change, &responses[unknown]);
             }
         }
@@ -250,7 +251,7 @@ impl<const ROOM: usize> Held<ROOM> {
 
     /// As [`Self::solve`] by iterative refinement, for small pivots or non-unique unknowns.
     #[inline(never)]
-    fn refine(&mut self, responses: &Responses<ROOM>, free: &Movement, bends: bool) -> Option<Movement> {
+    fn refine(&mut self, responses: &Responses<ROOM>, free: &Movement, with_bias: bool) -> Option<Movement> {
         let count = self.unknowns();
         let mut matrix = self.matrix(responses);
         let mut pivots = [[0; 3]; ROOM];
@@ -268,7 +269,7 @@ impl<const ROOM: usize> Held<ROOM> {
                 factors[index * (count + 1)] += PROXIMITY;
             }
             factorize(factors, pivots);
-            self.held(&self.unheld(free))
+            self.with_cloth(&self.without_cloth(free))
         };
         let factors = &entries(&mut matrix)[..count * count];
         let scale = (0..BALLS).fold(f64::MIN_POSITIVE, |scale, ball| {
@@ -276,16 +277,16 @@ impl<const ROOM: usize> Held<ROOM> {
         });
         let mut smallest = f64::INFINITY;
         for round in 0..MAX_REFINEMENTS {
-            let mut side = self.right_side(&moved, bends);
+            let mut side = self.right_side(&moved, with_bias);
             let side = side.as_flattened_mut();
             let (mut residual, mut opens, mut scale) = (0.0_f64, 0.0_f64, scale);
-            for (joint, sizes) in self.joints.iter().zip(&self.sizes) {
+            for (joint, values) in self.joints.iter().zip(&self.values) {
                 for unknown in 0..joint.unknowns {
                     let rate = -side[joint.at + unknown];
                     residual = residual.max(rate.abs());
                     opens = if unknown == 0 { opens.max(rate) } else { opens };
-                    let bias = if bends { joint.bias[unknown] } else { 0.0 };
-                    scale = scale.max(sizes[unknown].abs()).max(bias.abs());
+                    let bias = if with_bias { joint.bias[unknown] } else { 0.0 };
+                    scale = scale.max(values[unknown].abs()).max(bias.abs());
                 }
             }
             // At rounding level, further rounds only change noise. A residual that is tiny compared with a spin may still carry a ball
@@ -294,7 +295,11 @@ impl<const ROOM: usize> Held<ROOM> {
             if residual <= 16.0 * f64::EPSILON * scale || stays && residual <= ROUNDING * scale {
                 return Some(moved);
             }
-            if bends && round > 0 && !unique && residual >= INCONSISTENT * smallest && opens >= INCONSISTENT * residual
+            if with_bias
+                && round > 0
+                && !unique
+                && residual >= INCONSISTENT * smallest
+                && opens >= INCONSISTENT * residual
             {
                 self.inconsistent = opens;
                 return Some(moved);
@@ -308,10 +313,10 @@ impl<const ROOM: usize> Held<ROOM> {
 
     /// Removes the upward friction from the unknowns at a cushion that holds one of these rolling balls, because the cloth constrains the
     /// same motion. Returns the index of that contact.
-    fn fix_redundant_friction(&mut self, is_meant: impl Fn(usize) -> bool) -> Option<usize> {
+    fn fix_redundant_friction(&mut self, applies_to: impl Fn(usize) -> bool) -> Option<usize> {
         let holds = |joint: &Joint| {
-            let rolls = self.sticking[joint.first].cloth == Cloth::Rolls;
-            rolls && joint.second.is_none() && joint.unknowns == 3 && is_meant(joint.first)
+            let rolls = self.sticking[joint.first].cloth == ClothMode::Rolls;
+            rolls && joint.second.is_none() && joint.unknowns == 3 && applies_to(joint.first)
         };
         let index = self.joints().iter().position(holds)?;
         self.joints[index].unknowns = 2;
@@ -320,30 +325,30 @@ impl<const ROOM: usize> Held<ROOM> {
 
     /// Returns the force in a contact.
     fn force(&self, index: usize) -> Triple {
-        let [normal, along, up] = self.sizes[index];
+        let [normal, along, up] = self.values[index];
         let slip_friction = self.joints[index].slip_friction;
         [normal, along + slip_friction.x * normal, up + slip_friction.y * normal]
     }
 
     /// Returns the motion of the balls under the contact forces if the cloth did not hold them.
-    fn unheld(&self, free: &Movement) -> Movement {
-        let mut unheld = *free;
+    fn without_cloth(&self, free: &Movement) -> Movement {
+        let mut without_cloth = *free;
         for (index, joint) in self.joints().iter().enumerate() {
             let (push, twist) = joint.act(self.force(index));
             for (ball, sense) in joint.members() {
-                unheld.linear[ball] += sense * push;
-                unheld.angular[ball] += twist;
+                without_cloth.linear[ball] += sense * push;
+                without_cloth.angular[ball] += twist;
             }
         }
-        unheld
+        without_cloth
     }
 
     /// Returns the motion of the contacts' balls after the cloth's holding forces.
-    fn held(&self, movement: &Movement) -> Movement {
+    fn with_cloth(&self, movement: &Movement) -> Movement {
         let mut held = *movement;
         for ball in (0..BALLS).filter(|&ball| self.members[ball]) {
             (held.linear[ball], held.angular[ball]) =
-                self.sticking[ball].held(movement.linear[ball], movement.angular[ball]);
+                self.sticking[ball].remaining_motion(movement.linear[ball], movement.angular[ball]);
         }
         held
     }
@@ -359,10 +364,10 @@ impl Scene<'_> {
     /// Returns the accelerations of the active set, with forces near `similar`: linear in m/s², angular in rad/s².
     pub fn accelerations(self, similar: &Forces) -> Option<([DVec2; BALLS], [DVec3; BALLS])> {
         let moved = in_room!(self.contacts, ROOM => {
-            let mut system = Held::<ROOM>::near(self, Some(similar));
+            let mut system = ConstraintSystem::<ROOM>::near(self, Some(similar));
             let free = self.free(system.members);
-            if let Some(ball) = self.set.eased() {
-                Solved::easing(self, system, &free, ball)?.moved
+            if let Some(ball) = self.set.filippov_ball() {
+                Solved::in_filippov_mode(self, system, &free, ball)?.moved
             } else {
                 // The motion does not depend on how redundant holding forces are divided.
                 system.redundant = system.redundant && system.fix_redundant_friction(|_| true).is_none();
@@ -398,7 +403,7 @@ impl Scene<'_> {
 
 /// A system of forces and the resulting accelerations.
 struct Solved<const ROOM: usize> {
-    system: Held<ROOM>,
+    system: ConstraintSystem<ROOM>,
     /// Accelerations without the contacts.
     free: Movement,
     moved: Movement,
@@ -408,10 +413,10 @@ struct Solved<const ROOM: usize> {
 
 impl<const ROOM: usize> Solved<ROOM> {
     fn new(scene: Scene<'_>, similar: Option<&Forces>) -> Option<Self> {
-        let mut system = Held::near(scene, similar);
+        let mut system = ConstraintSystem::near(scene, similar);
         let free = scene.free(system.members);
-        if let Some(ball) = scene.set.eased() {
-            return Self::easing(scene, system, &free, ball);
+        if let Some(ball) = scene.set.filippov_ball() {
+            return Self::in_filippov_mode(scene, system, &free, ball);
         }
         let moved = system.solve(&free, true)?;
         Some(Self { system, free, moved, share_margin: f64::INFINITY })
@@ -421,7 +426,7 @@ impl<const ROOM: usize> Solved<ROOM> {
     fn forces(&self, scene: Scene<'_>) -> Forces {
         let Scene { table, balls, contacts, set } = scene;
         let Self { system, free, moved, share_margin } = self;
-        let unheld = system.unheld(free);
+        let without_cloth = system.without_cloth(free);
         let [sliding, rolling, spinning] = frictions(table);
         let mut forces = Forces::NONE;
         forces.slack = if system.inconsistent > 0.0 { -system.inconsistent } else { *share_margin };
@@ -429,12 +434,12 @@ impl<const ROOM: usize> Solved<ROOM> {
         let mut limit = |limit: f64, force: f64| forces.slack = forces.slack.min(limit - force);
         for ball in (0..BALLS).filter(|&ball| system.members[ball]) {
             let sticking = system.sticking[ball];
-            let (cloth, roll, spin) = sticking.holding(unheld.linear[ball], unheld.angular[ball]);
+            let (cloth, roll, spin) = sticking.holding_forces(without_cloth.linear[ball], without_cloth.angular[ball]);
             (forces.cloth[ball], forces.roll[ball], forces.spin[ball]) = (cloth, roll, spin);
-            if sticking.cloth != Cloth::Slides && set.roll[ball] != Friction::Eases {
+            if sticking.cloth != ClothMode::Slides && set.roll[ball] != Friction::Filippov {
                 limit(sliding, cloth.length());
             }
-            if sticking.cloth == Cloth::Stands {
+            if sticking.cloth == ClothMode::Stands {
                 limit(rolling, roll.length());
             }
             if sticking.spin {

@@ -7,31 +7,32 @@
 use glam::DVec2;
 
 use super::{
-    Held, Movement, SINGULAR, Scene, Solved, Triple, coefficient, entries, factorize, frictions, rolling_resistance,
+    ConstraintSystem, Movement, SINGULAR, Scene, Solved, Triple, coefficient, entries, factorize, frictions,
+    rolling_resistance,
 };
 use crate::{physics::contact::forces::DEPARTING, table::BALLS};
 
 /// Bound on the Newton steps towards both limits; from the share for the cloth alone, four or five are enough.
-const MOST_STEPS: usize = 20;
+const MAX_STEPS: usize = 20;
 
 /// Tolerance of the share, and of the upward friction as a share of the cloth's limit.
 const KNOWN: f64 = 1e-15;
 
 /// Contact forces and the resulting motion, both linear in the share and in the upward friction.
 #[derive(Clone, Copy)]
-struct Solution<const ROOM: usize> {
-    sizes: [Triple; ROOM],
+struct ForcesAndMotion<const ROOM: usize> {
+    values: [Triple; ROOM],
     free: Movement,
     moved: Movement,
     /// Force of the cloth against the slip of the ball in Filippov mode.
     cloth: DVec2,
 }
 
-impl<const ROOM: usize> Solution<ROOM> {
+impl<const ROOM: usize> ForcesAndMotion<ROOM> {
     /// Adds a multiple of the difference between two solutions.
     fn plus(mut self, factor: f64, from: &Self, to: &Self) -> Self {
-        let sizes = from.sizes.as_flattened().iter().zip(to.sizes.as_flattened());
-        for (sum, (from, to)) in self.sizes.as_flattened_mut().iter_mut().zip(sizes) {
+        let values = from.values.as_flattened().iter().zip(to.values.as_flattened());
+        for (sum, (from, to)) in self.values.as_flattened_mut().iter_mut().zip(values) {
             *sum += factor * (to - from);
         }
         self.free.follow(factor, &from.free, &to.free);
@@ -51,7 +52,7 @@ impl Movement {
     }
 }
 
-impl<const ROOM: usize> Held<ROOM> {
+impl<const ROOM: usize> ConstraintSystem<ROOM> {
     /// Whether the forces are unique.
     fn is_unique(&mut self) -> bool {
         self.number::<0>();
@@ -62,11 +63,11 @@ impl<const ROOM: usize> Held<ROOM> {
     }
 
     /// Returns forces and motion, including the force with which the cloth holds the `ball`.
-    fn solution(&mut self, free: &Movement, ball: usize) -> Option<Solution<ROOM>> {
+    fn solution(&mut self, free: &Movement, ball: usize) -> Option<ForcesAndMotion<ROOM>> {
         let moved = self.solve(free, true)?;
-        let unheld = self.unheld(free);
-        let (cloth, ..) = self.sticking[ball].holding(unheld.linear[ball], unheld.angular[ball]);
-        Some(Solution { sizes: self.sizes, free: *free, moved, cloth })
+        let without_cloth = self.without_cloth(free);
+        let (cloth, ..) = self.sticking[ball].holding_forces(without_cloth.linear[ball], without_cloth.angular[ball]);
+        Some(ForcesAndMotion { values: self.values, free: *free, moved, cloth })
     }
 }
 
@@ -75,9 +76,9 @@ impl<const ROOM: usize> Solved<ROOM> {
     /// division of a force is ambiguous beyond that with a single cushion.
     #[cold]
     #[inline(never)]
-    pub(super) fn easing(
+    pub(super) fn in_filippov_mode(
         Scene { table, balls, contacts, .. }: Scene<'_>,
-        mut system: Held<ROOM>,
+        mut system: ConstraintSystem<ROOM>,
         free: &Movement,
         ball: usize,
     ) -> Option<Self> {
@@ -94,10 +95,10 @@ impl<const ROOM: usize> Solved<ROOM> {
         let mut edge = Edge::of_the_cloth(limit, held);
         let mut solution = whole;
         if let Some(index) = cushion {
-            system.sizes[index][2] += 1.0;
+            system.values[index][2] += 1.0;
             let raised = system.solution(free, ball)?;
             let force = |of: fn(&Triple) -> DVec2| {
-                let [whole, none, raised] = [&whole, &none, &raised].map(|solution| of(&solution.sizes[index]));
+                let [whole, none, raised] = [&whole, &none, &raised].map(|solution| of(&solution.values[index]));
                 Force { whole, by_share: none - whole, by_up: raised - whole }
             };
             let held = Force { by_up: raised.cloth - held.whole, ..held };
@@ -107,8 +108,8 @@ impl<const ROOM: usize> Solved<ROOM> {
             (edge, solution) = (both, solution.plus(up, &whole, &raised));
             system.joints[index].unknowns = 3;
         }
-        let Solution { sizes, free, moved, .. } = solution.plus(edge.share.min(1.0), &whole, &none);
-        system.sizes = sizes;
+        let ForcesAndMotion { values, free, moved, .. } = solution.plus(edge.share.min(1.0), &whole, &none);
+        system.values = values;
         Some(Self { system, free, moved, share_margin: edge.slack(DEPARTING * table.gravity) })
     }
 }
@@ -161,7 +162,7 @@ impl Edge {
     /// change of the upward friction; `None` if there is no such share.
     fn with_a_cushion(mut self, limit: f64, held: Force, friction: Force, most: Force) -> Option<(Self, f64)> {
         let mut up = 0.0;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_STEPS {
             let [cloth, friction, most] = [held, friction, most].map(|force| force.size(self.share, up));
             let over = DVec2::new(cloth.0 - limit, friction.0 - most.0);
             let (by_share, by_up) =

@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use super::{
-    chains::soften,
+    chains::damp_residual,
     film::{FilmedShot, Sample},
     motion::Motion,
 };
@@ -15,14 +15,14 @@ use crate::{
 };
 
 /// Duration of the fitted part of the cue ball's course, s.
-pub const FITTED: f64 = 2.0;
+pub const FITTED_SECONDS: f64 = 2.0;
 
 /// Times after the stroke at which the prediction is evaluated, s.
-pub const JUDGED: [f64; 3] = [3.0, 4.0, 5.0];
+pub const EVALUATION_TIMES: [f64; 3] = [3.0, 4.0, 5.0];
 
 /// The prediction of a whole shot, compared with the film.
 #[derive(Clone, Debug)]
-pub struct Whole {
+pub struct ShotFit {
     /// Number of the shot in the match.
     pub shot: u32,
     /// The cue ball's motion just after the stroke.
@@ -31,14 +31,14 @@ pub struct Whole {
     pub start: f64,
     /// Root mean square residual on the fitted part, m.
     pub rms: f64,
-    /// Distances between the predicted and the filmed cue ball at the times of `JUDGED`, m.
+    /// Distances between the predicted and the filmed cue ball at the times of `EVALUATION_TIMES`, m.
     pub errors: [f64; 3],
 }
 
 impl FilmedShot {
     /// Returns the positions of the balls before the stroke. Overlaps from the noise of the film are removed.
     pub fn layout(&self, table: &Table) -> Layout {
-        let mut balls = [0, 1, 2].map(|ball: usize| self.balls[ball][0].place.clamp(-table.reach(), table.reach()));
+        let mut balls = [0, 1, 2].map(|ball: usize| self.balls[ball][0].position.clamp(-table.reach(), table.reach()));
         for (one, other) in PAIRS {
             let apart = balls[one] - balls[other];
             let missing = 2.0 * table.radius - apart.length();
@@ -53,27 +53,27 @@ impl FilmedShot {
 
     /// Whether the film is long enough for the evaluation.
     pub fn is_long_enough(&self) -> bool {
-        self.balls[0].last().is_some_and(|last| last.time > self.start + JUDGED[2])
+        self.balls[0].last().is_some_and(|last| last.time > self.start + EVALUATION_TIMES[2])
     }
 }
 
 /// Fits the stroke of a shot on `table` and predicts the rest; `None` if the film has fewer than two samples for the fit.
-pub fn play(table: &Table, shot: &FilmedShot) -> Option<Whole> {
+pub fn fit_shot(table: &Table, shot: &FilmedShot) -> Option<ShotFit> {
     let layout = shot.layout(table);
     let track = &shot.balls[0];
     let used: Vec<Sample> =
-        track.iter().copied().filter(|s| s.time > shot.start + 0.005 && s.time < shot.start + FITTED).collect();
+        track.iter().copied().filter(|s| s.time > shot.start + 0.005 && s.time < shot.start + FITTED_SECONDS).collect();
     let (first, second) = (*used.first()?, *used.get(1)?);
-    let velocity = (second.place - first.place) / (second.time - first.time);
+    let velocity = (second.position - first.position) / (second.time - first.time);
     let mut residuals = |numbers: &[f64; 6], out: &mut Vec<f64>| {
         out.clear();
         let [vx, vy, ux, uy, side, late] = *numbers;
         let motion = motion_of(&layout, [vx, vy, ux, uy, side]);
         let times: Vec<f64> = used.iter().map(|s| (s.time - shot.start - late).max(0.0)).collect();
-        let followed = Follower::new(&times, 0).of(table, &layout, &motion.impulse(table.radius));
-        for (sample, place) in used.iter().zip(&followed.places) {
-            let miss = *place - sample.place;
-            out.extend([soften(miss.x), soften(miss.y)]);
+        let followed = Follower::new(&times, 0).follow(table, &layout, &motion.impulse(table.radius));
+        for (sample, position) in used.iter().zip(&followed.positions) {
+            let miss = *position - sample.position;
+            out.extend([damp_residual(miss.x), damp_residual(miss.y)]);
         }
         // A weak prior: small slip and spin and a level cue are likelier if the film does not determine them.
         let across = DVec2::new(ux, uy).dot(velocity.perp().normalize_or_zero());
@@ -95,12 +95,13 @@ pub fn play(table: &Table, shot: &FilmedShot) -> Option<Whole> {
     let ([vx, vy, ux, uy, side, late], squares) = best?;
     let motion = motion_of(&layout, [vx, vy, ux, uy, side]);
     let start = shot.start + late;
-    let times = JUDGED.map(|time| time - late);
-    let followed = Follower::new(&times, 0).of(table, &layout, &motion.impulse(table.radius));
-    let errors = [0, 1, 2].map(|index| followed.places[index].distance(shot.place(0, shot.start + JUDGED[index])));
-    Some(Whole { shot: shot.number, motion, start, rms: (squares / used.len() as f64).sqrt(), errors })
+    let times = EVALUATION_TIMES.map(|time| time - late);
+    let followed = Follower::new(&times, 0).follow(table, &layout, &motion.impulse(table.radius));
+    let errors = [0, 1, 2]
+        .map(|index| followed.positions[index].distance(shot.position(0, shot.start + EVALUATION_TIMES[index])));
+    Some(ShotFit { shot: shot.number, motion, start, rms: (squares / used.len() as f64).sqrt(), errors })
 }
 
 fn motion_of(layout: &Layout, [vx, vy, ux, uy, side]: [f64; 5]) -> Motion {
-    Motion { place: layout.balls[0], velocity: DVec2::new(vx, vy), slip: DVec2::new(ux, uy), side }
+    Motion { position: layout.balls[0], velocity: DVec2::new(vx, vy), slip: DVec2::new(ux, uy), side }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{ActiveSet, Contact, Held, MAX_CONTACTS, Movement, Scene};
+use super::{ActiveSet, ConstraintSystem, Contact, MAX_CONTACTS, Movement, Scene};
 use crate::{
     physics::BallState,
     table::{BALLS, Table},
@@ -10,7 +10,7 @@ use crate::{
 
 /// Impulses that cancel some speeds may change others by a few times as much. If it is far more, the contacts are about to open, and the
 /// residual is rounding.
-const MOST_AMPLIFICATION: f64 = 100.0;
+const MAX_AMPLIFICATION: f64 = 100.0;
 
 /// Cancels residual speeds: the opening speed of `contacts` and, according to `set`, the slips that have ended. It uses impulses in these
 /// contacts: an impulse that pushes has friction if its contact slips. An impulse that would have to pull takes back part of what an impact
@@ -23,10 +23,10 @@ pub fn stop_by_impulses(
     set: &ActiveSet,
     given: &[f64; MAX_CONTACTS],
 ) {
-    let scene = Scene { table, balls, contacts, set: &set.slipping_where(set) };
+    let scene = Scene { table, balls, contacts, set: &set.with_yielding_as_slipping(set) };
     if let Some(stopped) = in_room!(contacts, ROOM => stopped_in::<ROOM>(scene, given)) {
         for (ball, state) in balls.iter_mut().enumerate() {
-            if contacts.iter().any(|contact| contact.has(ball)) {
+            if contacts.iter().any(|contact| contact.involves(ball)) {
                 (state.velocity, state.spin) = (stopped.linear[ball], stopped.angular[ball] / table.radius);
             }
         }
@@ -37,21 +37,21 @@ pub fn stop_by_impulses(
 fn stopped_in<const ROOM: usize>(scene: Scene<'_>, given: &[f64; MAX_CONTACTS]) -> Option<Movement> {
     let Scene { table, balls, .. } = scene;
     // Contacts without a coefficient of friction have no slip friction: the impulses that stop them do not slip.
-    let mut system = Held::<ROOM>::new(scene, |contact| !contact.never_slips(table));
+    let mut system = ConstraintSystem::<ROOM>::new(scene, |contact| !contact.never_slips(table));
     let speeds =
         Movement { linear: balls.map(|ball| ball.velocity), angular: balls.map(|ball| table.radius * ball.spin) };
-    let before = system.to_stop(&speeds);
+    let before = system.largest_residual_speed(&speeds);
     let mut stopped = system.solve(&speeds, false)?;
-    while system.smooth_what_pulls(given) {
+    while system.remove_friction_of_pulling(given) {
         stopped = system.solve(&speeds, false)?;
     }
-    (stopped.distance(&speeds, system.members) <= MOST_AMPLIFICATION * before).then_some(stopped)
+    (stopped.distance(&speeds, system.members) <= MAX_AMPLIFICATION * before).then_some(stopped)
 }
 
-impl<const ROOM: usize> Held<ROOM> {
+impl<const ROOM: usize> ConstraintSystem<ROOM> {
     /// Returns the largest of the speeds that should be zero.
-    fn to_stop(&self, speeds: &Movement) -> f64 {
-        let moved = self.held(speeds);
+    fn largest_residual_speed(&self, speeds: &Movement) -> f64 {
+        let moved = self.with_cloth(speeds);
         let largest = moved.distance(speeds, self.members);
         self.joints().iter().fold(largest, |largest, joint| {
             let rates = joint.rates(&moved);
@@ -60,10 +60,10 @@ impl<const ROOM: usize> Held<ROOM> {
     }
 
     /// Removes the friction of slipping contacts that pull more than they were `given`. Returns whether there are any.
-    fn smooth_what_pulls(&mut self, given: &[f64; MAX_CONTACTS]) -> bool {
+    fn remove_friction_of_pulling(&mut self, given: &[f64; MAX_CONTACTS]) -> bool {
         let mut any = false;
-        for ((joint, sizes), given) in self.joints[..self.contacts].iter_mut().zip(&self.sizes).zip(given) {
-            if sizes[0] < -given && joint.slip_friction != DVec2::ZERO {
+        for ((joint, values), given) in self.joints[..self.contacts].iter_mut().zip(&self.values).zip(given) {
+            if values[0] < -given && joint.slip_friction != DVec2::ZERO {
                 (joint.slip_friction, any) = (DVec2::ZERO, true);
             }
         }

@@ -8,8 +8,8 @@ use serde::Serialize;
 use super::{
     chains,
     film::FilmedShot,
+    shot_fit,
     systems::{self, Natural},
-    whole,
 };
 use crate::{
     physics::{BallState, Cushion},
@@ -19,7 +19,7 @@ use crate::{
 
 /// The errors of a model on some shots of the film.
 #[derive(Clone, Debug, Serialize)]
-pub struct Judged {
+pub struct ModelErrors {
     /// Name of the model: a table and its model of the rails.
     pub model: String,
     /// Number of chains of four rails, and the median error at the fourth, diamonds.
@@ -37,19 +37,19 @@ pub struct Judged {
 }
 
 /// Evaluates a table on the film.
-pub fn judge(name: &str, table: &Table, film: &[FilmedShot]) -> Judged {
+pub fn evaluate_model(name: &str, table: &Table, film: &[FilmedShot]) -> ModelErrors {
     let diamond = table.diamond();
     let median = |values: Vec<f64>| Spread::of(values).map_or(f64::NAN, |spread| spread.median);
     let [four, five] = [4, 5].map(|count| {
-        let played: Vec<_> = chains::all(table, film, count).iter().map(|chain| chain.play(table)).collect();
-        let places = played.iter().map(|played| played.places[count - 2] / diamond).collect();
+        let played: Vec<_> = chains::all(table, film, count).iter().map(|chain| chain.predict(table)).collect();
+        let distances = played.iter().map(|played| played.distances[count - 2] / diamond).collect();
         let late = played.iter().map(|played| played.delays[count - 2]).collect();
-        (played.len(), median(places), median(late))
+        (played.len(), median(distances), median(late))
     });
     let shots: Vec<_> =
-        film.iter().filter(|shot| shot.is_long_enough()).filter_map(|shot| whole::play(table, shot)).collect();
+        film.iter().filter(|shot| shot.is_long_enough()).filter_map(|shot| shot_fit::fit_shot(table, shot)).collect();
     let error = |index: usize| 100.0 * median(shots.iter().map(|shot| shot.errors[index]).collect());
-    Judged {
+    ModelErrors {
         model: name.to_owned(),
         next_rail: (four.0, four.1),
         rail_after: (five.0, five.1),
