@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     calibration::{Entries, KeptError, Play, calibrate, entries_of, may_save_table, overnight, prior, save_table},
-    drills::LONGEST_TITLE,
+    drills::MAX_TITLE_BYTES,
     storage::target_of,
     table::{PRESETS, Table, TableDoubt},
 };
@@ -116,9 +116,9 @@ fn check_name(name: &str) -> Result<(), Failure> {
             "\"{name}\" is the name of a bundled table; give another with --name"
         )));
     }
-    if name.trim().is_empty() || name.len() > LONGEST_TITLE {
+    if name.trim().is_empty() || name.len() > MAX_TITLE_BYTES {
         return Err(Failure::wrong_input(format_args!(
-            "the name has {} bytes; accepted are up to {LONGEST_TITLE}, not all of them blanks",
+            "the name has {} bytes; accepted are up to {MAX_TITLE_BYTES}, not all of them blanks",
             name.len()
         )));
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::{
-    coach::{FirstMet, words::no_jump_words},
+    coach::{FirstContact, words::no_jump_words},
     drills::Session,
     game::{Point, Rule},
     table::{BALLS, CueBall, Layout, Opening, Side},
@@ -109,7 +109,9 @@ impl CoachPage {
                 self.ask_for(Terms { skill, ..terms });
             }
             Action::TurnPlan => self.ask_for(Terms { plan: !terms.plan, ..terms }),
-            Action::NextFirstMet => self.ask_for(Terms { first: neighbour(&FirstMet::ALL, terms.first, 1), ..terms }),
+            Action::NextFirstMet => {
+                self.ask_for(Terms { first: neighbour(&FirstContact::ALL, terms.first, 1), ..terms });
+            }
             Action::TurnNumbers => self.is_in_numbers = !self.is_in_numbers,
             Action::TurnEvents => {
                 self.has_all_events = !self.has_all_events;

@@ -24,7 +24,7 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::{
-    coach::{FirstMet, Skill, Units, Verdict},
+    coach::{FirstContact, Skill, Units, Verdict},
     drills::Session,
     game::Rule,
     learning::Policy,
@@ -283,7 +283,7 @@ impl CoachPage {
     /// Begins as the user wants it.
     pub fn take_settings(&mut self, settings: &Settings) {
         let Settings { rule, skill, doubt, plan, jumps, .. } = *settings;
-        self.of_settings = Terms { rule, skill, plan, first: FirstMet::Any };
+        self.of_settings = Terms { rule, skill, plan, first: FirstContact::Any };
         self.of_start = self.of_settings;
         self.query = CoachQuery { doubt, jumps, ..self.query.with(self.of_settings) };
         self.budget = Duration::from_millis(settings.think_ms).min(self.most);

@@ -61,7 +61,7 @@ enum Sign {
 /// and where the tip meets it; how far the map reaches is told in `unit`.
 pub fn draw_tip_map(map: &Map, cue: &CueInputs, table: &Table, unit: LengthUnit, area: Rect, ui: &mut Ui) {
     let reach = map.columns.last().copied().unwrap_or_default();
-    let (factor, symbol) = map.across.told_in(unit);
+    let (factor, symbol) = map.across.display_unit(unit);
     let decimals = usize::from(unit == LengthUnit::Feet);
     let title = format!("Tip {}{} {symbol}", ui.caps.pick("±", "+-"), fixed(factor * reach, decimals));
     let inner = draw_title(title, area, ui);
@@ -80,7 +80,7 @@ pub fn draw_tip_map(map: &Map, cue: &CueInputs, table: &Table, unit: LengthUnit,
 /// player's errors around the stroke in the middle; speeds are told in `unit`. The two are called by the thesis'
 /// letters where they are told `in_letters`.
 pub fn draw_aim_map(map: &Map, skill: Skill, (unit, in_letters): (LengthUnit, bool), area: Rect, ui: &mut Ui) {
-    let (factor, symbol) = map.up.told_in(unit);
+    let (factor, symbol) = map.up.display_unit(unit);
     let degree = ui.caps.pick("°", "");
     let [aim, speed] = if in_letters { [ui.caps.pick("φ", "ph"), "V"] } else { ["aim", "speed"] };
     let wide = area.width >= WIDE;

@@ -5,7 +5,7 @@ use ratatui::{layout::Rect, style::Style, text::Span};
 use crate::{
     coach::{
         Input, Margin, Skill,
-        words::{LengthUnit, lengths_words, short},
+        words::{LengthUnit, format_trimmed, lengths_words},
     },
     terminal::{
         Capabilities, Shot, ShotAnalysis,
@@ -39,7 +39,7 @@ pub fn draw_margins(
     let tall = area.height > TALL;
     let half = (area.width / 2).clamp(HALF.0, HALF.1);
     let has_yours = half == HALF.1;
-    let [small, speed] = [Input::Side, Input::Speed].map(|input| input.told_in(unit).1);
+    let [small, speed] = [Input::Side, Input::Speed].map(|input| input.display_unit(unit).1);
     let units = format!("{small} {} {speed}", ui.caps.pick("°", "deg"));
     let mut title = vec![Span::styled("Margins", ui.theme.text())];
     if studied.is_some() && !tall {
@@ -65,7 +65,7 @@ pub fn draw_margins(
         .enumerate()
         .map(|(n, margin)| {
             let is_tightest = Some(n) == tightest;
-            let (factor, unit) = margin.input.told_in(unit);
+            let (factor, unit) = margin.input.display_unit(unit);
             let yours = yours(factor * skill.error(margin.input));
             Row { margin, factor, unit, yours, is_tightest, in_letters }
         })
@@ -109,7 +109,7 @@ pub fn draw_margins(
 
 /// A standard error with no more digits than it has, and than there is room for: 0.5, 0.125, 2.2.
 fn yours(error: f64) -> String {
-    short(error, if error < 0.2 { 3 } else { 2 })
+    format_trimmed(error, if error < 0.2 { 3 } else { 2 })
 }
 
 /// The input whose nearer margin is the fewest of the player's standard errors.

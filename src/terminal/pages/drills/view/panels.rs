@@ -61,7 +61,7 @@ fn told_rows(turn: &Turn, cue: &CueInputs, units: Units, all: bool, caps: Capabi
 /// The place of the cushion's nose to which the cue points.
 fn aim_words(turn: &Turn, cue: &CueInputs, units: Units) -> String {
     let [ahead, _] = line_of_aim(&turn.table, &turn.layout, cue.phi);
-    format!("{} {}", ahead.rail.name(), units.place.words(ahead.diamond, turn.table.diamond(), 2))
+    format!("{} {}", ahead.rail.name(), units.position.words(ahead.diamond, turn.table.diamond(), 2))
 }
 
 /// Draws what the stroke meets first and what is to be learnt; once it was played, how it compares. Below `beside`, the row from which
@@ -120,7 +120,7 @@ pub fn draw_task(
         );
         // The room is the hint's while that is shown.
         if turn.hint().is_none() {
-            let places = places_words(&turn.table, &turn.layout, turn.cue_ball, units.place);
+            let places = places_words(&turn.table, &turn.layout, turn.cue_ball, units.position);
             paragraphs.push((places, ui.theme.faint()));
         }
     }
@@ -196,7 +196,7 @@ fn aim_line_words(aim_line: &AimLine, cue_ball: CueBall, diamond: f64, units: Un
             format!("{} {:.0} % full{side}, {way}", cue_ball.names()[hit.ball], 100.0 * hit.fullness)
         }
         (_, Some(mark)) => {
-            format!("{} at {}, {way}", rail_name(mark.rail), units.place.exact(mark.diamond, diamond, 1))
+            format!("{} at {}, {way}", rail_name(mark.rail), units.position.exact(mark.diamond, diamond, 1))
         }
         (_, None) => format!("meets nothing, {way}"),
     }
@@ -290,7 +290,7 @@ mod tests {
     use crate::{
         coach::{
             RailPoint,
-            words::{LengthUnit, PlaceUnit, TipUnit},
+            words::{LengthUnit, PositionUnit, TipUnit},
         },
         simulation::Rail,
         table::Table,
@@ -304,7 +304,7 @@ mod tests {
         let mark = RailPoint { rail: Rail::Left, diamond: 2.04 };
         let places = vec![DVec2::ZERO, DVec2::new(0.5, 0.0)];
         let aim_line = AimLine { places, meeting: Meeting::Rail(mark.rail, None), cushion: Some(mark) };
-        let other = Units { tip: TipUnit::Mm, place: PlaceUnit::Mm, length: LengthUnit::Feet };
+        let other = Units { tip: TipUnit::Mm, position: PositionUnit::Mm, length: LengthUnit::Feet };
         let said = |units| aim_line_words(&aim_line, CueBall::White, table.diamond(), units);
         assert_eq!(said(Units::default()), "left rail at 2.0 diamonds, 50 cm");
         assert_eq!(said(other), "left rail at 724 mm, 20 in");
