@@ -38,18 +38,18 @@ impl Observer for Watch {
     }
 
     fn awaited(&self) -> Option<[bool; 2]> {
-        Some(self.tally.unmet())
+        Some(self.tally.not_hit())
     }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
-        if self.tally.met_both() {
+        if self.tally.has_hit_both() {
             return ControlFlow::Break(());
         }
-        self.tally.note(&event);
+        self.tally.count(&event);
         if let EventKind::BallBall(0, ball) = event.kind {
             self.fingerprint = self.fingerprint.wrapping_mul(0x0100_0000_01b3) ^ event.time.to_bits() ^ ball as u64;
         }
-        if self.tally.met_both() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if self.tally.has_hit_both() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 

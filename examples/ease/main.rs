@@ -1,4 +1,4 @@
-//! Fits the weights with which the coach estimates the difficulty of layouts (`src/coach/ease`), and reports the quality of the fit.
+//! Fits the weights with which the coach estimates the difficulty of layouts (`src/coach/difficulty`), and reports the quality of the fit.
 //!
 //! `cargo run --release --example ease -- 1600` plays innings on `match` until it has 1,600 layouts for each rule. For each layout it
 //! estimates how often a weak and a strong player miss it with the shot of a short search. It fits one half of the layouts and measures the
@@ -12,7 +12,7 @@ use std::{
 };
 
 use carom::{
-    coach::{Coach, Doubt, Ease, Inning, Request, Sample, Skill, inning},
+    coach::{Coach, DifficultySample, Doubt, Inning, LayoutDifficulty, Request, Skill, inning},
     game::Rule,
     learning::evaluation::held_out_layouts,
     table::{Layout, Table},
@@ -39,15 +39,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         let layouts = gather(&coach, rule, count)?;
         let samples = layouts.iter().map(|layout| sample(&coach, layout, rule)).collect::<Result<Vec<_>, _>>()?;
         let (ours, others) = samples.split_at(samples.len() / 2);
-        let fit = Ease::fit(coach.table(), ours);
+        let fit = LayoutDifficulty::fit(coach.table(), ours);
         println!(
             "{rule}: weights {:?}, power {:.2}",
             fit.weights.map(|weight| (1e4 * weight).round() / 1e4),
             fit.power
         );
-        for (name, ease) in [("fitted", fit), ("in use", Ease::under(rule))] {
+        for (name, difficulty) in [("fitted", fit), ("in use", LayoutDifficulty::for_rule(rule))] {
             println!("  {name}");
-            report(coach.table(), ease, others);
+            report(coach.table(), difficulty, others);
         }
     }
     Ok(())
@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Collects layouts as a strong player meets them: initial layouts of innings, and those that the shots leave.
 fn gather(coach: &Coach, rule: Rule, count: usize) -> Result<Vec<Layout>, Box<dyn Error>> {
-    let request = Request { rule, plan: true, ..request(Ease::STRONG) };
+    let request = Request { rule, plan: true, ..request(LayoutDifficulty::STRONG) };
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
     let mut layouts = Vec::new();
     for first in held_out_layouts(coach.table(), count, SEED) {
@@ -73,13 +73,13 @@ fn gather(coach: &Coach, rule: Rule, count: usize) -> Result<Vec<Layout>, Box<dy
 }
 
 /// Estimates how often a layout is missed with the best shot of a short search.
-fn sample(coach: &Coach, layout: &Layout, rule: Rule) -> Result<Sample, Box<dyn Error>> {
+fn sample(coach: &Coach, layout: &Layout, rule: Rule) -> Result<DifficultySample, Box<dyn Error>> {
     let missed = |skill| -> Result<f64, Box<dyn Error>> {
         let advice = coach.recommend(layout, &Request { rule, ..request(skill) })?;
         Ok(1.0 - advice.make_probability.map_or(0.0, |rate| rate.rate))
     };
-    let (missed, missed_by_strong) = (missed(Ease::WEAK)?, missed(Ease::STRONG)?);
-    Ok(Sample { layout: *layout, missed, missed_by_strong })
+    let (missed, missed_by_strong) = (missed(LayoutDifficulty::WEAK)?, missed(LayoutDifficulty::STRONG)?);
+    Ok(DifficultySample { layout: *layout, missed, missed_by_strong })
 }
 
 fn request(skill: Skill) -> Request {
@@ -87,17 +87,21 @@ fn request(skill: Skill) -> Request {
 }
 
 /// Prints the misses of layouts by estimated difficulty: fifths of the estimate, the easiest first.
-fn report(table: &Table, ease: Ease, samples: &[Sample]) {
+fn report(table: &Table, difficulty: LayoutDifficulty, samples: &[DifficultySample]) {
     let mut sorted = samples.to_vec();
-    sorted.sort_by(|one, other| ease.missed(table, &one.layout).total_cmp(&ease.missed(table, &other.layout)));
+    sorted.sort_by(|one, other| {
+        difficulty.miss_rate(table, &one.layout).total_cmp(&difficulty.miss_rate(table, &other.layout))
+    });
     println!("  misses %       strong, estimated  simulated  weak, estimated  simulated");
     for fifth in sorted.chunks(samples.len().div_ceil(5).max(1)) {
-        let mean = |value: &dyn Fn(&Sample) -> f64| 100.0 * fifth.iter().map(value).sum::<f64>() / fifth.len() as f64;
+        let mean = |value: &dyn Fn(&DifficultySample) -> f64| {
+            100.0 * fifth.iter().map(value).sum::<f64>() / fifth.len() as f64
+        };
         println!(
             "  {:>32.2} {:>10.2} {:>16.2} {:>10.2}",
-            mean(&|sample| 1.0 - ease.probability(table, &sample.layout, Ease::STRONG)),
+            mean(&|sample| 1.0 - difficulty.probability(table, &sample.layout, LayoutDifficulty::STRONG)),
             mean(&|sample| sample.missed_by_strong),
-            mean(&|sample| ease.missed(table, &sample.layout)),
+            mean(&|sample| difficulty.miss_rate(table, &sample.layout)),
             mean(&|sample| sample.missed),
         );
     }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use carom::{
     coach::{Skill, Technique, make_probability},
-    drills::{Category, Exercise, GATHERED, flaws},
+    drills::{Category, Exercise, MAX_GATHERED_DISTANCE, flaws},
     game::scores,
     physics::{CueInputs, raise_to_clear},
     statistics::normal_pair,
@@ -75,7 +75,7 @@ fn gathered(exercise: &Exercise, table: &Table, shot: &CueInputs, attempts: usiz
         let [[a, b], [theta, phi], [speed, _]] = std::array::from_fn(|_| normal_pair(&mut rng));
         let stroke = Skill::EXPERT.stroke(table.radius, shot, &[a, b, theta, phi, speed]);
         Technique::of(table, &exercise.layout, &stroke)
-            .is_ok_and(|technique| technique.tally.is_point(exercise.rule) && technique.spread <= GATHERED)
+            .is_ok_and(|technique| technique.tally.is_point(exercise.rule) && technique.spread <= MAX_GATHERED_DISTANCE)
     };
     (0..attempts).filter(|_| is_gathered()).count() as f64 / attempts as f64
 }

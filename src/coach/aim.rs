@@ -29,7 +29,7 @@ impl RailPoint {
     }
 
     /// Returns the position of the point on the table, m.
-    pub fn place(self, table: &Table) -> DVec2 {
+    pub fn position(self, table: &Table) -> DVec2 {
         let half = 0.5 * DVec2::new(table.length, table.width);
         let along = self.diamond * table.diamond();
         match self.rail {
@@ -142,7 +142,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn marks_are_counted_in_diamonds_from_the_lower_left_corner() {
+    fn rail_points_are_counted_from_the_lower_left_corner() {
         let table = Table::default();
         let layout = Layout::parse("2d,2d 7d,3.5d 1d,0.5d", &table).unwrap();
         let aim = |phi: f64| {
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_half_a_diameter_off_the_line_is_hit_half() {
+    fn half_diameter_offset_is_a_half_ball_hit() {
         let table = Table::default();
         let layout = Layout::parse("-0.7,0 0,-0.03075 0.9,0.5", &table).unwrap();
         let hit = aim(&table, &layout, &CueInputs::parse("0,0,0,0,3").unwrap()).unwrap().hit.unwrap();

@@ -7,13 +7,13 @@ use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
-    FirstMet, Skill,
-    elevated::{STEEPEST, within_limit},
+    FirstContact, Skill,
+    elevated::{MAX_ELEVATED_ANGLE, clamp_tip},
 };
 use crate::{
     game::Rule,
     physics::{CueInputs, has_room, raise_to_clear, squirt},
-    player::errors::{Errors, normal},
+    player::errors::{Errors, standard_normal},
     table::{Layout, Rail, Table},
 };
 
@@ -39,7 +39,7 @@ const USUAL_LOG_SPEED: [f64; 2] = [0.7, 0.6];
 const USUAL_LOG_SPEED_AT_THREE_CUSHIONS: [f64; 2] = [0.95, 0.42];
 
 /// Lowest tip position of a usual stroke, in R: one in thirty of those shots is struck lower.
-const LOWEST_USUAL: f64 = -0.1;
+const MIN_USUAL_HEIGHT: f64 = -0.1;
 
 /// Draws a random variation of the policy's shot when that misses (thesis 5.1): the same direction and speed, another tip
 /// position and elevation.
@@ -50,10 +50,10 @@ pub fn variation(table: &Table, cue: &CueInputs, rng: &mut Xoshiro256PlusPlus) -
 }
 
 /// Draws any shot: half of them aim at one of the object balls, thick or thin, the others in any direction.
-pub fn any_stroke(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
+pub fn random_stroke(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> CueInputs {
     let [cue_ball, first, second] = layout.balls;
     let phi = if rng.random() {
-        at(table, cue_ball, if rng.random() { first } else { second }, rng)
+        random_direction_at(table, cue_ball, if rng.random() { first } else { second }, rng)
     } else {
         rng.random_range(-PI..PI)
     };
@@ -78,22 +78,22 @@ pub fn stratified(
     table: &Table,
     layout: &Layout,
     rule: Rule,
-    wanted: FirstMet,
+    wanted: FirstContact,
     n: u64,
     softest: f64,
     rng: &mut Xoshiro256PlusPlus,
 ) -> CueInputs {
     let [cue_ball, first, second] = layout.balls;
     let target = match wanted {
-        FirstMet::OtherCueBall => first,
-        FirstMet::Any | FirstMet::Cushion if n.is_multiple_of(2) => first,
-        FirstMet::Red | FirstMet::Any | FirstMet::Cushion => second,
+        FirstContact::OtherCueBall => first,
+        FirstContact::Any | FirstContact::Cushion if n.is_multiple_of(2) => first,
+        FirstContact::Red | FirstContact::Any | FirstContact::Cushion => second,
     };
     let is_usual = n / 10 % 5 >= 2;
-    let sort = if wanted == FirstMet::Cushion { (n % 10).max(8) } else { n % 10 };
+    let sort = if wanted == FirstContact::Cushion { (n % 10).max(8) } else { n % 10 };
     let phi = match sort {
-        0..8 if is_usual => beside(table, cue_ball, target, usual_offset(rng)),
-        0..8 => at(table, cue_ball, target, rng),
+        0..8 if is_usual => direction_past(table, cue_ball, target, usual_offset(rng)),
+        0..8 => random_direction_at(table, cue_ball, target, rng),
         8 => {
             let target = if rng.random() { first } else { second };
             let rail = [Rail::Right, Rail::Left, Rail::Top, Rail::Bottom][rng.random_range(0..4)];
@@ -120,7 +120,7 @@ fn usual_offset(rng: &mut Xoshiro256PlusPlus) -> f64 {
 /// Draws the tip position of a usual stroke. A position that is too low is mirrored to above the centre.
 fn usual_tip(table: &Table, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
     let (a, b) = random_tip(table, rng);
-    (a, if b < LOWEST_USUAL { -b } else { b })
+    (a, if b < MIN_USUAL_HEIGHT { -b } else { b })
 }
 
 /// Draws the speed of a usual stroke, m/s.
@@ -134,15 +134,15 @@ fn usual_speed(rule: Rule, rng: &mut Xoshiro256PlusPlus) -> f64 {
 
 /// Draws a normally distributed number with this mean and standard deviation.
 fn gaussian([mean, deviation]: [f64; 2], rng: &mut Xoshiro256PlusPlus) -> f64 {
-    mean + deviation * normal(rng)
+    mean + deviation * standard_normal(rng)
 }
 
 /// Returns the stroke that results from `cue` played by this skill with these errors, kept within the limits of
 /// recommended strokes.
 pub fn with_errors(table: &Table, skill: Skill, cue: &CueInputs, errors: &Errors) -> CueInputs {
     let stroke = skill.stroke(table.radius, cue, errors);
-    let theta = stroke.theta.clamp(0.0, steepest(cue));
-    let (a, b) = within_limit(table, theta, stroke.a, stroke.b);
+    let theta = stroke.theta.clamp(0.0, max_elevation_for(cue));
+    let (a, b) = clamp_tip(table, theta, stroke.a, stroke.b);
     CueInputs {
         a,
         b,
@@ -154,8 +154,8 @@ pub fn with_errors(table: &Table, skill: Skill, cue: &CueInputs, errors: &Errors
 
 /// Returns the steepest cue allowed for a stroke derived from `cue`: a jump or massé may stay one, and no other stroke
 /// may become one.
-pub fn steepest(cue: &CueInputs) -> f64 {
-    if cue.theta > MAX_ELEVATION { STEEPEST } else { MAX_ELEVATION }
+pub fn max_elevation_for(cue: &CueInputs) -> f64 {
+    if cue.theta > MAX_ELEVATION { MAX_ELEVATED_ANGLE } else { MAX_ELEVATION }
 }
 
 /// Returns the stroke as a player can play it in this layout: the cue is raised if a rail or a ball is in its way. `None` if
@@ -166,11 +166,11 @@ pub fn playable(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<CueIn
     if has_room(table, layout, cue) {
         return Some(*cue);
     }
-    raise_to_clear(table, layout, cue).ok().filter(|raised| raised.theta <= steepest(cue))
+    raise_to_clear(table, layout, cue).ok().filter(|raised| raised.theta <= max_elevation_for(cue))
 }
 
 /// Draws a random direction in which a straight-running ball hits `target`, uniform in thickness.
-fn at(table: &Table, cue_ball: DVec2, target: DVec2, rng: &mut Xoshiro256PlusPlus) -> f64 {
+fn random_direction_at(table: &Table, cue_ball: DVec2, target: DVec2, rng: &mut Xoshiro256PlusPlus) -> f64 {
     let difference = target - cue_ball;
     let widest = (2.0 * table.radius / difference.length()).min(1.0).asin();
     difference.to_angle() + rng.random_range(-widest..=widest)
@@ -178,7 +178,7 @@ fn at(table: &Table, cue_ball: DVec2, target: DVec2, rng: &mut Xoshiro256PlusPlu
 
 /// Returns the direction in which a straight-running ball passes the centre of `target` by `offset` diameters to the
 /// left. It just touches the ball if that is more than one.
-fn beside(table: &Table, cue_ball: DVec2, target: DVec2, offset: f64) -> f64 {
+fn direction_past(table: &Table, cue_ball: DVec2, target: DVec2, offset: f64) -> f64 {
     let difference = target - cue_ball;
     let share = 2.0 * table.radius * offset.clamp(-1.0, 1.0) / difference.length();
     difference.to_angle() + share.clamp(-1.0, 1.0).asin()
@@ -198,12 +198,12 @@ mod tests {
     use rand::SeedableRng;
 
     #[test]
-    fn two_strokes_in_five_of_the_wide_net_are_of_any_kind() {
+    fn two_in_five_stratified_strokes_are_of_any_kind() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(6);
         let table = Table::default();
         let layout = Layout::opening(&table);
         let strokes: Vec<_> = (0..20_000)
-            .map(|n| stratified(&table, &layout, Rule::ThreeCushion, FirstMet::Any, n, MIN_SPEED, &mut rng))
+            .map(|n| stratified(&table, &layout, Rule::ThreeCushion, FirstContact::Any, n, MIN_SPEED, &mut rng))
             .collect();
         let share = |is: fn(&CueInputs) -> bool| strokes.iter().filter(|cue| is(cue)).count() as f64 / 20_000.0;
         // The part of the disc below a third of R is 11 % of its area, and 30 % of the log-speed range lies below 0.9 m/s.
@@ -214,16 +214,16 @@ mod tests {
     }
 
     #[test]
-    fn nothing_that_is_tried_oversteps_the_miscue_limit() {
+    fn candidates_never_exceed_the_miscue_limit() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
         for name in crate::table::PRESETS {
             let table = Table::preset(name).unwrap();
             for n in 0..2000 {
                 let layout = Layout::random(&table, &mut rng);
-                let cue = any_stroke(&table, &layout, &mut rng);
+                let cue = random_stroke(&table, &layout, &mut rng);
                 let rule = Rule::ALL[n as usize % Rule::ALL.len()];
-                let wide = stratified(&table, &layout, rule, FirstMet::Any, n, MIN_SPEED, &mut rng);
-                let moved = with_errors(&table, Skill::BEGINNER, &wide, &errors::one(&mut rng));
+                let wide = stratified(&table, &layout, rule, FirstContact::Any, n, MIN_SPEED, &mut rng);
+                let moved = with_errors(&table, Skill::BEGINNER, &wide, &errors::random(&mut rng));
                 for cue in [moved, variation(&table, &cue, &mut rng), cue, wide] {
                     cue.validate().unwrap();
                     cue.validate_tip(table.miscue_limit).unwrap();

@@ -24,7 +24,7 @@ impl<'a> Clock<'a> {
     }
 
     /// Returns the instant at which this share of the time is used up.
-    pub fn moment(&self, share: f64) -> Instant {
+    pub fn deadline(&self, share: f64) -> Instant {
         self.start + self.budget.mul_f64(share)
     }
 
@@ -42,7 +42,7 @@ impl<'a> Clock<'a> {
     /// Returns the used share of the time or of the simulations, whichever is larger; infinite if cancelled. Between
     /// rounds of a search, the simulations are those of whole rounds on any number of threads. If they limit the search, its
     /// course is therefore reproducible.
-    pub fn used(&self) -> f64 {
+    pub fn used_share(&self) -> f64 {
         if self.is_cancelled() {
             return f64::INFINITY;
         }
@@ -61,8 +61,8 @@ impl<'a> Clock<'a> {
     }
 
     /// Returns the estimated number of simulations left until this share of the budget is used, at the rate so far.
-    pub fn simulations_until(&self, share: f64) -> f64 {
-        (self.simulations() as f64 * (share / self.used() - 1.0)).max(0.0)
+    pub fn remaining_simulations(&self, share: f64) -> f64 {
+        (self.simulations() as f64 * (share / self.used_share() - 1.0)).max(0.0)
     }
 
     /// Returns the time since the start.

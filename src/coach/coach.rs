@@ -7,15 +7,15 @@ use std::{
 };
 
 use super::{
-    Alternative, Cause, Ease, Improvement, Kind, Recommendation, Request, Risk, Shooter, Skill, Source,
+    Alternative, Cause, Improvement, Kind, LayoutDifficulty, Recommendation, Request, Risk, Shooter, Skill, Source,
     clock::Clock,
     draws::{Draws, Worlds},
-    first::{FirstShotSearch, Found},
+    first::{FirstShotSearch, FirstShots},
     next::NextValue,
     pool::Candidate,
-    refinement::WORTH_A_CHANGE,
+    refinement::MIN_IMPROVEMENT,
     search::Search,
-    trial::{Attempts, CONTACT_STEPS, Task, UNLIMITED_STEPS, without_limits},
+    trial::{Attempts, CONTACT_STEPS, Task, UNLIMITED_STEPS, with_unlimited_task},
 };
 use crate::{
     game::Rule,
@@ -31,24 +31,24 @@ use crate::{
 const ATTEMPTS: usize = 1000;
 
 /// Attempts for the make probability of each alternative.
-const ATTEMPTS_AT_ALTERNATIVE: usize = 400;
+const ATTEMPTS_PER_ALTERNATIVE: usize = 400;
 
 /// Attempts for each cause of a miss.
-const ATTEMPTS_AT_RISK: usize = 300;
+const ATTEMPTS_PER_CAUSE: usize = 300;
 
 /// Minimum time for judging the answer, even after the budget is used up. If other programs delay a thread, the answer
 /// would otherwise have no make probability.
 const GRACE: Duration = Duration::from_millis(3);
 
 /// Attempts in one work item of a thread.
-const PIECE: usize = 25;
+const CHUNK_SIZE: usize = 25;
 
 /// Maximum number of alternatives listed.
 const ALTERNATIVES: usize = 5;
 
 /// Alternatives below this share of the best shot's make probability are not listed: a shot that is made less than half
 /// as often is a gamble for a player who wants the point.
-const WORTH_LISTING: f64 = 0.5;
+const MIN_LISTED_SHARE: f64 = 0.5;
 
 /// A coach for one table. Cheap to share between threads.
 #[derive(Clone, Debug)]
@@ -115,14 +115,14 @@ impl Coach {
     /// # Errors
     /// Fails if the layout is impossible.
     pub fn recommend(&self, layout: &Layout, request: &Request) -> Result<Recommendation, LayoutError> {
-        self.recommend_and_tell(layout, request, |_| {})
+        self.recommend_with_progress(layout, request, |_| {})
     }
 
     /// Like [`recommend`](Self::recommend), and calls `on_improvement` on this thread as soon as a better shot is found.
     ///
     /// # Errors
     /// Fails if the layout is impossible.
-    pub fn recommend_and_tell(
+    pub fn recommend_with_progress(
         &self,
         layout: &Layout,
         request: &Request,
@@ -130,7 +130,7 @@ impl Coach {
     ) -> Result<Recommendation, LayoutError> {
         layout.validate(&self.table)?;
         let clock = Clock::start(request.budget, request.simulations, &request.cancel);
-        let doubt = request.shooter().doubts();
+        let doubt = request.shooter().effective_doubt();
         let [worlds, level] = [Worlds::new, Worlds::level].map(|worlds| worlds(&self.table, layout, doubt));
         let task = Task {
             table: &self.table,
@@ -141,15 +141,15 @@ impl Coach {
             first: request.first,
             worlds: &level,
             clock: &clock,
-            until: clock.moment(1.0),
-            patience: CONTACT_STEPS,
+            deadline: clock.deadline(1.0),
+            max_contact_steps: CONTACT_STEPS,
         };
         let policy = self.policy(request.rule, &request.skill);
         let proposals = policy.map_or_else(Vec::new, |policy| policy.proposals(&self.table, layout, &request.skill));
         let strokes: Vec<CueInputs> = proposals.iter().map(|proposal| proposal.cue).collect();
         let found = FirstShotSearch::new(task).run(&strokes, &request.former, request.seed);
         let answer = if request.skill.is_perfect() || found.solutions.is_empty() {
-            first_point(&found)
+            first_point_answer(&found)
         } else {
             let mut last_reported = None;
             let search = Search::new(task, request.plan, request.threads, request.seed);
@@ -159,8 +159,13 @@ impl Coach {
                     on_improvement(&improvement(leader, &clock));
                 }
             });
-            let until = task.until.max(Instant::now() + GRACE);
-            robust(&found, pool, &Task { worlds: &worlds, patience: UNLIMITED_STEPS, until, ..task }, request)
+            let deadline = task.deadline.max(Instant::now() + GRACE);
+            robust_answer(
+                &found,
+                pool,
+                &Task { worlds: &worlds, max_contact_steps: UNLIMITED_STEPS, deadline, ..task },
+                request,
+            )
         };
         Ok(Recommendation { simulations: clock.simulations(), elapsed: clock.elapsed(), ..answer })
     }
@@ -170,18 +175,18 @@ impl Coach {
 /// other kinds by errors that took no part in the choice.
 /// A search with few attempts may choose wrongly: if another shot seems to be made more often, both are judged by as
 /// many attempts, and the better one is the answer.
-fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Request) -> Recommendation {
-    keep_one_of_each(&mut pool, task.skill, task.table.radius);
+fn robust_answer(found: &FirstShots, mut pool: Vec<Candidate>, task: &Task, request: &Request) -> Recommendation {
+    retain_one_of_each_kind(&mut pool, task.skill, task.table.radius);
     pool.truncate(1 + ALTERNATIVES);
     // Each piece is drawn by the first thread that needs it, so that no time is spent on pieces that are never used.
-    let attempts: Vec<OnceLock<Draws>> = (0..2 * ATTEMPTS).step_by(PIECE).map(|_| OnceLock::new()).collect();
+    let attempts: Vec<OnceLock<Draws>> = (0..2 * ATTEMPTS).step_by(CHUNK_SIZE).map(|_| OnceLock::new()).collect();
     let pieces_of = |candidates: &[usize], attempts: Range<usize>| -> Vec<(usize, usize)> {
-        let pieces = attempts.step_by(PIECE).map(|attempt| attempt / PIECE);
+        let pieces = attempts.step_by(CHUNK_SIZE).map(|attempt| attempt / CHUNK_SIZE);
         candidates.iter().flat_map(|candidate| pieces.clone().map(|piece| (*candidate, piece))).collect()
     };
     let judged = |pieces: &[(usize, usize)]| {
         parallel::map(request.threads, pieces, |&(index, piece)| {
-            let draw = || judging(task.worlds, request.seed, piece);
+            let draw = || judging_draws(task.worlds, request.seed, piece);
             (index, task.attempts(&pool[index].shot.cue, attempts[piece].get_or_init(draw).iter()))
         })
     };
@@ -192,12 +197,12 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
     };
     let others: Vec<usize> = (1..pool.len()).collect();
     let first = pieces_of(&[0], 0..ATTEMPTS).into_iter();
-    let mut made = judged(&first.chain(pieces_of(&others, 0..ATTEMPTS_AT_ALTERNATIVE)).collect::<Vec<_>>());
+    let mut made = judged(&first.chain(pieces_of(&others, 0..ATTEMPTS_PER_ALTERNATIVE)).collect::<Vec<_>>());
     let mut rates: Vec<_> = (0..pool.len()).map(|candidate| rate(&made, candidate)).collect();
     let better = if request.plan { Vec::new() } else { made_more_often(&pool, &rates) };
     let mut judged_from = 0;
     if !better.is_empty() {
-        made.extend(judged(&pieces_of(&better, ATTEMPTS_AT_ALTERNATIVE..ATTEMPTS)));
+        made.extend(judged(&pieces_of(&better, ATTEMPTS_PER_ALTERNATIVE..ATTEMPTS)));
         for candidate in better {
             rates[candidate] = rate(&made, candidate);
         }
@@ -211,9 +216,11 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         pool.swap(0, best);
     }
     let best = pool[0];
-    let known_next = |next: NextValue| next.known().filter(|_| request.plan && Ease::is_known_on(task.table));
+    let known_next =
+        |next: NextValue| next.known().filter(|_| request.plan && LayoutDifficulty::is_known_on(task.table));
     let best_rate = rates[0].map_or(0.0, |rate| rate.rate);
-    let is_worth = |shot: &Alternative| shot.make_probability.is_none_or(|rate| rate.rate >= WORTH_LISTING * best_rate);
+    let is_worth =
+        |shot: &Alternative| shot.make_probability.is_none_or(|rate| rate.rate >= MIN_LISTED_SHARE * best_rate);
     let mut alternatives: Vec<_> = (1..pool.len())
         .map(|index| Alternative {
             cue: pool[index].shot.cue,
@@ -240,16 +247,16 @@ fn robust(found: &Found, mut pool: Vec<Candidate>, task: &Task, request: &Reques
         next_probability: known_next(best.next),
         is_planned: request.plan,
         alternatives,
-        ..first_point(found)
+        ..first_point_answer(found)
     }
 }
 
 /// Returns the indices of the shots that are made more often than the first one, less their effort penalties, best
-/// first. If the first one is a former answer, another shot must be better by [`WORTH_A_CHANGE`].
+/// first. If the first one is a former answer, another shot must be better by [`MIN_IMPROVEMENT`].
 fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>]) -> Vec<usize> {
     let worth = |index: usize| rates[index].map(|rate| rate.rate - pool[index].effort_penalty);
     let was_advised = pool.first().is_some_and(|first| first.shot.source == Source::Former);
-    let least = if was_advised { WORTH_A_CHANGE } else { 0.0 };
+    let least = if was_advised { MIN_IMPROVEMENT } else { 0.0 };
     let is_better = |index: &usize| worth(0).zip(worth(*index)).is_some_and(|(bar, own)| own > bar + least * own.abs());
     let mut better: Vec<usize> = (1..pool.len()).filter(is_better).collect();
     better.sort_by(|one, other| f64::total_cmp(&worth(*other).unwrap_or_default(), &worth(*one).unwrap_or_default()));
@@ -258,17 +265,17 @@ fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>]) -> Vec<usi
 
 /// Estimates how often each cause alone misses a shot; `None` if nothing is in doubt, or time runs out.
 fn risk(cue: &CueInputs, task: &Task, request: &Request, seed: u64) -> Option<Risk> {
-    if task.worlds.is_certain() || task.clock.is_past(task.until) {
+    if task.worlds.is_certain() || task.clock.is_past(task.deadline) {
         return None;
     }
     let missed = parallel::map(request.threads.min(Cause::ALL.len()), &Cause::ALL, |cause| {
-        let (doubt, errs) = cause.alone(request.doubt);
+        let (doubt, errs) = cause.isolated(request.doubt);
         let worlds = Worlds::new(task.table, task.layout, doubt);
         let skill = if errs { task.skill } else { Skill::PERFECT };
-        let draws = Draws::independent(ATTEMPTS_AT_RISK, &worlds, seed);
+        let draws = Draws::independent(ATTEMPTS_PER_CAUSE, &worlds, seed);
         let task = Task { worlds: &worlds, skill, ..*task };
         let Attempts { tried, made } = task.attempts(cue, draws.iter());
-        (tried == ATTEMPTS_AT_RISK).then(|| 1.0 - made as f64 / ATTEMPTS_AT_RISK as f64)
+        (tried == ATTEMPTS_PER_CAUSE).then(|| 1.0 - made as f64 / ATTEMPTS_PER_CAUSE as f64)
     });
     let [hand, table, placing] = missed[..] else { return None };
     Some(Risk { hand: hand?, table: table?, placing: placing? })
@@ -277,7 +284,7 @@ fn risk(cue: &CueInputs, task: &Task, request: &Request, seed: u64) -> Option<Ri
 /// Keeps the first shot and, in the given order, the first of each other kind. Drops a shot if every input is within
 /// one standard error of a kept one:
 /// a stroke that makes the point in two ways, depending on its errors, is one stroke.
-fn keep_one_of_each(pool: &mut Vec<Candidate>, skill: Skill, radius: f64) {
+fn retain_one_of_each_kind(pool: &mut Vec<Candidate>, skill: Skill, radius: f64) {
     let mut kept: Vec<Candidate> = Vec::new();
     for candidate in pool.drain(..) {
         let is_new = |other: &Candidate| {
@@ -298,7 +305,7 @@ fn keep_one_of_each(pool: &mut Vec<Candidate>, skill: Skill, radius: f64) {
 }
 
 /// Returns the answer for a perfect player, or for a search without a result.
-fn first_point(found: &Found) -> Recommendation {
+fn first_point_answer(found: &FirstShots) -> Recommendation {
     let mut seen = Vec::new();
     let others = found.solutions.iter().map(|(shot, tally)| (shot, Kind::of(tally, &shot.cue)));
     let others = others.filter(|(_, kind)| {
@@ -339,7 +346,7 @@ fn improvement(leader: &Candidate, clock: &Clock) -> Improvement {
     Improvement {
         cue: leader.shot.cue,
         kind: leader.kind,
-        make_probability: leader.own.as_counted(),
+        make_probability: leader.own_rate.to_success_rate(),
         simulations: clock.simulations(),
         elapsed: clock.elapsed(),
     }
@@ -356,7 +363,7 @@ pub fn make_probability(
     attempts: usize,
     seed: u64,
 ) -> SuccessRate {
-    without_limits(table, layout, rule, shooter.into(), UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
+    with_unlimited_task(table, layout, rule, shooter.into(), UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
         let attempts = task.attempts(cue, Draws::independent(attempts, task.worlds, seed).iter());
         SuccessRate::new(attempts.made, attempts.tried)
     })
@@ -375,9 +382,9 @@ pub fn judge(
     attempts: Range<usize>,
     seed: u64,
 ) -> SuccessRate {
-    without_limits(table, layout, rule, shooter, UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
-        let pieces = attempts.start / PIECE..attempts.end.div_ceil(PIECE);
-        let pieces = pieces.map(|piece| task.attempts(cue, judging(task.worlds, seed, piece).iter()));
+    with_unlimited_task(table, layout, rule, shooter, UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
+        let pieces = attempts.start / CHUNK_SIZE..attempts.end.div_ceil(CHUNK_SIZE);
+        let pieces = pieces.map(|piece| task.attempts(cue, judging_draws(task.worlds, seed, piece).iter()));
         let (made, tried) = pieces.fold((0, 0), |sum, part| (sum.0 + part.made, sum.1 + part.tried));
         SuccessRate::new(made, tried)
     })
@@ -385,8 +392,8 @@ pub fn judge(
 
 /// Draws one piece of the errors by which the answer to a request with `seed` is judged. Its random stream differs from that
 /// of the search.
-fn judging(worlds: &Worlds, seed: u64, piece: usize) -> Draws {
-    Draws::independent(PIECE, worlds, judging_seed(seed).wrapping_add(piece as u64))
+fn judging_draws(worlds: &Worlds, seed: u64, piece: usize) -> Draws {
+    Draws::independent(CHUNK_SIZE, worlds, judging_seed(seed).wrapping_add(piece as u64))
 }
 
 const fn judging_seed(seed: u64) -> u64 {
@@ -398,29 +405,29 @@ mod tests {
     use std::f64::consts::PI;
 
     use super::*;
-    use crate::coach::{Pace, Suggestion, Way, evidence::Rate};
+    use crate::coach::{Pace, Route, Suggestion, evidence::Rate};
 
-    fn candidate(cue: CueInputs, way: Way, effort_penalty: f64) -> Candidate {
-        let kind = Kind { first_ball: 1, cushion_first: false, way, pace: Pace::Hard, raised: false };
+    fn candidate(cue: CueInputs, way: Route, effort_penalty: f64) -> Candidate {
+        let kind = Kind { first_ball: 1, cushion_first: false, route: way, pace: Pace::Hard, raised: false };
         Candidate {
             shot: Suggestion { cue, source: Source::Search },
             kind,
             tried: 0,
             points: 0,
-            own: Rate::default(),
-            larger: Rate::default(),
+            own_rate: Rate::default(),
+            larger_error_rate: Rate::default(),
             next: NextValue::Assumed(1.0),
             effort_penalty,
         }
     }
 
     #[test]
-    fn what_is_made_more_often_is_found() {
+    fn made_more_often_returns_better_shots_best_first() {
         let cue = CueInputs { a: 0.0, b: 0.3, theta: 0.01, phi: 1.0, speed: 3.0 };
         // The first is made 220 times in 1000. Each of the others has a count of made attempts in 400 and an effort penalty.
         let better = |others: &[(usize, f64)]| {
-            let mut pool = vec![candidate(cue, Way::Direct, 0.0)];
-            pool.extend(others.iter().map(|(_, penalty)| candidate(cue, Way::OffCushion, *penalty)));
+            let mut pool = vec![candidate(cue, Route::Direct, 0.0)];
+            pool.extend(others.iter().map(|(_, penalty)| candidate(cue, Route::OffCushion, *penalty)));
             let mut rates = vec![Some(SuccessRate::new(220, 1000))];
             rates.extend(others.iter().map(|(made, _)| (*made > 0).then(|| SuccessRate::new(*made, 400))));
             made_more_often(&pool, &rates)
@@ -432,28 +439,33 @@ mod tests {
     }
 
     #[test]
-    fn a_stroke_that_makes_the_point_in_two_ways_is_no_alternative_to_itself() {
+    fn similar_strokes_are_not_listed_as_alternatives() {
         let meant = CueInputs { a: 0.0, b: 0.3, theta: 0.01, phi: 1.0, speed: 3.0 };
         let candidate = |way, phi: f64| {
             let cue = CueInputs { phi: meant.phi + phi * Skill::EXPERT.at(&meant).phi, ..meant };
             candidate(cue, way, 0.0)
         };
-        let kept = |ways: &[(Way, f64)]| {
+        let kept = |ways: &[(Route, f64)]| {
             let mut pool: Vec<_> = ways.iter().map(|&(way, phi)| candidate(way, phi)).collect();
-            keep_one_of_each(&mut pool, Skill::EXPERT, Table::default().radius);
-            pool.iter().map(|candidate| candidate.kind.way).collect::<Vec<_>>()
+            retain_one_of_each_kind(&mut pool, Skill::EXPERT, Table::default().radius);
+            pool.iter().map(|candidate| candidate.kind.route).collect::<Vec<_>>()
         };
-        assert_eq!(kept(&[(Way::OffCushion, 0.0), (Way::AroundTheTable, 0.5)]), [Way::OffCushion]);
+        assert_eq!(kept(&[(Route::OffCushion, 0.0), (Route::AroundTheTable, 0.5)]), [Route::OffCushion]);
         assert_eq!(
-            kept(&[(Way::OffCushion, 0.0), (Way::AroundTheTable, 2.0), (Way::Direct, 1.5), (Way::OffCushion, 9.0)]),
-            [Way::OffCushion, Way::AroundTheTable]
+            kept(&[
+                (Route::OffCushion, 0.0),
+                (Route::AroundTheTable, 2.0),
+                (Route::Direct, 1.5),
+                (Route::OffCushion, 9.0)
+            ]),
+            [Route::OffCushion, Route::AroundTheTable]
         );
         let turned = |phi: f64| Candidate {
             shot: Suggestion { cue: CueInputs { phi, ..meant }, source: Source::Search },
-            ..candidate(if phi > 0.0 { Way::Direct } else { Way::OffCushion }, 0.0)
+            ..candidate(if phi > 0.0 { Route::Direct } else { Route::OffCushion }, 0.0)
         };
         let mut pool = vec![turned(PI - 1e-5), turned(1e-5 - PI)];
-        keep_one_of_each(&mut pool, Skill::EXPERT, Table::default().radius);
+        retain_one_of_each_kind(&mut pool, Skill::EXPERT, Table::default().radius);
         assert_eq!(pool.len(), 1, "the same direction");
     }
 }

@@ -23,7 +23,7 @@ pub struct Doubt {
 pub struct UnknownDoubt(String);
 
 /// Maximum accepted values: multiple, and m.
-const MOST: [f64; 2] = [10.0, 0.05];
+const MAX_VALUES: [f64; 2] = [10.0, 0.05];
 
 impl Doubt {
     /// The table and the ball positions are exactly as given.
@@ -71,7 +71,7 @@ impl FromStr for Doubt {
                 _ => return Err(unknown()),
             };
             let value = unit * number.trim().parse::<f64>().map_err(|_| unknown())?;
-            if !(0.0..=MOST[index]).contains(&value) || numbers[index].replace(value).is_some() {
+            if !(0.0..=MAX_VALUES[index]).contains(&value) || numbers[index].replace(value).is_some() {
                 return Err(unknown());
             }
         }
@@ -99,7 +99,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn doubts_are_read_and_written_back() {
+    fn doubt_round_trips_through_text() {
         for (text, doubt) in [
             ("none", Doubt::NONE),
             ("full", Doubt::FULL),

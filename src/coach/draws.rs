@@ -7,18 +7,18 @@ use super::Doubt;
 use crate::{
     player::{
         errors::{self, Errors, Halton, Streams},
-        misplaced,
+        perturbed_layout,
     },
     table::{Layout, Table, TableDoubt, TableSampler},
 };
 
 /// Separates the random stream of the worlds from that of the errors.
-const WORLDS: u64 = 0x776f_726c_6473;
+const WORLD_STREAM: u64 = 0x776f_726c_6473;
 
 /// Number of distinct worlds drawn for comparing shots; they repeat with other execution errors. Drawing one takes a
 /// good part of the time of a simulation. The number is prime, so that attempts that share a world have little else in
 /// common.
-const MOST_WORLDS: usize = 509;
+const MAX_WORLDS: usize = 509;
 
 /// The size of an attempt's errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,8 +69,8 @@ pub struct Draws {
 impl Draws {
     /// Draws independent attempts, for judging a shot.
     pub fn independent(count: usize, worlds: &Worlds, seed: u64) -> Self {
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ WORLDS);
-        let real = |_| worlds.draw(|| errors::normal(&mut rng));
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ WORLD_STREAM);
+        let real = |_| worlds.draw(|| errors::standard_normal(&mut rng));
         let worlds = if worlds.is_certain() { Vec::new() } else { (0..count).map(real).collect() };
         Self { errors: errors::independent(count, seed), worlds }
     }
@@ -106,14 +106,14 @@ pub struct QuasiRandomDraws {
 impl QuasiRandomDraws {
     /// Creates sequences for errors of this size.
     pub fn new(size: ErrorSize, seed: u64) -> Self {
-        Self { size, errors: Halton::new(seed), streams: Streams::new(seed ^ WORLDS), drawn: Draws::default() }
+        Self { size, errors: Halton::new(seed), streams: Streams::new(seed ^ WORLD_STREAM), drawn: Draws::default() }
     }
 
     /// Draws attempts up to the `count`th.
     pub fn extend_to(&mut self, worlds: &Worlds, count: usize) {
         for n in self.drawn.len()..count {
             self.drawn.errors.push(self.errors.errors(n).map(|error| self.size.factor() * error));
-            if !worlds.is_certain() && n < MOST_WORLDS {
+            if !worlds.is_certain() && n < MAX_WORLDS {
                 let mut stream = 0..;
                 let number = || self.streams.number(stream.next().unwrap_or_default(), n);
                 self.drawn.worlds.push(worlds.draw(number));
@@ -161,7 +161,7 @@ impl Worlds {
 
     /// Draws one world, from standard normal numbers.
     pub fn draw(&self, mut normal: impl FnMut() -> f64) -> World {
-        let layout = misplaced(&self.table, &self.layout, self.placing, &mut normal);
+        let layout = perturbed_layout(&self.table, &self.layout, self.placing, &mut normal);
         let table = self.sampler.as_ref().map_or_else(|| self.table.clone(), |sampler| sampler.draw(normal));
         World { table, layout }
     }
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_in_doubt_draws_nothing_and_doubts_draw_valid_worlds() {
+    fn doubt_draws_valid_worlds_and_certainty_draws_none() {
         let table = Table::default();
         let none = Draws::independent(50, &Worlds::new(&table, &layout(), Doubt::NONE), 7);
         assert!(none.iter().all(|draw| draw.world.is_none()) && none.len() == 50);

@@ -16,26 +16,26 @@ use crate::{
 };
 
 /// Steepest cue that the search tries, rad: 80°.
-pub const STEEPEST: f64 = 80.0_f64.to_radians();
+pub const MAX_ELEVATED_ANGLE: f64 = 80.0_f64.to_radians();
 
 /// Ranges of elevation and speed of the jumps that are tried, rad and m/s: a flatter or softer stroke clears no ball.
-const JUMPS: [f64; 2] = [12.0_f64.to_radians(), 60.0_f64.to_radians()];
+const JUMP_ELEVATIONS: [f64; 2] = [12.0_f64.to_radians(), 60.0_f64.to_radians()];
 const JUMP_SPEEDS: [f64; 2] = [2.0, MAX_SPEED];
 
 /// Range of massé speeds, m/s, and maximum distance of the target, m.
 const MASSE_SPEEDS: [f64; 2] = [0.8, 5.0];
-const MASSE_REACH: f64 = 1.2;
+const MAX_MASSE_DISTANCE: f64 = 1.2;
 
 /// Minimum clearance of a jump over the edge of a ball, m.
-const CLEARANCE: f64 = 0.002;
+const MIN_CLEARANCE: f64 = 0.002;
 
 /// Number of moments at which a massé's curve is sampled.
 const CURVE_SAMPLES: u32 = 24;
 
 /// Elevation up to which no stroke bends a ball's path as a massé does, rad, and the upward speed, m/s, below which no
 /// ball clears another or its edge: it rises by 10 mm.
-const FLAT: f64 = 10.0_f64.to_radians();
-const LOW_LIFT: f64 = 0.44;
+const MAX_FLAT_ELEVATION: f64 = 10.0_f64.to_radians();
+const MIN_LIFT: f64 = 0.44;
 
 /// Whether a club that forbids jumps and massés forbids this stroke: the cue ball flies over a ball, its path bends as
 /// a massé's does, or the cue is raised by more than 30°.
@@ -43,7 +43,7 @@ pub fn is_jump_or_masse(table: &Table, layout: &Layout, cue: &CueInputs) -> bool
     if cue.theta > MAX_ELEVATION {
         return true;
     }
-    if cue.theta <= FLAT && strike(table, cue).lift < LOW_LIFT {
+    if cue.theta <= MAX_FLAT_ELEVATION && strike(table, cue).lift < MIN_LIFT {
         return false;
     }
     makes_jump_or_masse(table, layout, cue)
@@ -55,7 +55,7 @@ pub fn makes_jump_or_masse(table: &Table, layout: &Layout, cue: &CueInputs) -> b
 }
 
 /// Draws a jump over a ball that is in the way, or a massé; `None` if the drawn direction or tip position does not allow one.
-pub fn raised(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> Option<CueInputs> {
+pub fn random_elevated_stroke(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> Option<CueInputs> {
     let cue = if rng.random() { jump(table, layout, rng) } else { masse(table, layout, rng) };
     cue.filter(|cue| cue.validate_tip(table.miscue_limit).is_ok())
 }
@@ -78,16 +78,16 @@ fn jump(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> Option<
         return None;
     }
     (0..8).find_map(|_| {
-        let theta = rng.random_range(JUMPS[0]..JUMPS[1]);
+        let theta = rng.random_range(JUMP_ELEVATIONS[0]..JUMP_ELEVATIONS[1]);
         let speed = rng.random_range(JUMP_SPEEDS[0]..JUMP_SPEEDS[1]);
-        let (a, b) = raised_tip(table, theta, 0.5, rng);
+        let (a, b) = random_raised_tip(table, theta, 0.5, rng);
         let cue = CueInputs { a, b, theta, phi: direction.to_angle(), speed };
         let impulse = strike(table, &cue);
         let time = along / impulse.velocity.length();
         let height = impulse.lift * time - 0.5 * table.gravity * time * time;
         // The tip offset deflects the ball: the direction is corrected so that it flies as intended.
         let turned = direction.angle_to(impulse.velocity);
-        (height >= needed + CLEARANCE).then_some(CueInputs { phi: cue.phi - turned, ..cue })
+        (height >= needed + MIN_CLEARANCE).then_some(CueInputs { phi: cue.phi - turned, ..cue })
     })
 }
 
@@ -96,12 +96,12 @@ fn masse(table: &Table, layout: &Layout, rng: &mut Xoshiro256PlusPlus) -> Option
     let [cue_ball, first, second] = layout.balls;
     let target = if rng.random() { first } else { second } - cue_ball;
     let distance = target.length();
-    if distance > MASSE_REACH {
+    if distance > MAX_MASSE_DISTANCE {
         return None;
     }
-    let theta = rng.random_range(MAX_ELEVATION..STEEPEST);
+    let theta = rng.random_range(MAX_ELEVATION..MAX_ELEVATED_ANGLE);
     let speed = rng.random_range(MASSE_SPEEDS[0]..MASSE_SPEEDS[1]);
-    let (a, b) = raised_tip(table, theta, 1.0, rng);
+    let (a, b) = random_raised_tip(table, theta, 1.0, rng);
     let cue = CueInputs { a, b, theta, phi: 0.0, speed };
     let direction = direction_at(table, &cue, distance)?;
     let widest = (2.0 * table.radius / distance).min(1.0).asin();
@@ -130,24 +130,24 @@ fn direction_at(table: &Table, cue: &CueInputs, distance: f64) -> Option<f64> {
 
 /// Draws a tip position for a raised cue, uniform in area within this share of the miscue limit around the point where
 /// the cue's line passes through the centre.
-fn raised_tip(table: &Table, theta: f64, share: f64, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
+fn random_raised_tip(table: &Table, theta: f64, share: f64, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
     let radius = share * TIP_SHARE * (table.miscue_limit.min(1.0) * rng.random::<f64>()).sqrt();
     let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
-    on_ball(theta, radius * cos, radius * sin)
+    tip_position(theta, radius * cos, radius * sin)
 }
 
 /// Returns the tip position of a cue raised by `theta` whose line passes the ball's centre by `a` to the left and `lever`
 /// above, in units of R.
-fn on_ball(theta: f64, a: f64, lever: f64) -> (f64, f64) {
+fn tip_position(theta: f64, a: f64, lever: f64) -> (f64, f64) {
     let ring = (1.0 - a * a).sqrt();
     // A cue from behind cannot hit the ball beyond its top.
-    let up = (theta + (lever / ring).clamp(-1.0, 1.0).asin()).min(STEEPEST);
+    let up = (theta + (lever / ring).clamp(-1.0, 1.0).asin()).min(MAX_ELEVATED_ANGLE);
     (a, ring * up.sin())
 }
 
 /// Moves a tip position back within the limit: towards the centre of the ball for an ordinary cue, and towards the
 /// point where the line passes through the centre for a steep one.
-pub fn within_limit(table: &Table, theta: f64, a: f64, b: f64) -> (f64, f64) {
+pub fn clamp_tip(table: &Table, theta: f64, a: f64, b: f64) -> (f64, f64) {
     let most = TIP_SHARE * table.miscue_limit.sqrt();
     if theta <= MAX_ELEVATION {
         let share = (most / a.hypot(b)).min(1.0);
@@ -158,7 +158,7 @@ pub fn within_limit(table: &Table, theta: f64, a: f64, b: f64) -> (f64, f64) {
     let turned = (b / ring).clamp(-1.0, 1.0).asin() - theta;
     let lever = ring * turned.max(-FRAC_PI_2).sin();
     let share = (most / a.hypot(lever)).min(1.0);
-    on_ball(theta, a * share, lever * share)
+    tip_position(theta, a * share, lever * share)
 }
 
 #[cfg(test)]
@@ -167,7 +167,7 @@ mod tests {
     use rand::SeedableRng;
 
     #[test]
-    fn raised_strokes_are_playable_and_jumps_fly_over_the_ball_in_the_way() {
+    fn jumps_are_playable_and_clear_the_ball() {
         let table = Table::default();
         let layout = Layout::parse("-0.5,0 -0.2,0.01 0.5,0.02", &table).unwrap();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn massés_come_to_the_ball_that_they_are_meant_for() {
+    fn masse_candidates_reach_their_target_ball() {
         let table = Table::default();
         let layout = Layout::parse("-0.5,0 0.1,0 1.2,0.6", &table).unwrap();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(6);
@@ -201,19 +201,19 @@ mod tests {
     }
 
     #[test]
-    fn a_tip_brought_back_is_within_the_limit_for_every_cue() {
+    fn clamped_tip_is_within_miscue_limit() {
         let table = Table::default();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(7);
         for _ in 0..2000 {
-            let theta = rng.random_range(0.0..STEEPEST);
-            let (a, b) = within_limit(&table, theta, rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0));
+            let theta = rng.random_range(0.0..MAX_ELEVATED_ANGLE);
+            let (a, b) = clamp_tip(&table, theta, rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0));
             let cue = CueInputs { a, b, theta, phi: 0.0, speed: 2.0 };
             cue.validate_tip(table.miscue_limit).unwrap();
         }
     }
 
     #[test]
-    fn level_strokes_are_neither_jumps_nor_masses_and_steep_ones_are() {
+    fn only_steep_strokes_count_as_jump_or_masse() {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let counts = |text: &str| is_jump_or_masse(&table, &layout, &CueInputs::parse(text).unwrap());

@@ -101,7 +101,7 @@ impl Rate {
     }
 
     /// Returns the equivalent counted rate, with its confidence interval.
-    pub fn as_counted(self) -> SuccessRate {
+    pub fn to_success_rate(self) -> SuccessRate {
         let tried = self.attempts.round();
         SuccessRate::new((self.share * tried).round() as usize, tried as usize)
     }
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn attempts_at_two_strokes_tell_of_a_third() {
+    fn attempts_at_nearby_strokes_predict_a_third() {
         let skill = Skill::EXPERT;
         let stroke =
             |off: f64| Distribution::new(&skill, RADIUS, &CueInputs { phi: MEANT.phi + off * skill.phi, ..MEANT });
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn directions_to_either_side_of_half_a_turn_are_near() {
+    fn direction_difference_wraps_at_half_a_turn() {
         let skill = Skill::EXPERT;
         let stroke = |phi: f64| Distribution::new(&skill, RADIUS, &CueInputs { phi, ..MEANT });
         let [before, after] = [stroke(PI - 0.25 * skill.phi), stroke(-PI + 0.25 * skill.phi)];
@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn own_attempts_count_fully_and_inputs_without_errors_stay() {
+    fn own_attempts_have_full_weight_and_exact_inputs_stay() {
         let skill = Skill { theta: 0.0, ..Skill::EXPERT };
         let stroke = Distribution::new(&skill, RADIUS, &MEANT);
         let own: Vec<_> =

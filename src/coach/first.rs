@@ -5,8 +5,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     Source, Suggestion,
-    candidates::{TIP_SHARE, any_stroke, variation},
-    elevated::raised,
+    candidates::{TIP_SHARE, random_stroke, variation},
+    elevated::random_elevated_stroke,
     trial::{CONTACT_STEPS, Task, UNLIMITED_STEPS},
 };
 use crate::{
@@ -19,7 +19,7 @@ use crate::{
 const VARIATIONS: u32 = 64;
 
 /// Number of the policy's best proposals that are varied.
-pub const FAVOURITES: usize = 4;
+pub const VARIED_PROPOSALS: usize = 4;
 
 /// Steps of resting contacts after which a shot of the search is given up: there are always more. A tenth of a second
 /// then suffices for 2.2 times as many shots on `thesis` as without a limit, and finds three-cushion shots on 86
@@ -27,20 +27,20 @@ pub const FAVOURITES: usize = 4;
 const SEARCH_CONTACT_STEPS: u32 = 5;
 
 /// One in this number of those shots is followed further: if balls touch from the start, all others may be given up.
-const ONE_FOLLOWED_IN: u64 = 50;
+const FULL_SIMULATION_INTERVAL: u64 = 50;
 
 /// Usual strokes that are tried before any jump or massé: if that many made no point, hardly any usual stroke does.
 const USUAL_BEFORE_ELEVATED: u64 = 4000;
 
 /// From then on, one stroke in this number is a jump or a massé.
-const ONE_ELEVATED_IN: u64 = 4;
+const ELEVATED_INTERVAL: u64 = 4;
 
 /// Quality of a shot that makes no point: object balls hit, then cushions before the second, up to the number that the
 /// rule requires.
 type Merit = (u32, u32);
 
 /// The result: shots that make the point, the policy's first, and the best attempt if there are none.
-pub struct Found {
+pub struct FirstShots {
     /// Shots that make the point, with their tallies.
     pub solutions: Vec<(Suggestion, Tally)>,
     /// The best of the shots that make no point.
@@ -62,7 +62,7 @@ impl<'a> FirstShotSearch<'a> {
 
     /// Tries the proposals and the shots of a former answer, whatever the time. Then searches until a shot is found or
     /// time is up.
-    pub fn run(mut self, proposals: &[CueInputs], former: &[CueInputs], seed: u64) -> Found {
+    pub fn run(mut self, proposals: &[CueInputs], former: &[CueInputs], seed: u64) -> FirstShots {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let (table, layout) = (self.task.table, self.task.layout);
         for &cue in proposals {
@@ -71,7 +71,7 @@ impl<'a> FirstShotSearch<'a> {
         for &cue in former {
             self.play(cue, Source::Former);
         }
-        'variations: for cue in proposals.iter().take(FAVOURITES) {
+        'variations: for cue in proposals.iter().take(VARIED_PROPOSALS) {
             for _ in 0..VARIATIONS {
                 if self.is_over() {
                     break 'variations;
@@ -83,20 +83,20 @@ impl<'a> FirstShotSearch<'a> {
         while !self.is_over() {
             tried += 1;
             let is_raised =
-                self.task.seeks_jumps() && tried > USUAL_BEFORE_ELEVATED && tried.is_multiple_of(ONE_ELEVATED_IN);
-            let elevated = if is_raised { raised(table, layout, &mut rng) } else { None };
-            let cue = elevated.unwrap_or_else(|| any_stroke(table, layout, &mut rng));
+                self.task.seeks_jumps() && tried > USUAL_BEFORE_ELEVATED && tried.is_multiple_of(ELEVATED_INTERVAL);
+            let elevated = if is_raised { random_elevated_stroke(table, layout, &mut rng) } else { None };
+            let cue = elevated.unwrap_or_else(|| random_stroke(table, layout, &mut rng));
             self.play(cue, Source::Search);
         }
         // Without any time and without a policy, nothing was tried.
         let attempt = self.best.map(|(_, shot)| shot);
-        let attempt = attempt.unwrap_or_else(|| Suggestion { cue: self.plain(), source: Source::Search });
-        Found { solutions: self.solutions, attempt }
+        let attempt = attempt.unwrap_or_else(|| Suggestion { cue: self.plain_stroke(), source: Source::Search });
+        FirstShots { solutions: self.solutions, attempt }
     }
 
     /// Returns a plain stroke at the first ball. If the cue has no room for it, the nearest direction with the lowest tip
     /// position that has room.
-    fn plain(&self) -> CueInputs {
+    fn plain_stroke(&self) -> CueInputs {
         let Layout { balls: [cue_ball, first, _] } = self.task.layout;
         let plain = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: (first - cue_ball).to_angle(), speed: 2.0 };
         let highest = TIP_SHARE * self.task.table.miscue_limit.sqrt();
@@ -109,21 +109,21 @@ impl<'a> FirstShotSearch<'a> {
 
     /// Whether a shot has been found, or time is up.
     fn is_over(&self) -> bool {
-        !self.solutions.is_empty() || self.task.clock.used() >= 1.0
+        !self.solutions.is_empty() || self.task.clock.used_share() >= 1.0
     }
 
     fn play(&mut self, cue: CueInputs, source: Source) {
         self.task.clock.count(1);
         let Some(cue) = self.task.playable(&cue) else { return };
-        let patience = match source {
+        let max_contact_steps = match source {
             Source::Policy | Source::Former => UNLIMITED_STEPS,
-            _ if self.task.clock.simulations().is_multiple_of(ONE_FOLLOWED_IN) => CONTACT_STEPS,
+            _ if self.task.clock.simulations().is_multiple_of(FULL_SIMULATION_INTERVAL) => CONTACT_STEPS,
             _ => SEARCH_CONTACT_STEPS,
         };
         // A shot that took too long still counts as an attempt.
-        let tally = Task { patience, ..self.task }.play(&cue).unwrap_or_default();
+        let tally = Task { max_contact_steps, ..self.task }.play(&cue).unwrap_or_default();
         let suggestion = Suggestion { cue, source };
-        if self.task.suits(&cue, &tally) {
+        if self.task.is_solution(&cue, &tally) {
             self.solutions.push((suggestion, tally));
         } else if !self.task.point().is_made(&tally) && self.task.first.allows(&tally) {
             let merit = merit(&tally, self.task.rule);
@@ -135,7 +135,7 @@ impl<'a> FirstShotSearch<'a> {
 }
 
 fn merit(tally: &Tally, rule: Rule) -> Merit {
-    let met = tally.met.iter().map(|&met| u32::from(met)).sum();
-    let cushions = if tally.met_both() { tally.cushions_before_second } else { tally.cushions };
+    let met = tally.hit.iter().map(|&hit| u32::from(hit)).sum();
+    let cushions = if tally.has_hit_both() { tally.cushions_before_second } else { tally.cushions };
     (met, cushions.min(rule.cushions()))
 }

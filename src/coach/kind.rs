@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{
     candidates::MAX_ELEVATION,
-    words::{LengthUnit, short},
+    words::{LengthUnit, format_trimmed},
 };
 use crate::{
     game::Tally,
@@ -24,7 +24,7 @@ const AROUND: u32 = 3;
 /// How the cue ball reaches the second object ball.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Way {
+pub enum Route {
     /// With no cushion.
     Direct,
     /// Off one or two cushions.
@@ -51,7 +51,8 @@ pub struct Kind {
     /// Whether the cue ball hits a cushion before it.
     pub cushion_first: bool,
     /// How the cue ball reaches the second object ball.
-    pub way: Way,
+    #[serde(rename = "way")]
+    pub route: Route,
     /// How hard the stroke is.
     pub pace: Pace,
     /// Whether the cue is raised by more than 30 degrees, for a jump or a massé.
@@ -62,15 +63,15 @@ pub struct Kind {
 impl Kind {
     /// Returns the kind of a shot with this tally.
     pub fn of(tally: &Tally, cue: &CueInputs) -> Self {
-        let way = match tally.cushions_before_second {
-            0 => Way::Direct,
-            cushions if cushions < AROUND => Way::OffCushion,
-            _ => Way::AroundTheTable,
+        let route = match tally.cushions_before_second {
+            0 => Route::Direct,
+            cushions if cushions < AROUND => Route::OffCushion,
+            _ => Route::AroundTheTable,
         };
         Self {
             first_ball: tally.first_ball().unwrap_or(0),
             cushion_first: tally.cushions_before_first > 0,
-            way,
+            route,
             pace: if cue.speed < HARD { Pace::Soft } else { Pace::Hard },
             raised: cue.theta > MAX_ELEVATION,
         }
@@ -78,7 +79,7 @@ impl Kind {
 }
 
 /// Avoids the players' terms, because their names of patterns and speeds are more specific than a kind.
-impl fmt::Display for Way {
+impl fmt::Display for Route {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.pad(match self {
             Self::Direct => "direct",
@@ -92,7 +93,7 @@ impl Pace {
     /// Describes the pace, with speeds in the system of `unit`.
     pub fn words(self, unit: LengthUnit) -> String {
         let (in_it, symbol) = unit.speed();
-        let speed = short(in_it * HARD, 1);
+        let speed = format_trimmed(in_it * HARD, 1);
         match self {
             Self::Soft => format!("below {speed} {symbol}"),
             Self::Hard => format!("{speed} {symbol} and more"),
@@ -109,12 +110,12 @@ impl fmt::Display for Pace {
 impl Kind {
     /// Describes the kind for a player with the white ball, with speeds in the system of `unit`.
     pub fn words(self, unit: LengthUnit) -> String {
-        let Self { first_ball, cushion_first, way, pace, raised } = self;
+        let Self { first_ball, cushion_first, route, pace, raised } = self;
         let pace = pace.words(unit) + if raised { ", raised" } else { "" };
         let start = if cushion_first { "cushion first to" } else { "first" };
         match first_ball {
             0 => format!("hits no ball, {pace}"),
-            _ => format!("{start} {}, {way}, {pace}", BALL_NAMES[first_ball.min(BALLS - 1)]),
+            _ => format!("{start} {}, {route}, {pace}", BALL_NAMES[first_ball.min(BALLS - 1)]),
         }
     }
 }

@@ -22,7 +22,7 @@ mod tests {
     use glam::DVec2;
 
     #[test]
-    fn each_layout_has_a_number_and_a_seed_of_its_own() {
+    fn layouts_have_distinct_numbers_and_seeds() {
         let at = |x: f64| Layout::new([DVec2::new(x, 0.0), DVec2::new(0.5, 0.0), DVec2::new(1.0, 0.5)]);
         let seed = |x: f64| layout_seed(7, layout_number(&at(x)));
         assert_eq!(seed(0.0), seed(-0.0));

@@ -12,7 +12,7 @@ use crate::{
     game::{Point, Referee, Rule, Tally, Touching},
     physics::{CueInputs, has_room, strike},
     platform::{self, parallel},
-    player::aimed,
+    player::re_aimed,
     simulation::{AllSavings, watch_with},
     table::{Layout, Table},
 };
@@ -34,7 +34,7 @@ pub struct Margin {
 impl Input {
     /// Returns the conversion to the unit in which this input is displayed if distances are in `unit`: the factor from
     /// the input's own unit, and the symbol.
-    pub const fn told_in(self, unit: LengthUnit) -> (f64, &'static str) {
+    pub const fn display_unit(self, unit: LengthUnit) -> (f64, &'static str) {
         match self {
             Self::Side | Self::Height => {
                 let (in_a_metre, symbol, _) = unit.fine();
@@ -110,21 +110,21 @@ impl<'a> Sensitivity<'a> {
     /// With a doubt, a margin ends where the point is made in less than half of the worlds in which the intended stroke
     /// makes it. `None` if the intended stroke makes it in none.
     pub fn margins(&self, cue: &CueInputs) -> Option<[Margin; 5]> {
-        let least = self.least(cue)?;
-        parallel::map(platform::thread_count(), &Input::ALL, |input| self.around(*input, cue, least)).try_into().ok()
+        let required = self.required(cue)?;
+        parallel::map(platform::thread_count(), &Input::ALL, |input| self.margin_with(*input, cue, required)).try_into().ok()
     }
 
     /// Returns the margin of a single input.
     pub fn margin(&self, input: Input, cue: &CueInputs) -> Option<Margin> {
-        Some(self.around(input, cue, self.least(cue)?))
+        Some(self.margin_with(input, cue, self.required_worlds(cue)?))
     }
 
-    fn around(&self, input: Input, cue: &CueInputs, least: usize) -> Margin {
+    fn margin_with(&self, input: Input, cue: &CueInputs, required: usize) -> Margin {
         let side = |sign: f64| {
             let shifted = |by: f64| self.raised(&input.shifted(self.table, cue, sign * by), &[input]);
             nearest_miss(
                 input,
-                |by| self.makes(&shifted(by), least),
+                |by| self.makes(&shifted(by), required),
                 |by| is_stroke(self.table, self.layout, &shifted(by)) || input.is_tip(),
             )
         };
@@ -140,14 +140,14 @@ impl<'a> Sensitivity<'a> {
 
     /// Returns the number of worlds in which a variation of `cue` must make the point to count as made; `None` if `cue`
     /// makes none.
-    fn least(&self, cue: &CueInputs) -> Option<usize> {
+    fn required_worlds(&self, cue: &CueInputs) -> Option<usize> {
         let made = self.outcomes(cue).filter(|outcome| *outcome == Outcome::Point).count();
         (made > 0).then(|| made.div_ceil(2))
     }
 
-    /// Whether a stroke makes the point in at least `least` worlds.
-    fn makes(&self, cue: &CueInputs, least: usize) -> bool {
-        self.outcomes(cue).filter(|outcome| *outcome == Outcome::Point).take(least).count() == least
+    /// Whether a stroke makes the point in at least `required` worlds.
+    fn makes(&self, cue: &CueInputs, required: usize) -> bool {
+        self.outcomes(cue).filter(|outcome| *outcome == Outcome::Point).take(required).count() == required
     }
 
     /// Returns the outcome of a stroke in each world, or in the assumed one if nothing is in doubt.
@@ -156,7 +156,8 @@ impl<'a> Sensitivity<'a> {
         let is_stroke = is_stroke(table, layout, cue);
         let touching = Touching::of(table, layout);
         let known = worlds.is_empty().then_some((*cue, *table, *layout));
-        let drawn = worlds.iter().map(|world| (aimed(table, layout, &world.layout, cue), &world.table, &world.layout));
+        let drawn =
+            worlds.iter().map(|world| (re_aimed(table, layout, &world.layout, cue), &world.table, &world.layout));
         let come_of = move |(cue, table, layout): (CueInputs, &Table, &Layout)| {
             if is_stroke { outcome(*point, touching, table, layout, &cue) } else { Outcome::NoStroke }
         };
@@ -180,20 +181,20 @@ impl<'a> Sensitivity<'a> {
         };
         let (columns, rows) = (line(width), line(height));
         // Around a stroke that makes no point, a variation counts as made if half of the worlds make it.
-        let least = self.least(cue).unwrap_or(self.worlds.len().div_ceil(2).max(1));
+        let required = self.required(cue).unwrap_or(self.worlds.len().div_ceil(2).max(1));
         let outcomes = parallel::map(platform::thread_count(), &rows, |&y| {
             let row = up.shifted(self.table, middle, y);
             let cell = |x: f64| self.raised(&across.shifted(self.table, &row, x), &[across, up]);
-            columns.iter().map(|&x| self.usual(&cell(x), least)).collect()
+            columns.iter().map(|&x| self.most_frequent_outcome(&cell(x), required)).collect()
         });
         Map { across, up, columns, rows, outcomes }
     }
 
-    /// Returns [`Outcome::Point`] if at least `least` worlds make it, else the most frequent other outcome.
-    fn usual(&self, cue: &CueInputs, least: usize) -> Outcome {
+    /// Returns [`Outcome::Point`] if at least `required` worlds make it, else the most frequent other outcome.
+    fn most_frequent_outcome(&self, cue: &CueInputs, required: usize) -> Outcome {
         let all: Vec<Outcome> = self.outcomes(cue).collect();
         let count = |outcome: Outcome| all.iter().filter(|one| **one == outcome).count();
-        if count(Outcome::Point) >= least {
+        if count(Outcome::Point) >= required {
             return Outcome::Point;
         }
         let others = [Outcome::NoStroke, Outcome::NoBall, Outcome::OneBall, Outcome::TooFewCushions];
@@ -253,7 +254,7 @@ fn outcome(point: Point, touching: Touching, table: &Table, layout: &Layout, cue
     }
     let mut referee = Referee::new(Some(2), CONTACT_STEPS);
     watch_with::<AllSavings, _>(table, layout, &impulse, &mut referee);
-    let Tally { met: [one, other], .. } = referee.tally;
+    let Tally { hit: [one, other], .. } = referee.tally;
     match (one, other) {
         (false, false) => Outcome::NoBall,
         (true, true) if point.is_made(&referee.tally) => Outcome::Point,
@@ -283,17 +284,17 @@ mod tests {
             [Doubt::NONE, Doubt::FULL].map(|doubt| Sensitivity::new(Rule::StraightRail, &table, &layout, doubt));
         let cue = (0..4000)
             .map(|step| CueInputs { a: 0.0, b: 0.2, theta: 0.02, phi: -0.1 + 5e-5 * f64::from(step), speed: 2.5 })
-            .find(|cue| certain.least(cue).is_some() && doubted.least(cue).is_some())
+            .find(|cue| certain.required_worlds(cue).is_some() && doubted.required_worlds(cue).is_some())
             .unwrap();
         (table, layout, cue)
     }
 
     #[test]
-    fn just_inside_a_margin_the_point_is_made_and_just_outside_it_is_not() {
+    fn margin_separates_points_from_misses() {
         let (table, layout, cue) = shot();
         for doubt in [Doubt::NONE, Doubt::FULL] {
             let sensitivity = Sensitivity::new(Rule::StraightRail, &table, &layout, doubt);
-            let least = sensitivity.least(&cue).unwrap();
+            let required = sensitivity.required_worlds(&cue).unwrap();
             let margins = sensitivity.margins(&cue).unwrap();
             let mut ends = 0;
             for Margin { input, less, more, .. } in margins {
@@ -301,7 +302,7 @@ mod tests {
                 {
                     ends += 1;
                     let hair = 1e-3 * input.scan().1;
-                    let makes = |by: f64| sensitivity.makes(&input.shifted(&table, &cue, sign * by), least);
+                    let makes = |by: f64| sensitivity.makes(&input.shifted(&table, &cue, sign * by), required);
                     assert!(makes(end), "{doubt}: {input:?} {sign} {end}");
                     assert!(!makes(end + 2.0 * hair), "{doubt}: {input:?} {sign} {end}");
                 }
@@ -312,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stroke_at_a_touching_ball_has_no_margins_and_one_that_turns_to_it_has_come_to_their_end() {
+    fn margins_exclude_pushing_a_touching_ball() {
         let (table, ..) = shot();
         let layout = Layout::parse(&format!("0,0 {},0 -0.4,0.02", 2.0 * table.radius), &table).unwrap();
         let stroke = |degrees: f64| CueInputs { a: 0.0, b: 0.0, theta: 0.1, phi: degrees.to_radians(), speed: 3.0 };
@@ -326,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tip_that_comes_too_low_for_the_rail_raises_the_cue() {
+    fn low_tip_at_a_rail_raises_the_cue() {
         let (table, _, _) = shot();
         let (reach, radius) = (table.reach(), table.radius);
         let layout = Layout::new([DVec2::new(-reach.x + 0.02, 0.0), DVec2::new(0.0, 0.0), DVec2::new(0.3, 0.1)]);
@@ -335,7 +336,7 @@ mod tests {
         let sensitivity = Sensitivity::new(Rule::StraightRail, &table, &layout, Doubt::NONE);
         let cue = (-400..400)
             .map(|step| CueInputs { phi: 2e-4 * f64::from(step), ..lowest })
-            .find(|cue| sensitivity.least(cue).is_some())
+            .find(|cue| sensitivity.required_worlds(cue).is_some())
             .unwrap();
         let lower = Input::Height.shifted(&table, &cue, -1.0);
         assert!(!has_room(&table, &layout, &lower) && lower.b < cue.b - 0.5e-3 / radius);
@@ -345,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn a_margin_does_not_end_where_the_point_is_lost_on_one_of_many_tables() {
+    fn single_failing_world_does_not_end_a_margin() {
         let (table, layout, cue) = shot();
         let less = |doubt| {
             let sensitivity = Sensitivity::new(Rule::StraightRail, &table, &layout, doubt);
@@ -359,7 +360,7 @@ mod tests {
     }
 
     #[test]
-    fn a_map_holds_the_stroke_in_its_middle_and_the_margins_on_its_axes() {
+    fn map_centre_and_axes_agree_with_the_margins() {
         let (table, layout, cue) = shot();
         for doubt in [Doubt::NONE, Doubt::FULL] {
             let sensitivity = Sensitivity::new(Rule::StraightRail, &table, &layout, doubt);

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::{
-    Ease,
+    LayoutDifficulty,
     draws::{Draw, Draws},
     trial::Task,
 };
@@ -15,11 +15,11 @@ use crate::{
 };
 
 /// Minimum successful attempts for an estimate of the next point, and the number that makes it precise to three percent.
-pub const FEWEST_POINTS: usize = 8;
-pub const MOST_POINTS: usize = 64;
+pub const MIN_POINTS: usize = 8;
+pub const MAX_POINTS: usize = 64;
 
 /// Maximum attempts that are simulated per successful one: a beginner makes few.
-const ATTEMPTS_EACH: usize = 12;
+const ATTEMPTS_PER_POINT: usize = 12;
 
 /// The probability of the next point after a shot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,21 +51,21 @@ impl NextValue {
 /// these attempts that make the point. `None` if no attempt does, or time ran out.
 pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws, points: usize) -> Option<f64> {
     let (mut sum, mut made) = (0.0, 0);
-    for draw in draws.range(0, ATTEMPTS_EACH * points) {
+    for draw in draws.range(0, ATTEMPTS_PER_POINT * points) {
         if made == points {
             break;
         }
-        if task.clock.is_past(task.until) {
+        if task.clock.is_past(task.deadline) {
             return None;
         }
         task.clock.count(1);
         if let Some(end) = final_layout(task, cue, draw) {
-            sum += Ease::under(task.rule).probability(task.table, &end, task.skill);
+            sum += LayoutDifficulty::for_rule(task.rule).probability(task.table, &end, task.skill);
             made += 1;
         }
     }
     // The last attempt may have been aborted.
-    (made > 0 && !task.clock.is_past(task.until)).then(|| sum / made as f64)
+    (made > 0 && !task.clock.is_past(task.deadline)).then(|| sum / made as f64)
 }
 
 /// Returns the layout that an attempt at `cue` leaves if it makes the point.
@@ -76,7 +76,7 @@ pub fn final_layout(task: &Task, cue: &CueInputs, draw: Draw) -> Option<Layout> 
     }
     let impulse = strike(table, &stroke);
     let tally = task.tally(layout, &impulse);
-    let mut observer = FullShot { tally, patience: StepBudget(task.patience), task, given_up: false };
+    let mut observer = FullShot { tally, step_budget: StepBudget(task.max_contact_steps), task, given_up: false };
     let end = simulate(table, layout, &impulse, &mut observer);
     (task.point().is_made(&observer.tally) && !observer.given_up).then(|| end.layout(table))
 }
@@ -84,7 +84,7 @@ pub fn final_layout(task: &Task, cue: &CueInputs, draw: Draw) -> Option<Layout> 
 /// Observes a shot to its end, or until it takes too long.
 struct FullShot<'a> {
     tally: Tally,
-    patience: StepBudget,
+    step_budget: StepBudget,
     task: &'a Task<'a>,
     given_up: bool,
 }
@@ -92,16 +92,17 @@ struct FullShot<'a> {
 impl Observer for FullShot<'_> {
     /// The final layout counts only if the shot makes the point.
     fn awaited(&self) -> Option<[bool; BALLS - 1]> {
-        (!self.tally.met_both()).then(|| self.tally.unmet())
+        (!self.tally.has_hit_both()).then(|| self.tally.not_hit())
     }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
-        self.tally.note(&event);
+        self.tally.count(&event);
         ControlFlow::Continue(())
     }
 
     fn contact_step(&mut self) -> ControlFlow<()> {
-        let flow = if self.task.clock.is_past(self.task.until) { ControlFlow::Break(()) } else { self.patience.step() };
+        let flow =
+            if self.task.clock.is_past(self.task.deadline) { ControlFlow::Break(()) } else { self.step_budget.step() };
         self.given_up |= flow.is_break();
         flow
     }

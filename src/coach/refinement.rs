@@ -4,8 +4,8 @@
 use super::{
     Source, Suggestion,
     evidence::{Distribution, Evidence, Trial},
-    next::{FEWEST_POINTS, MOST_POINTS, NextValue},
-    pool::{BLOCK, Candidate, Race, assume_the_worst},
+    next::{MAX_POINTS, MIN_POINTS, NextValue},
+    pool::{ATTEMPTS_PER_BLOCK, Candidate, Race, assign_worst_next_value},
     trial::Task,
 };
 use crate::{physics::CueInputs, platform::parallel};
@@ -15,37 +15,37 @@ use crate::{physics::CueInputs, platform::parallel};
 const MERGE_DISTANCE: f64 = 1.0;
 
 /// One stroke enters the refinement per this number of remaining simulations, in addition to the best of each kind.
-const SIMULATIONS_EACH: f64 = 100.0;
-const FEWEST: usize = 24;
+const SIMULATIONS_PER_STROKE: f64 = 100.0;
+const MIN_STROKES: usize = 24;
 
-/// Rate of the halving: after the share p of the time, n^(1 - HALVING p) of n strokes are left. The best one thus has the
+/// Rate of the halving: after the share p of the time, n^(1 - `HALVING_RATE` p) of n strokes are left. The best one thus has the
 /// last part of the time alone.
-const HALVING: f64 = 1.2;
+const HALVING_RATE: f64 = 1.2;
 
 /// Blocks per stroke in a round.
-const FEWEST_BLOCKS: usize = 2;
-const MOST_BLOCKS: usize = 256;
+const MIN_BLOCKS: usize = 2;
+const MAX_BLOCKS: usize = 256;
 
 /// Maximum blocks of a stroke in total: its make rate is then known to half a percent.
-const ENOUGH_BLOCKS: usize = 4096;
+const MAX_TOTAL_BLOCKS: usize = 4096;
 
 /// In a plan, the next point is estimated from one successful attempt per this number of attempts in a round: each
 /// needs several attempts, and each is simulated to its end.
-const ATTEMPTS_A_POINT: usize = 16;
+const ATTEMPTS_PER_POINT: usize = 16;
 
 /// Share by which another shot must be better than the former recommendation to replace it: a player who asks again
 /// does not want another shot for a tiny gain that may be chance.
-pub const WORTH_A_CHANGE: f64 = 0.02;
+pub const MIN_IMPROVEMENT: f64 = 0.02;
 
 /// Blocks in one work item of a thread.
-const PIECE: usize = 4;
+const CHUNK_SIZE: usize = 4;
 
 /// Blocks of evidence from which on the climb uses several threads; below, waking them takes longer.
-const SHARED_FROM: usize = 2000;
+const MIN_PARALLEL_BLOCKS: usize = 2000;
 
-/// Attempts after which a stroke that has never missed, within [`NEXT_TO_NO_MISS`], is good enough to end the search early.
-const ENOUGH_WITHOUT_A_MISS: f64 = 576.0;
-const NEXT_TO_NO_MISS: f64 = 1e-4;
+/// Attempts after which a stroke that has never missed, within [`CERTAIN_MISS_RATE`], is good enough to end the search early.
+const CERTAIN_ATTEMPTS: f64 = 576.0;
+const CERTAIN_MISS_RATE: f64 = 1e-4;
 
 /// A stroke that is being improved, and the attempts at it.
 struct Climber {
@@ -58,8 +58,8 @@ struct Climber {
 
 impl Climber {
     /// Updates the make rates from the evidence.
-    fn judge(&mut self) {
-        [self.best.own, self.best.larger] = self.evidence.rates(&self.distribution);
+    fn update_rates(&mut self) {
+        [self.best.own_rate, self.best.larger_error_rate] = self.evidence.rates(&self.distribution);
     }
 
     fn is_former(&self) -> bool {
@@ -67,8 +67,8 @@ impl Climber {
     }
 
     fn is_certain(&self) -> bool {
-        let Candidate { own, larger, .. } = self.best;
-        own.attempts >= ENOUGH_WITHOUT_A_MISS && own.share.min(larger.share) >= 1.0 - NEXT_TO_NO_MISS
+        let Candidate { own_rate: own, larger_error_rate: larger, .. } = self.best;
+        own.attempts >= CERTAIN_ATTEMPTS && own.share.min(larger.share) >= 1.0 - CERTAIN_MISS_RATE
     }
 }
 
@@ -79,7 +79,7 @@ fn sort(climbers: &mut [Climber]) {
 
 /// Moves the former recommendation to the front unless another stroke is better by enough.
 fn prefer_former(climbers: &mut [Climber]) {
-    let bar = climbers.first().map_or(0.0, |best| (1.0 - WORTH_A_CHANGE) * best.best.score());
+    let bar = climbers.first().map_or(0.0, |best| (1.0 - MIN_IMPROVEMENT) * best.best.score());
     if let Some(position) = climbers.iter().position(|climber| climber.is_former() && climber.best.score() >= bar) {
         climbers[..=position].rotate_right(1);
     }
@@ -104,7 +104,7 @@ pub struct Refinement<'a> {
     /// Number of worker threads.
     pub threads: usize,
     /// The share of the budget at which it ends.
-    pub ends: f64,
+    pub end: f64,
     /// Whether the next point counts too.
     pub plan: bool,
     /// Cost of effort in a shot's score.
@@ -116,7 +116,7 @@ pub struct Refinement<'a> {
 impl Refinement<'_> {
     /// Returns the number of strokes that enter a refinement with this number of simulations, at most `most`.
     pub fn size(simulations: f64, most: usize) -> usize {
-        ((simulations / SIMULATIONS_EACH) as usize).clamp(FEWEST, most)
+        ((simulations / SIMULATIONS_PER_STROKE) as usize).clamp(MIN_STROKES, most)
     }
 
     /// Refines the best of a pool and returns them, best first. Calls `on_leader` for every new leader.
@@ -124,22 +124,22 @@ impl Refinement<'_> {
         let mut climbers = self.merged(pool);
         let all = climbers.len() as f64;
         let rounds = libm::log2(all).ceil() + 1.0;
-        let begins = self.task.clock.used();
+        let begins = self.task.clock.used_share();
         let mut live = climbers.len();
         for round in 0.. {
-            let used = self.task.clock.used();
-            if used >= self.ends || live == 0 {
+            let used = self.task.clock.used_share();
+            if used >= self.end || live == 0 {
                 break;
             }
             let round = f64::from(round);
-            let progress = ((used - begins) / (self.ends - begins)).max(round / rounds);
-            let simulations = self.task.clock.simulations_until(self.ends) / (rounds - round).max(1.0);
-            let blocks = simulations / BLOCK as f64;
+            let progress = ((used - begins) / (self.end - begins)).max(round / rounds);
+            let simulations = self.task.clock.remaining_simulations(self.end) / (rounds - round).max(1.0);
+            let blocks = simulations / ATTEMPTS_PER_BLOCK as f64;
             // With more simulations than one stroke can use, others may still improve.
-            let fewest = (blocks / MOST_BLOCKS as f64).ceil().max(1.0);
-            live = live.min(libm::pow(all, 1.0 - HALVING * progress).max(fewest).ceil() as usize);
+            let fewest = (blocks / MAX_BLOCKS as f64).ceil().max(1.0);
+            live = live.min(libm::pow(all, 1.0 - HALVING_RATE * progress).max(fewest).ceil() as usize);
             live = keep_former(&mut climbers, live);
-            let each = ((blocks / live as f64) as usize).clamp(FEWEST_BLOCKS, MOST_BLOCKS);
+            let each = ((blocks / live as f64) as usize).clamp(MIN_BLOCKS, MAX_BLOCKS);
             self.climb(&mut climbers[..live], each);
             if !self.attempt(&mut climbers[..live], each) {
                 break;
@@ -160,7 +160,7 @@ impl Refinement<'_> {
         for candidate in pool {
             let distribution = self.distribution(&candidate.shot.cue);
             let made = |(n, (errors, size)): (usize, _)| (errors, size, candidate.points >> n & 1 == 1);
-            let blocks = candidate.tried / BLOCK;
+            let blocks = candidate.tried / ATTEMPTS_PER_BLOCK;
             let trials: Vec<Trial> = self.race.errors(0..blocks).enumerate().map(made).collect();
             let climber = |source| {
                 let shot = Suggestion { source, ..candidate.shot };
@@ -180,7 +180,7 @@ impl Refinement<'_> {
                 .find(|climber| !climber.is_former() && climber.distribution.distance(&distribution) < MERGE_DISTANCE);
             if let Some(near) = near {
                 near.evidence.add(&distribution, &trials);
-                near.judge();
+                near.update_rates();
             } else {
                 climbers.push(climber(source));
             }
@@ -197,9 +197,9 @@ impl Refinement<'_> {
     /// with a precision that matches `each` blocks of attempts.
     fn climb(&self, climbers: &mut [Climber], each: usize) {
         let Self { task, race, .. } = self;
-        let points = (BLOCK * each / ATTEMPTS_A_POINT).clamp(FEWEST_POINTS, MOST_POINTS);
+        let points = (ATTEMPTS_PER_BLOCK * each / ATTEMPTS_PER_POINT).clamp(MIN_POINTS, MAX_POINTS);
         let evidence: usize = climbers.iter().map(|climber| climber.blocks).sum();
-        let threads = if self.plan || evidence >= SHARED_FROM { self.threads } else { 1 };
+        let threads = if self.plan || evidence >= MIN_PARALLEL_BLOCKS { self.threads } else { 1 };
         let moved = parallel::map(threads, climbers, |climber| {
             let Climber { best, distribution, evidence, .. } = climber;
             let source = if best.shot.source == Source::Search { Source::Search } else { Source::Variation };
@@ -209,19 +209,19 @@ impl Refinement<'_> {
             // Until it is estimated, the next value is the old one.
             let next = NextValue::Assumed(best.next.value());
             let moved = Candidate { next, ..moved };
-            if self.plan { race.look_ahead(task, &moved, points).unwrap_or(moved) } else { moved }
+            if self.plan { race.estimate_next_point(task, &moved, points).unwrap_or(moved) } else { moved }
         });
         for (climber, best) in climbers.iter_mut().zip(moved) {
             (climber.distribution, climber.best) = (self.distribution(&best.shot.cue), best);
         }
         if self.plan {
-            assume_the_worst(climbers.iter_mut().map(|climber| &mut climber.best));
+            assign_worst_next_value(climbers.iter_mut().map(|climber| &mut climber.best));
         }
     }
 
     /// Tries each stroke at `each` more blocks of errors. Returns whether anything was tried.
     fn attempt(&mut self, climbers: &mut [Climber], each: usize) -> bool {
-        let wanted = |climber: &Climber| climber.blocks..(climber.blocks + each).min(ENOUGH_BLOCKS);
+        let wanted = |climber: &Climber| climber.blocks..(climber.blocks + each).min(MAX_TOTAL_BLOCKS);
         let most = climbers.iter().map(|climber| wanted(climber).end).max().unwrap_or(0);
         self.race.extend_to(self.task.worlds, most);
         let Self { task, race, .. } = &*self;
@@ -231,7 +231,7 @@ impl Refinement<'_> {
             .flat_map(|(index, climber)| {
                 let blocks = wanted(climber);
                 let end = blocks.end;
-                blocks.step_by(PIECE).map(move |begin| (index, begin..(begin + PIECE).min(end)))
+                blocks.step_by(CHUNK_SIZE).map(move |begin| (index, begin..(begin + CHUNK_SIZE).min(end)))
             })
             .collect();
         let tried = parallel::map(self.threads, &pieces, |(index, blocks)| {
@@ -246,7 +246,7 @@ impl Refinement<'_> {
             if !own.is_empty() {
                 climber.evidence.add(&climber.distribution, &own);
             }
-            climber.judge();
+            climber.update_rates();
         }
         !tried.is_empty()
     }
@@ -259,7 +259,7 @@ mod tests {
     use super::*;
     use crate::{
         coach::{
-            Doubt, FirstMet, Skill, clock::Clock, draws::Worlds, evidence::Rate, first::FirstShotSearch,
+            Doubt, FirstContact, Skill, clock::Clock, draws::Worlds, evidence::Rate, first::FirstShotSearch,
             make_probability, trial::CONTACT_STEPS,
         },
         game::{Rule, Tally},
@@ -267,11 +267,11 @@ mod tests {
     };
 
     #[test]
-    fn what_was_advised_stays_unless_another_is_clearly_better() {
+    fn former_recommendation_stays_unless_clearly_beaten() {
         let climber = |(share, source)| {
             let cue = CueInputs { a: 0.0, b: 0.2, theta: 0.0, phi: 0.0, speed: 2.0 };
             let best = Candidate::of(Suggestion { cue, source }, &Tally::default(), 0.0);
-            let best = Candidate { own: Rate { share, attempts: 100.0 }, ..best };
+            let best = Candidate { own_rate: Rate { share, attempts: 100.0 }, ..best };
             let distribution = Distribution::new(&Skill::CLUB, Table::default().radius, &cue);
             Climber { best, distribution, evidence: Evidence::default(), blocks: 0 }
         };
@@ -280,31 +280,31 @@ mod tests {
             let mut climbers: Vec<Climber> = [one, (0.7, Source::Former), two].map(climber).into();
             sort(&mut climbers);
             prefer_former(&mut climbers);
-            let shares: Vec<f64> = climbers.iter().map(|climber| climber.best.own.share).collect();
+            let shares: Vec<f64> = climbers.iter().map(|climber| climber.best.own_rate.share).collect();
             assert_eq!(climbers[0].is_former(), is_first, "{shares:?}");
             assert!(shares[usize::from(is_first)..].is_sorted_by(|one, other| one > other), "{shares:?}");
         }
     }
 
     #[test]
-    fn a_stroke_at_the_edge_climbs_and_those_that_are_alike_are_one() {
+    fn edge_strokes_climb_and_similar_strokes_are_merged() {
         let (table, cancel, skill) = (Table::default(), AtomicBool::new(false), Skill::CLUB);
         let (layout, rule) = (Layout::opening(&table), Rule::StraightRail);
         let worlds = Worlds::new(&table, &layout, Doubt::NONE);
         let [unlimited, clock] =
             [u64::MAX, 4000].map(|simulations| Clock::start(Duration::from_secs(60), simulations, &cancel));
-        let (until, patience) = (clock.moment(1.0), CONTACT_STEPS);
+        let (deadline, max_contact_steps) = (clock.deadline(1.0), CONTACT_STEPS);
         let task = Task {
             table: &table,
             layout: &layout,
             rule,
             skill,
             jumps: true,
-            first: FirstMet::Any,
+            first: FirstContact::Any,
             worlds: &worlds,
             clock: &clock,
-            until,
-            patience,
+            deadline,
+            max_contact_steps,
         };
         let mut race = Race::new(1);
         race.extend_to(&worlds, 8);
@@ -312,16 +312,16 @@ mod tests {
         let found = FirstShotSearch::new(Task { clock: &unlimited, ..task }).run(&[], &[], 1).solutions[0].0.cue;
         let turned = |n: i32| CueInputs { phi: found.phi + 0.1 * f64::from(n) * skill.at(&found).phi, ..found };
         let made = (-40..=0).filter_map(|n| Candidate::new(&task, turned(n), Source::Search, 0.0));
-        let pool: Vec<_> = made.take(2).map(|candidate| race.go_on(&task, &candidate, 8).unwrap()).collect();
-        let refinement = Refinement { task, threads: 2, ends: 1.0, plan: false, weight: 0.0, race };
+        let pool: Vec<_> = made.take(2).map(|candidate| race.advance(&task, &candidate, 8).unwrap()).collect();
+        let refinement = Refinement { task, threads: 2, end: 1.0, plan: false, weight: 0.0, race };
         let merged = refinement.merged(&pool);
         assert_eq!((merged.len(), merged[0].blocks), (1, 8));
-        assert!(merged[0].best.own.attempts > 40.0, "both have 24: {:?}", merged[0].best);
+        assert!(merged[0].best.own_rate.attempts > 40.0, "both have 24: {:?}", merged[0].best);
         let mut reported = 0;
         let refined = refinement.run(&pool, &mut |_| reported += 1);
         let chance = |cue: CueInputs| make_probability(skill, rule, &table, &layout, &cue, 4000, 1).rate;
         let [before, after] = [pool[0].shot.cue, refined[0].shot.cue].map(chance);
         assert!(after > before + 0.01 && reported > 1, "{before} {after}");
-        assert!((refined[0].own.share - after).abs() < 0.04, "{:?} {after}", refined[0]);
+        assert!((refined[0].own_rate.share - after).abs() < 0.04, "{:?} {after}", refined[0]);
     }
 }

@@ -5,7 +5,7 @@ use std::{
     time::Duration,
 };
 
-use super::{Doubt, FirstMet, Skill};
+use super::{Doubt, FirstContact, Skill};
 use crate::{game::Rule, physics::CueInputs, platform};
 
 /// A player, and the uncertainty about the table and the ball positions.
@@ -19,7 +19,7 @@ pub struct Shooter {
 
 impl Shooter {
     /// Returns the effective doubt: none for a perfect player.
-    pub fn doubts(&self) -> Doubt {
+    pub fn effective_doubt(&self) -> Doubt {
         if self.skill.is_perfect() { Doubt::NONE } else { self.doubt }
     }
 }
@@ -47,7 +47,7 @@ pub struct Request {
     pub jumps: bool,
     /// What the cue ball must hit first when the shot is played as intended. An attempt that begins otherwise by
     /// mistake and still makes the point counts.
-    pub first: FirstMet,
+    pub first: FirstContact,
     /// Time limit of the search.
     pub budget: Duration,
     /// Simulations after which the search ends. It may run slightly longer, as it ends between rounds.
@@ -79,7 +79,7 @@ impl Default for Request {
             doubt: Doubt::NONE,
             plan: false,
             jumps: true,
-            first: FirstMet::Any,
+            first: FirstContact::Any,
             budget: Duration::from_millis(500),
             simulations: u64::MAX,
             threads: platform::thread_count(),

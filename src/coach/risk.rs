@@ -18,7 +18,7 @@ pub struct Risk {
 }
 
 /// Minimum share of attempts for a cause to be reported.
-const LEAST: f64 = 0.02;
+const MIN_REPORTED_SHARE: f64 = 0.02;
 
 /// A source of error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -36,7 +36,7 @@ impl Cause {
     pub const ALL: [Self; 3] = [Self::Hand, Self::Table, Self::Placing];
 
     /// Returns the doubt that remains if this is the only cause, and whether the player makes execution errors.
-    pub(super) const fn alone(self, doubt: Doubt) -> (Doubt, bool) {
+    pub(super) const fn isolated(self, doubt: Doubt) -> (Doubt, bool) {
         match self {
             Self::Hand => (Doubt::NONE, true),
             Self::Table => (Doubt { placing: 0.0, ..doubt }, false),
@@ -52,7 +52,7 @@ impl Risk {
         let all = [(Cause::Hand, self.hand), (Cause::Table, self.table), (Cause::Placing, self.placing)];
         let [first, ..] = all;
         let largest = all.into_iter().fold(first, |largest, other| if other.1 > largest.1 { other } else { largest });
-        (largest.1 >= LEAST && !self.is_at_edge(missed)).then_some(largest.0)
+        (largest.1 >= MIN_REPORTED_SHARE && !self.is_at_edge(missed)).then_some(largest.0)
     }
 
     /// Whether the intended stroke is at the edge of the region that makes the point. There any error misses, so that
@@ -60,7 +60,7 @@ impl Risk {
     fn is_at_edge(&self, missed: Option<f64>) -> bool {
         let mut shares = [self.hand, self.table, self.placing];
         shares.sort_by(f64::total_cmp);
-        missed.is_some_and(|missed| shares[1] >= LEAST && shares[1] > 0.9 * missed)
+        missed.is_some_and(|missed| shares[1] >= MIN_REPORTED_SHARE && shares[1] > 0.9 * missed)
     }
 
     /// Describes the risk in a sentence, given the total share of misses.
@@ -95,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_main_cause_is_the_one_that_misses_most_by_itself() {
+    fn main_cause_alone_misses_most() {
         let risk = |hand, table, placing| Risk { hand, table, placing };
         assert_eq!(risk(0.3, 0.4, 0.1).main_cause(None), Some(Cause::Table));
         assert_eq!(risk(0.3, 0.1, 0.31).main_cause(None), Some(Cause::Placing));
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn where_two_errors_miss_as_often_as_all_together_none_is_the_main_cause() {
+    fn no_main_cause_if_two_alone_miss_as_often() {
         let risk = Risk { hand: 0.37, table: 0.36, placing: 0.39 };
         assert!(risk.words(Some(0.354)).contains("two of these alone miss as often as all together"));
         assert_eq!((risk.main_cause(Some(0.354)), risk.main_cause(Some(0.7))), (None, Some(Cause::Placing)));

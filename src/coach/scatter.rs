@@ -8,7 +8,7 @@ use super::{
     Shooter,
     draws::Draws,
     next::final_layout,
-    trial::{CONTACT_STEPS, without_limits},
+    trial::{CONTACT_STEPS, with_unlimited_task},
 };
 use crate::{
     game::Rule,
@@ -50,7 +50,7 @@ pub fn scatter(
     seed: u64,
     cancel: &AtomicBool,
 ) -> Scatter {
-    let ends = without_limits(table, layout, rule, shooter.into(), CONTACT_STEPS, cancel, |task| {
+    let ends = with_unlimited_task(table, layout, rule, shooter.into(), CONTACT_STEPS, cancel, |task| {
         let draws = Draws::independent(attempts, task.worlds, seed);
         let draws: Vec<_> = draws.iter().collect();
         parallel::map(platform::thread_count(), &draws, |draw| {
@@ -71,7 +71,7 @@ mod tests {
     };
 
     #[test]
-    fn a_player_who_errs_makes_what_the_make_probability_says_and_scatters_around_the_meant_end() {
+    fn scatter_agrees_with_make_probability_and_grows_with_errors() {
         let table = Table::preset("textbook").unwrap();
         let layout = Layout::opening(&table);
         let cue = CueInputs::parse("-0.2,0.2,6,82.6,2.5").unwrap();

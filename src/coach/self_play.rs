@@ -11,13 +11,13 @@ use super::{
     Coach, Doubt, Request, Shooter,
     draws::{Draw, World, Worlds},
     next::final_layout,
-    trial::{UNLIMITED_STEPS, without_limits},
+    trial::{UNLIMITED_STEPS, with_unlimited_task},
 };
 use crate::{
     physics::CueInputs,
     player::{
         errors::{self, Errors},
-        misplaced,
+        perturbed_layout,
     },
     table::{Layout, LayoutError, Table},
 };
@@ -54,19 +54,21 @@ pub fn inning(
     on_point: &mut dyn FnMut(&Inning, &Layout),
 ) -> Result<Inning, LayoutError> {
     // A perfect player has no doubts.
-    let doubt = request.shooter().doubts();
+    let doubt = request.shooter().effective_doubt();
     let mut inning = Inning::default();
     let mut layout = *layout;
-    let real = Worlds::new(coach.table(), &layout, Doubt { placing: 0.0, ..doubt }).draw(|| errors::normal(rng)).table;
+    let real = Worlds::new(coach.table(), &layout, Doubt { placing: 0.0, ..doubt })
+        .draw(|| errors::standard_normal(rng))
+        .table;
     while inning.points < most && Instant::now() < until {
         let request = Request { seed: request.seed.wrapping_add(u64::from(inning.points)), ..request.clone() };
-        let reported = misplaced(coach.table(), &layout, doubt.placing, || errors::normal(rng));
+        let reported = perturbed_layout(coach.table(), &layout, doubt.placing, || errors::standard_normal(rng));
         let advice = coach.recommend(&reported, &request)?;
         inning.simulations += advice.simulations;
         inning.elapsed += advice.elapsed;
         inning.slowest = inning.slowest.max(advice.elapsed);
         let world = World { table: real.clone(), layout };
-        let end = turn(coach.table(), &reported, &request, &advice.cue, &errors::one(rng), &world);
+        let end = turn(coach.table(), &reported, &request, &advice.cue, &errors::random(rng), &world);
         let Some(end) = end else {
             inning.missed = true;
             break;
@@ -89,7 +91,7 @@ fn turn(
 ) -> Option<Layout> {
     // The simulation of the real stroke has no limits.
     let shooter = Shooter { skill: request.skill, doubt: Doubt::NONE };
-    without_limits(table, layout, request.rule, shooter, UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
+    with_unlimited_task(table, layout, request.rule, shooter, UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
         final_layout(task, cue, Draw { errors, world: Some(world) })
     })
 }
@@ -102,7 +104,7 @@ mod tests {
     use crate::coach::Skill;
 
     #[test]
-    fn a_perfect_player_has_no_doubts() {
+    fn perfect_player_is_unaffected_by_doubt() {
         let coach = Coach::without_policy(Table::default());
         let layout = Layout::opening(coach.table());
         let [certain, doubtful] = [Doubt::NONE, Doubt::FULL].map(|doubt| {

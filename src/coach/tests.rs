@@ -37,7 +37,7 @@ fn request(rule: Rule, simulations: u64) -> Request {
 }
 
 #[test]
-fn what_is_called_solved_makes_the_point_under_every_rule() {
+fn solved_recommendation_makes_the_point_under_every_rule() {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(21);
     for name in ["match", "thesis"] {
         let coach = Coach::new(Table::preset(name).unwrap());
@@ -57,7 +57,7 @@ fn what_is_called_solved_makes_the_point_under_every_rule() {
 }
 
 #[test]
-fn a_stroke_is_judged_as_the_coachs_own_were() {
+fn judge_agrees_with_the_coachs_own_estimate() {
     let coach = coach();
     let layout = held_out_layouts(coach.table(), 1, 5)[0];
     let shooter = Shooter { skill: Skill::CLUB, doubt: Doubt::FULL };
@@ -74,7 +74,7 @@ fn a_stroke_is_judged_as_the_coachs_own_were() {
 /// A shot that takes the lead at the end is rated by other attempts than those that chose it; an attempt range that
 /// starts at 0 would give the rate that chose it.
 #[test]
-fn a_shot_that_takes_the_lead_at_the_end_says_by_which_attempts_it_was_judged() {
+fn late_leader_reports_the_attempts_that_judged_it() {
     let coach = coach();
     let layout = held_out_layouts(coach.table(), 1, 5)[0];
     let asked = |seed| Request { skill: Skill::CLUB, seed, ..request(Rule::ThreeCushion, 1_000) };
@@ -89,7 +89,7 @@ fn a_shot_that_takes_the_lead_at_the_end_says_by_which_attempts_it_was_judged() 
 /// The estimate uses errors that took no part in the choice, so it must agree with a plain Monte Carlo estimate of a
 /// hundred thousand attempts. Four standard errors are exceeded once in 16,000 such comparisons.
 #[test]
-fn the_make_probability_is_that_of_a_hundred_thousand_plain_simulations() {
+fn make_probability_agrees_with_100000_simulations() {
     let coach = coach();
     let (mut within, mut layouts) = (0, 0);
     for rule in [Rule::StraightRail, Rule::ThreeCushion] {
@@ -109,7 +109,7 @@ fn the_make_probability_is_that_of_a_hundred_thousand_plain_simulations() {
 }
 
 #[test]
-fn a_search_pays_and_its_probability_beats_the_first_shot_that_scores() {
+fn search_improves_on_the_first_successful_shot() {
     let (coach, rule) = (coach(), Rule::ThreeCushion);
     let (mut first, mut best) = (0.0, 0.0);
     for layout in held_out_layouts(coach.table(), 6, 8) {
@@ -122,7 +122,7 @@ fn a_search_pays_and_its_probability_beats_the_first_shot_that_scores() {
 }
 
 #[test]
-fn the_same_request_gets_the_same_answer_with_any_number_of_threads() {
+fn answer_does_not_depend_on_the_number_of_threads() {
     let coach = coach();
     let layout = Layout::opening(coach.table());
     for skill in [Skill::PERFECT, Skill::EXPERT] {
@@ -137,12 +137,12 @@ fn the_same_request_gets_the_same_answer_with_any_number_of_threads() {
 }
 
 #[test]
-fn alternatives_are_of_different_kinds_and_every_improvement_is_told() {
+fn alternatives_differ_in_kind_and_improvements_are_reported() {
     let coach = coach();
     let mut told = Vec::new();
     let layout = Layout::opening(coach.table());
     let advice =
-        coach.recommend_and_tell(&layout, &request(Rule::StraightRail, 30_000), |news| told.push(*news)).unwrap();
+        coach.recommend_with_progress(&layout, &request(Rule::StraightRail, 30_000), |news| told.push(*news)).unwrap();
     let best = advice.make_probability.unwrap().rate;
     for shot in &advice.alternatives {
         assert!(shot.make_probability.is_none_or(|rate| rate.rate >= 0.5 * best), "{shot:?} beside {best}");
@@ -157,7 +157,7 @@ fn alternatives_are_of_different_kinds_and_every_improvement_is_told() {
 }
 
 #[test]
-fn asking_again_makes_no_advice_worse() {
+fn repeated_request_never_worsens_the_advice() {
     let coach = coach();
     let (rule, skill) = (Rule::ThreeCushion, Skill::CLUB);
     let [mut before, mut again, mut anew] = [0.0; 3];
@@ -187,7 +187,7 @@ fn asking_again_makes_no_advice_worse() {
 }
 
 #[test]
-fn without_time_there_is_still_an_attempt_and_it_is_not_called_a_solution() {
+fn zero_budget_gives_an_unsolved_attempt() {
     let coach = Coach::without_policy(Table::preset("thesis").unwrap());
     for skill in [Skill::PERFECT, Skill::EXPERT] {
         let request = Request { rule: Rule::ThreeCushion, skill, budget: Duration::ZERO, ..Request::default() };
@@ -200,7 +200,7 @@ fn without_time_there_is_still_an_attempt_and_it_is_not_called_a_solution() {
 
 /// The policy's own shots are tried even without time.
 #[test]
-fn a_shot_that_is_found_at_the_last_moment_is_judged_and_nothing_is_told_that_nobody_knows() {
+fn zero_budget_judges_policy_shot_and_omits_unknown_values() {
     let coach = coach();
     let layout = Layout::opening(coach.table());
     let advice = |seed| {
@@ -215,7 +215,7 @@ fn a_shot_that_is_found_at_the_last_moment_is_judged_and_nothing_is_told_that_no
 }
 
 #[test]
-fn a_search_that_is_cancelled_ends_with_the_best_so_far() {
+fn cancelled_search_returns_the_best_shot_so_far() {
     let coach = coach();
     let request = Request { budget: Duration::from_secs(3600), skill: Skill::EXPERT, ..Request::default() };
     let cancel = Arc::clone(&request.cancel);
@@ -230,7 +230,7 @@ fn a_search_that_is_cancelled_ends_with_the_best_so_far() {
 }
 
 #[test]
-fn time_is_kept_where_contacts_are_stiff() {
+fn stiff_contacts_do_not_exceed_the_time_budget() {
     let coach = Coach::new(Table::preset("thesis").unwrap());
     for layout in held_out_layouts(coach.table(), 5, 2) {
         let budget = Duration::from_millis(60);
@@ -243,7 +243,7 @@ fn time_is_kept_where_contacts_are_stiff() {
 
 /// Nearly every stroke at these balls ends in a slow contact, and hardly one in a thousand makes the point.
 #[test]
-fn a_rare_shot_is_found_among_stiff_contacts() {
+fn rare_shot_is_found_despite_stiff_contacts() {
     let coach = Coach::new(Table::preset("thesis").unwrap());
     let layout = Layout::parse("-0.9,0.1 0.3,0.3 0.6,-0.5", coach.table()).unwrap();
     for seed in 1..=5 {
@@ -258,7 +258,7 @@ fn a_rare_shot_is_found_among_stiff_contacts() {
 }
 
 #[test]
-fn a_player_without_errors_never_misses() {
+fn perfect_player_never_misses() {
     let coach = coach();
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
     let request = Request { skill: Skill::PERFECT, ..request(Rule::OneCushion, u64::MAX) };
@@ -269,7 +269,7 @@ fn a_player_without_errors_never_misses() {
 }
 
 #[test]
-fn advice_for_the_opening_of_a_umb_game_meets_the_red_ball_first_in_three_cushion_alone() {
+fn only_three_cushion_opening_advice_must_hit_red_first() {
     let table = Table { opening: Opening::Umb, ..Table::default() };
     let coach = Coach::new(table.clone());
     for side in [Side::Left, Side::Right] {
@@ -325,7 +325,7 @@ fn strokes_without_room(layouts: usize) -> (usize, usize) {
             ..request(Rule::ALL[number / 9 % 3], if number % 10 == 9 { 0 } else { 1_500 })
         };
         let mut named: Vec<CueInputs> = coach.policy_shot(layout, request.rule, &request.skill).into_iter().collect();
-        let advice = coach.recommend_and_tell(layout, &request, |news| named.push(news.cue)).unwrap();
+        let advice = coach.recommend_with_progress(layout, &request, |news| named.push(news.cue)).unwrap();
         named.push(advice.cue);
         named.extend(advice.alternatives.iter().map(|shot| shot.cue));
         all += named.len();
@@ -335,21 +335,21 @@ fn strokes_without_room(layouts: usize) -> (usize, usize) {
 }
 
 #[test]
-fn no_stroke_that_the_coach_names_goes_through_a_rail_or_a_ball() {
+fn recommended_strokes_have_room_for_the_cue() {
     let (bad, all) = strokes_without_room(60);
     assert!(bad == 0 && all > 200, "{bad} of {all}");
 }
 
 #[test]
-#[ignore = "takes minutes: cargo test --profile quick --lib no_stroke_on_ten_thousand -- --ignored --nocapture"]
-fn no_stroke_on_ten_thousand_layouts_goes_through_a_rail_or_a_ball() {
+#[ignore = "takes minutes: cargo test --profile quick --lib room_on_ten_thousand -- --ignored --nocapture"]
+fn recommended_strokes_have_room_on_ten_thousand_layouts() {
     let (bad, all) = strokes_without_room(10_000);
     println!("{bad} of {all} strokes on 10,000 layouts have no room");
     assert_eq!(bad, 0, "of {all}");
 }
 
 #[test]
-fn a_ball_that_touches_the_cue_ball_is_not_played_at() {
+fn touching_ball_is_never_aimed_at() {
     let coach = coach();
     let table = coach.table();
     let touching = DVec2::new(2.0 * table.radius, 0.0);
@@ -365,7 +365,7 @@ fn a_ball_that_touches_the_cue_ball_is_not_played_at() {
 }
 
 #[test]
-fn a_frozen_cue_ball_gets_advice_all_the_same_and_a_table_without_limits_gets_what_it_always_got() {
+fn frozen_cue_ball_gets_strokes_within_the_cue_limits() {
     let free = Coach::without_policy(Table { room: None, ..Table::default() });
     let table = Table { room: Some(Room::default()), ..free.table().clone() };
     let coach = Coach::without_policy(table.clone());
@@ -380,13 +380,13 @@ fn a_frozen_cue_ball_gets_advice_all_the_same_and_a_table_without_limits_gets_wh
 }
 
 #[test]
-fn an_impossible_layout_is_refused() {
+fn invalid_layout_is_refused() {
     let layout = Layout::new([DVec2::ZERO; 3]);
     assert!(matches!(coach().recommend(&layout, &Request::default()), Err(LayoutError::Overlap { .. })));
 }
 
 #[test]
-fn jumps_are_candidates_where_they_are_allowed_and_on_a_table_that_flies() {
+fn jumps_are_searched_only_if_allowed_and_simulated() {
     // The exercise "jump-from-near": over red, to yellow.
     let (table, cancel) = (Table::default(), AtomicBool::new(false));
     let layout = Layout::parse("-0.3,0 0.19,-0.08 -0.17,-0.09", &table).unwrap();
@@ -401,11 +401,11 @@ fn jumps_are_candidates_where_they_are_allowed_and_on_a_table_that_flies() {
         rule: Rule::StraightRail,
         skill: Skill::EXPERT,
         jumps,
-        first: FirstMet::Any,
+        first: FirstContact::Any,
         worlds: &worlds,
         clock: &clock,
-        until: clock.moment(1.0),
-        patience: CONTACT_STEPS,
+        deadline: clock.deadline(1.0),
+        max_contact_steps: CONTACT_STEPS,
     };
     let is_candidate = |jumps| Candidate::new(&task(&table, jumps), model, Source::Search, 0.0).is_some();
     assert!(is_candidate(true) && !is_candidate(false));
@@ -416,14 +416,14 @@ fn jumps_are_candidates_where_they_are_allowed_and_on_a_table_that_flies() {
     // The search's own jumps make the point here and fly over red.
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
     let allowed = task(&table, true);
-    let found = (0..40_000).filter_map(|_| elevated::raised(&table, &layout, &mut rng));
+    let found = (0..40_000).filter_map(|_| elevated::random_elevated_stroke(&table, &layout, &mut rng));
     let found = found.filter_map(|cue| Candidate::new(&allowed, cue, Source::Search, 0.0));
     let over = found.filter(|found| Technique::of(&table, &layout, &found.shot.cue).unwrap().over.is_some()).count();
     assert!(over > 0);
 }
 
 #[test]
-fn no_shot_that_is_advised_jumps_or_bends_where_that_is_forbidden() {
+fn forbidden_jumps_and_masses_are_never_recommended() {
     let coach = Coach::without_policy(Table::default());
     let line = "-0.432457,-0.088436 -0.336216,-0.080449 -0.145764,-0.073855";
     let layout = Layout::parse(line, coach.table()).unwrap();
@@ -437,13 +437,15 @@ fn no_shot_that_is_advised_jumps_or_bends_where_that_is_forbidden() {
 }
 
 #[test]
-fn a_shot_begins_as_the_player_wants_it_to() {
+fn recommended_shot_begins_as_requested() {
     let coach = Coach::without_policy(Table::default());
     let layout = Layout::parse("-0.9,-0.3 0.2,0.4 0.9,-0.2", coach.table()).unwrap();
     for skill in [Skill::PERFECT, Skill::CLUB] {
-        for (first, begins) in
-            [(FirstMet::OtherCueBall, (1, false)), (FirstMet::Red, (2, false)), (FirstMet::Cushion, (0, true))]
-        {
+        for (first, begins) in [
+            (FirstContact::OtherCueBall, (1, false)),
+            (FirstContact::Red, (2, false)),
+            (FirstContact::Cushion, (0, true)),
+        ] {
             let advice =
                 coach.recommend(&layout, &Request { skill, first, ..request(Rule::OneCushion, 20_000) }).unwrap();
             let kinds = advice.kind.into_iter().chain(advice.alternatives.iter().map(|shot| shot.kind));
@@ -453,6 +455,6 @@ fn a_shot_begins_as_the_player_wants_it_to() {
         }
     }
     // The opening must hit red first, so a request for yellow first has no solution.
-    let request = Request { first: FirstMet::OtherCueBall, ..request(Rule::ThreeCushion, 2000) };
+    let request = Request { first: FirstContact::OtherCueBall, ..request(Rule::ThreeCushion, 2000) };
     assert!(!coach.recommend(&Layout::opening(coach.table()), &request).unwrap().solved);
 }

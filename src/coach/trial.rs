@@ -7,7 +7,7 @@ use std::{
 };
 
 use super::{
-    FirstMet, Shooter, Skill,
+    FirstContact, Shooter, Skill,
     candidates::{MAX_ELEVATION, playable},
     clock::Clock,
     draws::{Draw, World, Worlds},
@@ -16,7 +16,7 @@ use super::{
 use crate::{
     game::{Point, Referee, Rule, Tally, Touching, pushes_touching_ball},
     physics::{CueInputs, Impulse, strike},
-    player::aimed,
+    player::re_aimed,
     simulation::{AllSavings, Event, Observer, watch_with},
     table::{BALLS, Layout, Table},
 };
@@ -35,39 +35,51 @@ pub struct Task<'a> {
     /// Whether jumps and massés may be played.
     pub jumps: bool,
     /// What the shot must hit first.
-    pub first: FirstMet,
+    pub first: FirstContact,
     /// The tables and layouts that may be the real ones.
     pub worlds: &'a Worlds,
     /// Counts the simulations and detects cancellation.
     pub clock: &'a Clock<'a>,
     /// Time at which a simulation is aborted.
-    pub until: Instant,
+    pub deadline: Instant,
     /// Steps of resting contacts after which a shot is given up as a miss. Balls that press each other for so long have
     /// lost their speed.
-    pub patience: u32,
+    pub max_contact_steps: u32,
 }
 
 /// Steps of resting contacts after which a shot that is one of many is given up as a miss.
 pub const CONTACT_STEPS: u32 = 100;
 
-/// Value of `patience` that follows every contact to its end.
+/// Value of `max_contact_steps` that follows every contact to its end.
 pub const UNLIMITED_STEPS: u32 = u32::MAX;
 
 /// Runs `play` with a task for strokes of `shooter` without limits on time and simulations. It ends early only if
 /// another thread sets `cancel`.
-pub fn without_limits<T>(
+pub fn with_unlimited_task<T>(
     table: &Table,
     layout: &Layout,
     rule: Rule,
     shooter: Shooter,
-    patience: u32,
+    max_contact_steps: u32,
     cancel: &AtomicBool,
     play: impl FnOnce(&Task) -> T,
 ) -> T {
     let clock = Clock::start(Duration::MAX, u64::MAX, cancel);
-    let (skill, worlds, until) = (shooter.skill, Worlds::new(table, layout, shooter.doubts()), clock.moment(1.0));
-    let (jumps, first) = (true, FirstMet::Any);
-    play(&Task { table, layout, rule, skill, jumps, first, worlds: &worlds, clock: &clock, until, patience })
+    let (skill, worlds, deadline) =
+        (shooter.skill, Worlds::new(table, layout, shooter.effective_doubt()), clock.deadline(1.0));
+    let (jumps, first) = (true, FirstContact::Any);
+    play(&Task {
+        table,
+        layout,
+        rule,
+        skill,
+        jumps,
+        first,
+        worlds: &worlds,
+        clock: &clock,
+        deadline,
+        max_contact_steps,
+    })
 }
 
 impl Task<'_> {
@@ -96,7 +108,7 @@ impl Task<'_> {
     }
 
     /// Whether a stroke with this tally is a solution: it makes the point, begins as requested and may be recommended.
-    pub fn suits(&self, cue: &CueInputs, tally: &Tally) -> bool {
+    pub fn is_solution(&self, cue: &CueInputs, tally: &Tally) -> bool {
         self.point().is_made(tally) && self.first.allows(tally) && self.allows(cue)
     }
 
@@ -112,7 +124,7 @@ impl Task<'_> {
 
     fn play_on(&self, table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Tally> {
         let impulse = strike(table, cue);
-        let referee = Referee::new(Some(2), self.patience).beginning(self.tally(layout, &impulse));
+        let referee = Referee::new(Some(2), self.max_contact_steps).with_tally(self.tally(layout, &impulse));
         let mut observer = TimeLimited { referee, timed_out: false, task: self };
         watch_with::<AllSavings, _>(table, layout, &impulse, &mut observer);
         (!observer.timed_out).then_some(observer.referee.tally)
@@ -131,7 +143,7 @@ impl Task<'_> {
         match draw.world {
             None => (self.skill.stroke(self.table.radius, cue, draw.errors), self.table, self.layout),
             Some(World { table, layout }) => {
-                let cue = aimed(self.table, self.layout, layout, cue);
+                let cue = re_aimed(self.table, self.layout, layout, cue);
                 (self.skill.stroke(table.radius, &cue, draw.errors), table, layout)
             }
         }
@@ -150,7 +162,7 @@ impl Task<'_> {
     pub fn attempts<'d>(&self, cue: &CueInputs, draws: impl Iterator<Item = Draw<'d>>) -> Attempts {
         let mut attempts = Attempts::default();
         for draw in draws {
-            if self.clock.is_past(self.until) {
+            if self.clock.is_past(self.deadline) {
                 break;
             }
             let Some(point) = self.makes(cue, draw) else { break };
@@ -193,7 +205,7 @@ impl Observer for TimeLimited<'_> {
     }
 
     fn contact_step(&mut self) -> ControlFlow<()> {
-        if self.task.clock.is_past(self.task.until) {
+        if self.task.clock.is_past(self.task.deadline) {
             self.timed_out = true;
             return ControlFlow::Break(());
         }

@@ -14,13 +14,13 @@ const SAMPLING_INTERVAL: f64 = 0.005;
 
 /// A cue ball that comes to rest within this distance of its closest point to a ball stopped short of it, m: distances
 /// are reported to a centimetre.
-const STOPPED: f64 = 0.02;
+const MAX_STOP_DISTANCE: f64 = 0.02;
 
 /// A gap below this is reported as "a hair", m: a smaller one would be rounded to zero.
 const HAIR: f64 = 0.001;
 
 /// Minimum speed of a moving ball, m/s.
-const MOVING: f64 = 0.05;
+const MIN_MOVING_SPEED: f64 = 0.05;
 
 /// Cosine of the smallest angle between the relative motion and the line between two balls at which one passes the
 /// other. The condition must hold [`PASSING_WINDOW`] s before and after the moment of closest approach.
@@ -29,7 +29,7 @@ const PASSING_WINDOW: f64 = 0.002;
 
 /// How the cue ball missed an object ball.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Passed {
+pub enum MissKind {
     /// On the ball's left, seen along the cue ball's path.
     Left,
     /// On the ball's right.
@@ -50,7 +50,7 @@ pub struct Miss {
     /// The gap between the two balls at that moment, m.
     pub gap: f64,
     /// How the ball was missed.
-    pub passed: Passed,
+    pub kind: MissKind,
 }
 
 /// The result of a stroke.
@@ -70,8 +70,8 @@ impl Verdict {
     /// Evaluates a recorded shot.
     pub fn of(rule: Rule, table: &Table, layout: &Layout, recording: &Recording) -> Self {
         let mut tally = Tally::from_stroke(table, layout, recording.impulse());
-        recording.events().iter().for_each(|event| tally.note(event));
-        let miss = match tally.met {
+        recording.events().iter().for_each(|event| tally.count(event));
+        let miss = match tally.hit {
             [true, true] => None,
             [true, false] => miss(table, recording, rule.cushions(), &[2]),
             [false, true] => miss(table, recording, rule.cushions(), &[1]),
@@ -90,9 +90,9 @@ impl Verdict {
         if let Some(foul) = self.foul(cue_ball) {
             return format!("Foul: {foul}");
         }
-        match self.missing(cue_ball, unit) {
+        match self.missing_words(cue_ball, unit) {
             Some(missing) => format!("No point: {missing}"),
-            None => format!("Point: {}", self.way(cue_ball)),
+            None => format!("Point: {}", self.path_words(cue_ball)),
         }
     }
 
@@ -120,7 +120,7 @@ impl Verdict {
     }
 
     /// Lists the balls and cushions up to the second ball.
-    fn way(&self, cue_ball: CueBall) -> String {
+    fn path_words(&self, cue_ball: CueBall) -> String {
         let (first, second) = self.order();
         let Tally { cushions_before_first: before, cushions_before_second: all, .. } = self.tally;
         let cushions = |count: u32| (count > 0).then(|| cushion_words(count));
@@ -140,21 +140,21 @@ impl Verdict {
     }
 
     /// Describes what is missing for a point; `None` if the stroke makes the point.
-    fn missing(&self, cue_ball: CueBall, unit: LengthUnit) -> Option<String> {
+    fn missing_words(&self, cue_ball: CueBall, unit: LengthUnit) -> Option<String> {
         let (tally, names, wanted) = (&self.tally, cue_ball.names(), self.point.rule.cushions());
         let passed = |miss: Miss| {
             let ball = names[miss.ball];
             let gap = if miss.gap < HAIR { "a hair".to_owned() } else { unit.words(miss.gap) };
-            match miss.passed {
-                Passed::Left => format!("passed {ball} by {gap} on the left"),
-                Passed::Right => format!("passed {ball} by {gap} on the right"),
-                Passed::Over => format!("flew over {ball}"),
-                Passed::Short => format!("stopped {gap} short of {ball}"),
-                Passed::Off => format!("came within {gap} of {ball}"),
+            match miss.kind {
+                MissKind::Left => format!("passed {ball} by {gap} on the left"),
+                MissKind::Right => format!("passed {ball} by {gap} on the right"),
+                MissKind::Over => format!("flew over {ball}"),
+                MissKind::Short => format!("stopped {gap} short of {ball}"),
+                MissKind::Off => format!("came within {gap} of {ball}"),
             }
         };
         let (first, second) = self.order();
-        Some(match (tally.met_any(), tally.met_both()) {
+        Some(match (tally.has_hit_any(), tally.has_hit_both()) {
             (false, _) => match self.miss {
                 Some(miss) => format!("no ball was hit, {}", passed(miss)),
                 None => "no ball was hit".to_owned(),
@@ -172,7 +172,7 @@ impl Verdict {
     /// Names the ball that was not hit, and any lack of cushions.
     fn second_missed(&self, names: [&str; BALLS]) -> String {
         let (tally, wanted) = (&self.tally, self.point.rule.cushions());
-        let [met, missed] = if tally.met[0] { [1, 2] } else { [2, 1] }.map(|ball| names[ball]);
+        let [met, missed] = if tally.hit[0] { [1, 2] } else { [2, 1] }.map(|ball| names[ball]);
         let said = format!("{met} was hit, {missed} was not");
         if tally.cushions < wanted {
             format!("{said}; {}, {} needed", cushion_words(tally.cushions), number_word(wanted))
@@ -210,7 +210,7 @@ fn miss(table: &Table, recording: &Recording, cushions: u32, balls: &[usize]) ->
     (time - start >= SAMPLING_INTERVAL).then(|| Miss {
         ball,
         gap: gap.max(0.0),
-        passed: passed(table, recording, ball, time),
+        kind: miss_kind(table, recording, ball, time),
     })
 }
 
@@ -237,7 +237,7 @@ fn nearest(table: &Table, recording: &Recording, start: f64, ball: usize) -> Opt
 }
 
 /// Determines how the cue ball missed the ball that it is nearest to at `time`, s.
-fn passed(table: &Table, recording: &Recording, ball: usize, time: f64) -> Passed {
+fn miss_kind(table: &Table, recording: &Recording, ball: usize, time: f64) -> MissKind {
     let [cue_ball, other] = [0, ball].map(|ball| recording.state(ball, time));
     let towards: DVec2 = other.position - cue_ball.position;
     let rest = recording.state(0, recording.duration()).position;
@@ -245,15 +245,17 @@ fn passed(table: &Table, recording: &Recording, ball: usize, time: f64) -> Passe
     let goes_past = [time - PASSING_WINDOW, time + PASSING_WINDOW].into_iter().all(|time| {
         let [cue_ball, other] = [0, ball].map(|ball| recording.state(ball, time.clamp(0.0, recording.duration())));
         let (towards, motion) = (other.position - cue_ball.position, cue_ball.velocity - other.velocity);
-        cue_ball.velocity.length() > MOVING
+        cue_ball.velocity.length() > MIN_MOVING_SPEED
             && motion.dot(towards).abs() < PASSING_COSINE * motion.length() * towards.length()
     });
     match cue_ball.velocity.perp_dot(towards) {
-        _ if towards.length() < 2.0 * table.radius => Passed::Over,
-        _ if cue_ball.position.distance(rest) < STOPPED && other.velocity.length() < MOVING => Passed::Short,
-        _ if !goes_past => Passed::Off,
-        side if side > 0.0 => Passed::Right,
-        _ => Passed::Left,
+        _ if towards.length() < 2.0 * table.radius => MissKind::Over,
+        _ if cue_ball.position.distance(rest) < MAX_STOP_DISTANCE && other.velocity.length() < MIN_MOVING_SPEED => {
+            MissKind::Short
+        }
+        _ if !goes_past => MissKind::Off,
+        side if side > 0.0 => MissKind::Right,
+        _ => MissKind::Left,
     }
 }
 
@@ -267,9 +269,9 @@ mod tests {
     }
 
     #[test]
-    fn a_point_is_told_in_the_order_of_balls_and_cushions() {
+    fn point_lists_balls_and_cushions_in_order() {
         let tally = |before, all| Tally {
-            met: [true; 2],
+            hit: [true; 2],
             red_first: true,
             cushions: all,
             cushions_before_first: before,
@@ -283,9 +285,9 @@ mod tests {
     }
 
     #[test]
-    fn a_miss_says_what_was_missing() {
-        let said = |met, cushions_before_second, rule: Rule| {
-            let tally = Tally { met, cushions: 2, cushions_before_second, ..Tally::default() };
+    fn miss_describes_what_was_missing() {
+        let said = |hit, cushions_before_second, rule: Rule| {
+            let tally = Tally { hit, cushions: 2, cushions_before_second, ..Tally::default() };
             told(rule.into(), tally, CueBall::White)
         };
         assert_eq!(said([false, false], 0, Rule::StraightRail), "No point: no ball was hit");
@@ -295,11 +297,11 @@ mod tests {
         let short = said([true, true], 2, Rule::ThreeCushion);
         assert_eq!(short, "No point: two cushions before red, three needed");
         let opening = Point { rule: Rule::ThreeCushion, red_first: true };
-        let off_red = Tally { met: [true; 2], red_first: true, cushions_before_second: 3, ..Tally::default() };
+        let off_red = Tally { hit: [true; 2], red_first: true, cushions_before_second: 3, ..Tally::default() };
         assert_eq!(told(opening, off_red, CueBall::White), "Point: red, three cushions, yellow");
         let wrong = told(opening, Tally { red_first: false, ..off_red }, CueBall::White);
         assert_eq!(wrong, "No point: yellow was hit first, a game opens with red");
-        let one = Tally { met: [true, false], ..Tally::default() };
+        let one = Tally { hit: [true, false], ..Tally::default() };
         assert_eq!(told(Rule::StraightRail.into(), one, CueBall::Yellow), "No point: white was hit, red was not");
     }
 
@@ -311,11 +313,11 @@ mod tests {
     }
 
     #[test]
-    fn how_near_and_on_which_side_a_ball_was_passed_is_as_the_player_sees_it() {
+    fn miss_side_and_gap_are_seen_along_the_path() {
         // Straight along the middle to the right: yellow 10 cm to the left of the path, red far behind.
         let Verdict { miss, .. } = verdict("-1,0 0,0.1 -1.3,-0.6", "0,0,0,0,2", Rule::StraightRail);
-        let Miss { ball, gap, passed } = miss.unwrap();
-        assert_eq!((ball, passed), (1, Passed::Right), "the cue ball goes by on the right of yellow");
+        let Miss { ball, gap, kind } = miss.unwrap();
+        assert_eq!((ball, kind), (1, MissKind::Right), "the cue ball goes by on the right of yellow");
         assert!((gap - (0.1 - 2.0 * Table::default().radius)).abs() < 1e-4, "{gap}");
         let mirrored = verdict("-1,0 0,-0.1 -1.3,0.6", "0,0,0,0,2", Rule::StraightRail);
         let said = mirrored.words(CueBall::White, LengthUnit::Metres);
@@ -327,7 +329,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_off_the_table_is_a_foul_that_says_over_which_rail_and_where_the_ball_comes() {
+    fn off_table_foul_names_the_rail_and_the_spot() {
         let said = |cue_ball| flown("0.9,0 0.1,0.3 0.1,-0.3", "0,0,30,0,9", cue_ball);
         assert_eq!(said(CueBall::White), "Foul: white left the table over the right rail and goes to the middle spot");
         assert!(said(CueBall::Yellow).starts_with("Foul: yellow left the table over the right rail"));
@@ -337,7 +339,7 @@ mod tests {
     }
 
     #[test]
-    fn a_touching_ball_that_is_pushed_is_a_foul_whatever_else_the_shot_does() {
+    fn pushing_a_touching_ball_is_always_a_foul() {
         // Yellow touches the cue ball on one side; red lies on the other, where draw takes the cue ball.
         let touching = format!("0,0 {},0 -0.3,0.02", 2.0 * Table::default().radius);
         let said = |cue: &str, cue_ball| {
@@ -353,19 +355,19 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_that_was_flown_over_was_not_passed_at_its_side() {
+    fn ball_flown_over_has_miss_kind_over() {
         let said = flown("-0.5,0 -0.2,0 -1.2,-0.5", "0,0,45,0,5", CueBall::White);
         assert_eq!(said, "No point: no ball was hit, flew over yellow");
     }
 
     #[test]
-    fn a_ball_that_comes_to_rest_before_the_other_stopped_short() {
+    fn cue_ball_at_rest_before_the_ball_stopped_short() {
         let Verdict { miss, .. } = verdict("-1,0 1.2,0 1.2,0.5", "0,0,0,0,0.4", Rule::StraightRail);
-        assert_eq!(miss.map(|miss| miss.passed), Some(Passed::Short));
+        assert_eq!(miss.map(|miss| miss.kind), Some(MissKind::Short));
     }
 
     #[test]
-    fn what_did_not_go_past_a_ball_did_not_pass_it() {
+    fn near_miss_without_passing_is_not_a_pass() {
         let said = |layout: &str, cue: &str| {
             verdict(layout, cue, Rule::StraightRail).words(CueBall::White, LengthUnit::Metres)
         };
@@ -385,14 +387,14 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_that_is_left_behind_at_the_last_cushion_is_not_passed() {
+    fn ball_behind_after_last_cushion_is_not_passed() {
         // Thin off red to the right cushion; yellow lies next to the cushion, farther up.
         let Verdict { miss, .. } = verdict("0.6,0 1.389,0.15 0.9,0.052", "0,0,0,0,0.5", Rule::OneCushion);
         assert_eq!(miss, None);
     }
 
     #[test]
-    fn what_passes_before_the_cushions_that_are_needed_is_no_near_miss() {
+    fn passing_before_required_cushions_is_not_a_near_miss() {
         // Yellow is hit full, and red lies 10 cm beside the path.
         let shot = |rule| verdict("-1,0 0,0 0.4,0.1", "0,0.3,0,0,1", rule);
         assert!(shot(Rule::StraightRail).miss.is_some_and(|miss| miss.ball == 2));

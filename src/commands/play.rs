@@ -60,7 +60,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         Some(text) => Layout::parse(text, &table).map_err(Failure::wrong_input)?,
     };
     layout.validate(&table).map_err(Failure::wrong_input)?;
-    let game = Exercise::own(GAME, args.rule, bundled, layout);
+    let game = Exercise::new_own(GAME, args.rule, bundled, layout);
     let is_match = args.both || args.against_coach;
     let innings = args.innings;
     let against_coach = args.against_coach;

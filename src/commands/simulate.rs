@@ -323,7 +323,7 @@ impl SimulateAnswer {
             rule: verdict.point.rule,
             point: verdict.is_made(),
             foul: verdict.foul(CueBall::White),
-            cushions_before_second: verdict.tally.met_both().then_some(verdict.tally.cushions_before_second),
+            cushions_before_second: verdict.tally.has_hit_both().then_some(verdict.tally.cushions_before_second),
             cue: None,
             make_probability: None,
             make_interval: None,

@@ -2,7 +2,7 @@
 
 use super::Failure;
 use crate::{
-    coach::{SpokenError, SpokenStroke},
+    coach::{StrokeText, StrokeTextError},
     physics::{CueError, CueInputs},
     table::{CueBall, Layout, Table},
 };
@@ -13,7 +13,7 @@ pub enum TypedStroke {
     /// Given by its inputs.
     Inputs(CueInputs),
     /// Given in words, which define a stroke only for given positions of the balls.
-    Words(SpokenStroke),
+    Words(StrokeText),
 }
 
 impl TypedStroke {
@@ -28,8 +28,8 @@ impl TypedStroke {
         if !has_words {
             return inputs(text).map(Self::Inputs);
         }
-        SpokenStroke::read(text).map(Self::Words).map_err(|error| match error {
-            SpokenError::Part(_) => Failure::wrong_input(format_args!(
+        StrokeText::parse(text).map(Self::Words).map_err(|error| match error {
+            StrokeTextError::UnknownPart(_) => Failure::wrong_input(format_args!(
                 "\"{text}\" is not a shot: {error}; or the inputs \"a,b,theta,phi,V\" like \"0,0.2,5,12.5,3\" (radii, degrees, m/s)"
             )),
             error => Failure::wrong_input(error),

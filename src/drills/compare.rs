@@ -48,14 +48,14 @@ pub fn advise(
     Ok(is_told.then(|| Advice { cue: answer.cue, solved: answer.solved, chance: chance(answer.cue) }))
 }
 
-/// Returns the difference `meant` - `advised` in every input. The difference in direction is the smaller angle, from -π to π.
-pub fn difference(meant: &CueInputs, advised: &CueInputs) -> CueInputs {
+/// Returns the difference `intended` - `advised` in every input. The difference in direction is the smaller angle, from -π to π.
+pub fn difference(intended: &CueInputs, advised: &CueInputs) -> CueInputs {
     CueInputs {
-        a: meant.a - advised.a,
-        b: meant.b - advised.b,
-        theta: meant.theta - advised.theta,
-        phi: signed_angle(advised.phi, meant.phi),
-        speed: meant.speed - advised.speed,
+        a: intended.a - advised.a,
+        b: intended.b - advised.b,
+        theta: intended.theta - advised.theta,
+        phi: signed_angle(advised.phi, intended.phi),
+        speed: intended.speed - advised.speed,
     }
 }
 
@@ -67,19 +67,19 @@ mod tests {
     use crate::coach::{Doubt, Skill};
 
     #[test]
-    fn the_difference_in_direction_goes_the_short_way_round() {
+    fn direction_difference_is_the_smaller_angle() {
         let cue = |degrees: f64| CueInputs { a: 0.1, b: 0.0, theta: 0.0, phi: degrees.to_radians(), speed: 2.0 };
-        for (meant, advised, turn) in
+        for (intended, advised, turn) in
             [(179.0, -179.0, -2.0), (-179.0, 179.0, 2.0), (350.0, -20.0, 10.0), (5.0, 5.0, 0.0)]
         {
-            let difference = difference(&cue(meant), &cue(advised));
-            assert!((difference.phi.to_degrees() - turn).abs() < 1e-9, "{meant} against {advised}: {difference:?}");
+            let difference = difference(&cue(intended), &cue(advised));
+            assert!((difference.phi.to_degrees() - turn).abs() < 1e-9, "{intended} against {advised}: {difference:?}");
             assert_eq!((difference.a, difference.speed), (0.0, 0.0));
         }
     }
 
     #[test]
-    fn the_coach_makes_more_than_a_stroke_into_the_void() {
+    fn coach_makes_more_points_than_an_arbitrary_stroke() {
         let table = Table::default();
         let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
         let coach = Coach::new(table.clone());

@@ -17,12 +17,12 @@ use crate::{
 };
 
 /// Minimum number of attempts for an estimate.
-pub const FEWEST: usize = 20;
+pub const MIN_ATTEMPTS: usize = 20;
 
 /// Minimum number of different shots among them. The interval covers chance alone: how often one shot is made depends
 /// as much on the input that it is most sensitive to and on the real table as on the player. Only other shots can show
 /// that.
-pub const FEWEST_SHOTS: usize = 3;
+pub const MIN_SHOTS: usize = 3;
 
 /// Range of scales, as powers of two.
 const POWERS: (f64, f64) = (-2.0, 4.0);
@@ -123,10 +123,10 @@ const COUNTED: &str = "Only strokes noted at a real table count: model shots wit
 
 /// Describes the progress towards the required attempts and shots.
 fn so_far(attempts: usize, shots: usize) -> String {
-    match (attempts < FEWEST, shots < FEWEST_SHOTS) {
-        (true, true) => format!("{attempts} of {FEWEST} attempts, at {shots} of {FEWEST_SHOTS} different shots"),
-        (true, false) => format!("{attempts} of {FEWEST} attempts"),
-        (false, _) => format!("{attempts} attempts are enough, but at {shots} of {FEWEST_SHOTS} different shots"),
+    match (attempts < MIN_ATTEMPTS, shots < MIN_SHOTS) {
+        (true, true) => format!("{attempts} of {MIN_ATTEMPTS} attempts, at {shots} of {MIN_SHOTS} different shots"),
+        (true, false) => format!("{attempts} of {MIN_ATTEMPTS} attempts"),
+        (false, _) => format!("{attempts} attempts are enough, but at {shots} of {MIN_SHOTS} different shots"),
     }
 }
 
@@ -147,7 +147,7 @@ struct Shot {
 pub fn estimate(sessions: &[Session]) -> Result<Estimate, NoEstimate> {
     let (shots, left_out) = shots(sessions);
     let attempts = shots.iter().map(|shot| shot.tried).sum();
-    if attempts < FEWEST || shots.len() < FEWEST_SHOTS {
+    if attempts < MIN_ATTEMPTS || shots.len() < MIN_SHOTS {
         return Err(NoEstimate::TooFew { attempts, shots: shots.len() });
     }
     let curves: Vec<_> = shots.iter().map(Shot::curve).collect();
@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn players_of_a_known_skill_are_found_again_within_the_interval() {
+    fn estimate_recovers_known_skills_within_the_interval() {
         let exercises = exercises();
         // A 95 % interval may miss the true scale; two of six hardly ever do.
         let six = [1, 3, 4, 5, 6, 7].map(|seed| estimate(&logged(&exercises, 2.0, seed)).unwrap());
@@ -328,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn a_record_without_a_miss_bounds_the_average_from_below_and_one_without_a_point_from_above() {
+    fn all_points_or_all_misses_give_one_sided_bounds() {
         // Everybody makes it with small errors, and nobody with large ones.
         let curve = std::array::from_fn(|index| (1.15 - 0.05 * index as f64).clamp(0.01, 0.999));
         let words = |made| {
@@ -344,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn too_little_is_said_to_be_too_little() {
+    fn too_few_attempts_give_no_estimate() {
         let away = CueInputs { a: 0.0, b: 0.0, theta: 0.5, phi: 2.0, speed: 0.1 };
         // Sessions with this number of different shots, each attempted equally often and never made.
         let sessions = |shots: u32, attempts: usize| -> Vec<Session> {

@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn an_exam_is_spread_over_categories_and_grades_and_its_seed_draws_it_again() {
+    fn exam_covers_categories_and_grades_and_is_reproducible() {
         let library = library();
         for level in 1..=3 {
             let exam = draw(&library, level, 5).unwrap();
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_drawn_is_named() {
+    fn impossible_exams_are_refused_with_a_reason() {
         assert!(draw(&library(), 0, 1).unwrap_err().to_string().contains("level 0"));
         assert_eq!(draw(&library(), 4, 1), Err(ExamError::Level(4)));
         let said = draw(&library()[..10], 2, 1).unwrap_err().to_string();
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn an_exam_names_the_player_whose_average_is_closest_to_the_score() {
+    fn exam_score_names_the_nearest_skill() {
         let exam = draw(&library(), 2, 1).unwrap();
         // The expected points in 20 exercises are 4, 10 and 18.
         for (made, nearest) in

@@ -139,10 +139,10 @@ pub struct Exercise {
 }
 
 /// Maximum length of a title or tag that a player enters, bytes; files may have longer ones.
-pub const LONGEST_TITLE: usize = 400;
+pub const MAX_TITLE_BYTES: usize = 400;
 
 /// Maximum length of a point that a player enters, bytes: some sentences.
-pub const LONGEST_POINT: usize = 4000;
+pub const MAX_POINT_BYTES: usize = 4000;
 
 /// Returns a tag without the `#` with which it is displayed and may be typed.
 pub fn bare_tag(tag: &str) -> &str {
@@ -199,7 +199,7 @@ impl From<ShotError> for ExerciseError {
 
 impl Exercise {
     /// Creates an own exercise of the player on the bundled `table`, with `name` as its title and without a lesson.
-    pub fn own(name: &str, rule: Rule, table: &str, layout: Layout) -> Self {
+    pub fn new_own(name: &str, rule: Rule, table: &str, layout: Layout) -> Self {
         Self {
             name: name.to_owned(),
             title: name.to_owned(),
@@ -254,7 +254,7 @@ impl Exercise {
                 return Err(ExerciseError::Text { field, text: text.clone() });
             }
         }
-        if self.grade > HARDEST {
+        if self.grade > MAX_GRADE {
             return Err(ExerciseError::Grade(self.grade));
         }
         let shares = self.par.map(|par| [par.beginner, par.club, par.world_class]);
@@ -269,7 +269,7 @@ impl Exercise {
 }
 
 /// Maximum grade.
-const HARDEST: u8 = 5;
+const MAX_GRADE: u8 = 5;
 
 /// Checks a make rate.
 pub(super) fn check_share(share: f64) -> Result<(), ExerciseError> {
@@ -290,7 +290,7 @@ mod tests {
     use crate::drills::session::tests::exercise;
 
     #[test]
-    fn words_that_command_the_terminal_are_refused_and_told_harmlessly() {
+    fn control_characters_are_refused_and_never_echoed() {
         for text in ["a\u{1b}[2Jb", "two\nlines", "turned \u{202e}round", "bell\u{7}", "\u{9b}31m"] {
             let wrong = [
                 Exercise { title: text.to_owned(), ..exercise("one") },
@@ -308,7 +308,7 @@ mod tests {
     }
 
     #[test]
-    fn grades_shares_and_tables_that_are_none_are_refused_by_what_is_accepted() {
+    fn invalid_grades_shares_and_tables_name_accepted_values() {
         let par = |share| Some(Par { beginner: 0.0, club: share, world_class: 1.0 });
         Exercise { grade: 5, par: par(0.5), ..exercise("one") }.validate().unwrap();
         for (wrong, says) in [

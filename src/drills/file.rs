@@ -7,7 +7,7 @@ use serde_json::ser::Formatter;
 
 use super::{
     Exercise,
-    marked::{self, MarkError, NEWEST},
+    header::{self, HeaderError, NEWEST_VERSION},
 };
 use crate::{printing::VERSION, storage::describe_json_error};
 
@@ -38,7 +38,7 @@ pub enum LibraryFileError {
     NoHeader,
     /// The format is another one, or its version is not supported.
     #[error(transparent)]
-    Mark(MarkError),
+    Header(HeaderError),
 }
 
 /// The accepted input.
@@ -51,7 +51,7 @@ impl LibraryFile {
     /// Creates a file of this version.
     pub fn new(exercises: Vec<Exercise>) -> Self {
         let carom = Some(VERSION.to_owned());
-        Self { format: Self::FORMAT.to_owned(), version: NEWEST, carom, exercises }
+        Self { format: Self::FORMAT.to_owned(), version: NEWEST_VERSION, carom, exercises }
     }
 
     /// Parses a file's text. Unknown fields are skipped; the exercises are not validated: see [`Exercise::validate`].
@@ -59,10 +59,10 @@ impl LibraryFile {
     /// # Errors
     /// Fails if the text is in another format or in an unsupported version, whatever else it contains.
     pub fn parse(text: &str) -> Result<Self, LibraryFileError> {
-        marked::check(Self::FORMAT, text.as_bytes()).map_err(|error| match error {
-            MarkError::Syntax(error) if error.is_data() => LibraryFileError::NoHeader,
-            MarkError::Syntax(error) => error.into(),
-            mark => LibraryFileError::Mark(mark),
+        header::check(Self::FORMAT, text.as_bytes()).map_err(|error| match error {
+            HeaderError::Syntax(error) if error.is_data() => LibraryFileError::NoHeader,
+            HeaderError::Syntax(error) => error.into(),
+            error => LibraryFileError::Header(error),
         })?;
         Ok(serde_json::from_str(text)?)
     }
@@ -80,7 +80,7 @@ impl LibraryFile {
 }
 
 /// Maximum depth at which each value of an object or array has its own line: the file, its exercises and their fields.
-const DEEPEST_LINES: usize = 3;
+const MAX_LINE_DEPTH: usize = 3;
 
 /// Formats JSON in readable lines; values deeper than an exercise's fields are on one line.
 #[derive(Default)]
@@ -93,7 +93,7 @@ impl Lines {
         if !first {
             writer.write_all(b",")?;
         }
-        if self.depth <= DEEPEST_LINES {
+        if self.depth <= MAX_LINE_DEPTH {
             write!(writer, "\n{:1$}", "", 2 * self.depth)
         } else if first {
             Ok(())
@@ -109,7 +109,7 @@ impl Lines {
 
     fn end<W: ?Sized + Write>(&mut self, writer: &mut W, bracket: &[u8]) -> io::Result<()> {
         self.depth -= 1;
-        if self.depth < DEEPEST_LINES {
+        if self.depth < MAX_LINE_DEPTH {
             write!(writer, "\n{:1$}", "", 2 * self.depth)?;
         }
         writer.write_all(bracket)
@@ -179,7 +179,7 @@ mod tests {
 "#;
 
     #[test]
-    fn a_file_is_written_as_it_was_read() {
+    fn library_file_round_trips() {
         let file = LibraryFile::parse(TEXT).unwrap();
         assert_eq!(file.to_text().unwrap(), TEXT);
         let none = LibraryFile::new(Vec::new());
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn other_formats_and_versions_are_refused_by_name_whatever_they_hold() {
+    fn unknown_formats_and_versions_are_refused_by_name() {
         let said = |text: &str| LibraryFile::parse(text).unwrap_err().to_string();
         let newer = said(r#"{"format": "carom-library", "version": 7, "exercises": {"other": "form"}}"#);
         assert!(newer.contains("version 7") && newer.contains("1 to 1"), "{newer}");

@@ -17,7 +17,7 @@ use crate::{
 };
 
 /// The balls count as gathered if no two are further apart than this, m: a little less than two diamonds of a `match` table.
-pub const GATHERED: f64 = 0.6;
+pub const MAX_GATHERED_DISTANCE: f64 = 0.6;
 
 /// Lists the promises that the shot of an exercise does not keep, as sentences. Own exercises and exercises without a
 /// shot promise nothing.
@@ -43,7 +43,7 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
             "it hits yellow first, or red in the opening",
             technique.first.is_some_and(|hit| hit.ball == point.first_ball()),
         ),
-        ("it hits the first ball only once before the second", technique.again.is_none()),
+        ("it hits the first ball only once before the second", technique.rehit_after.is_none()),
         ("it covers at least a twentieth of the first ball", technique.fullness() >= 0.05),
         ("yellow stays away from red but in a time shot", technique.drives_second == is_tagged("time")),
     ];
@@ -54,14 +54,17 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
         ],
         Category::Draw => vec![
             ("the tip is more than 0.2 R below the centre", cue.b < -0.2),
-            ("the cue ball turns by more than 60 degrees", technique.turn > FRAC_PI_3),
-            ("with the tag back it turns by more than 90", !is_tagged("back") || technique.turn > 1.5 * FRAC_PI_3),
+            ("the cue ball turns by more than 60 degrees", technique.deflection > FRAC_PI_3),
+            (
+                "with the tag back it turns by more than 90",
+                !is_tagged("back") || technique.deflection > 1.5 * FRAC_PI_3,
+            ),
             ("struck in the middle it misses", misses(CueInputs { b: 0.0, ..cue })),
         ],
         Category::Follow => vec![
             ("the tip is more than 0.2 R above the centre", cue.b > 0.2),
             ("yellow is hit at least seven tenths full", technique.fullness() >= 0.7),
-            ("the cue ball turns by less than 40 degrees", technique.turn < 2.0 / 3.0 * FRAC_PI_3),
+            ("the cue ball turns by less than 40 degrees", technique.deflection < 2.0 / 3.0 * FRAC_PI_3),
         ],
         Category::Side => vec![
             ("the tip is more than 0.25 R off to the side", cue.a.abs() > 0.25),
@@ -69,9 +72,12 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
         ],
         Category::OneCushion => vec![("the rule is one-cushion", exercise.rule.cushions() == 1)],
         Category::Gather => vec![
-            ("the object balls are more than 0.6 m apart before", layout.balls[1].distance(layout.balls[2]) > GATHERED),
-            ("yellow comes back from a cushion", !technique.sent.is_empty()),
-            ("all balls are within 0.6 m after", technique.spread <= GATHERED),
+            (
+                "the object balls are more than 0.6 m apart before",
+                layout.balls[1].distance(layout.balls[2]) > MAX_GATHERED_DISTANCE,
+            ),
+            ("yellow comes back from a cushion", !technique.first_ball_rails.is_empty()),
+            ("all balls are within 0.6 m after", technique.spread <= MAX_GATHERED_DISTANCE),
         ],
         Category::ThreeCushion => {
             let tag = exercise.tags.first().map_or("", String::as_str);
@@ -83,7 +89,7 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
             ]
         }
         Category::Systems => {
-            let applied = applied(exercise, &table, &cue)?;
+            let applied = applied_system(exercise, &table, &cue)?;
             let name = applied.as_ref().map(|applied| applied.system.name().to_lowercase());
             vec![
                 ("the rule is three-cushion", exercise.rule.cushions() == 3),
@@ -91,23 +97,23 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
                 ("it is aimed at the number in the point", applied.is_some_and(|one| matches_point(exercise, &one))),
             ]
         }
-        Category::JumpAndMasse => raised(exercise, &table, &technique, &cue)?,
+        Category::JumpAndMasse => elevated_flaws(exercise, &table, &technique, &cue)?,
         Category::Own => Vec::new(),
     });
-    checks.extend(tagged(exercise, &technique, &cue));
+    checks.extend(tag_promises(exercise, &technique, &cue));
     Ok(checks.into_iter().filter_map(|(sentence, holds)| (!holds).then_some(sentence)).collect())
 }
 
 /// Distance above which a jump is a far one and below which it is a near one, m, and the elevations from which on a
 /// massé is a half and a full one, rad.
-const FAR: f64 = 0.6;
-const NEAR: f64 = 0.2;
-const HALF_MASSE: f64 = 30.0_f64.to_radians();
-const FULL_MASSE: f64 = 63.0_f64.to_radians();
+const MIN_FAR_JUMP: f64 = 0.6;
+const MAX_NEAR_JUMP: f64 = 0.2;
+const MIN_HALF_MASSE: f64 = 30.0_f64.to_radians();
+const MIN_FULL_MASSE: f64 = 63.0_f64.to_radians();
 
 /// Checks the promises of a shot with a raised cue, by its first tag: it flies over red, or its path bends, or it hops
 /// because the cue ball starts at a rail.
-fn raised(
+fn elevated_flaws(
     exercise: &Exercise,
     table: &Table,
     technique: &Technique,
@@ -135,21 +141,21 @@ fn raised(
             "with the tag edge it passes over less than half of it",
             !is_tagged("edge") || ahead.perp_dot(way).abs() > table.radius,
         ),
-        ("with the tag far red is more than 0.6 m away", !is_tagged("far") || way.length() > FAR),
-        ("with the tag near red is less than 0.2 m away", !is_tagged("near") || way.length() < NEAR),
+        ("with the tag far red is more than 0.6 m away", !is_tagged("far") || way.length() > MIN_FAR_JUMP),
+        ("with the tag near red is less than 0.2 m away", !is_tagged("near") || way.length() < MAX_NEAR_JUMP),
         ("with the tag masse the way bends by more than 15 degrees", bends == is_tagged("masse")),
         (
             "with the tag half the cue is raised by 30 to 63 degrees",
-            !is_tagged("half") || (HALF_MASSE..FULL_MASSE).contains(&steep),
+            !is_tagged("half") || (MIN_HALF_MASSE..MIN_FULL_MASSE).contains(&steep),
         ),
-        ("with the tag full the cue is raised by more than 63 degrees", !is_tagged("full") || steep >= FULL_MASSE),
+        ("with the tag full the cue is raised by more than 63 degrees", !is_tagged("full") || steep >= MIN_FULL_MASSE),
         ("with the tag hop the cue is as level as the rail allows", !is_tagged("hop") || is_least && steep > 0.0),
         ("with the tag hop the cue ball has come down before it meets yellow", !is_tagged("hop") || has_landed),
     ])
 }
 
 /// Returns the diamond system that describes the shot, with its numbers.
-fn applied(exercise: &Exercise, table: &Table, cue: &CueInputs) -> Result<Option<Applied>, ExerciseError> {
+fn applied_system(exercise: &Exercise, table: &Table, cue: &CueInputs) -> Result<Option<Applied>, ExerciseError> {
     Ok(match guide(table, &Recording::new(table, &exercise.layout, cue)?) {
         Some(Guide::System(applied)) => Some(applied),
         _ => None,
@@ -166,7 +172,11 @@ fn matches_point(exercise: &Exercise, applied: &Applied) -> bool {
 }
 
 /// Returns the promises of the tags about the stroke and its course, each with whether the shot keeps it.
-fn tagged(exercise: &Exercise, technique: &Technique, cue: &CueInputs) -> impl Iterator<Item = (&'static str, bool)> {
+fn tag_promises(
+    exercise: &Exercise,
+    technique: &Technique,
+    cue: &CueInputs,
+) -> impl Iterator<Item = (&'static str, bool)> {
     let cushions = technique.before.len() + technique.between.len();
     let direct = matches!(exercise.category, Category::OneCushion | Category::Side);
     let checks = [

@@ -35,18 +35,18 @@ pub enum LibraryError {
     },
     /// Another exercise has this name.
     #[error("there is an exercise \"{0}\" already; give this one another name")]
-    Taken(String),
+    NameTaken(String),
 }
 
 /// Minimum similarity, from 0 to 1, of a text to a name or title for a suggestion.
-const ALIKE: f64 = 0.8;
+const MIN_SIMILARITY: f64 = 0.8;
 
 /// Maximum number of exercises listed in a sentence.
-const MOST_LISTED: usize = 8;
+const MAX_LISTED: usize = 8;
 
 /// Names in a sentence: a, b and c.
 fn listed(names: &[String]) -> String {
-    let (shown, rest) = names.split_at(names.len().min(MOST_LISTED));
+    let (shown, rest) = names.split_at(names.len().min(MAX_LISTED));
     let more = (!rest.is_empty()).then(|| format!("{} others", rest.len()));
     let mut shown: Vec<String> = shown.iter().cloned().chain(more).collect();
     let last = shown.pop().unwrap_or_default();
@@ -82,10 +82,10 @@ impl Library {
     /// Adds an exercise.
     ///
     /// # Errors
-    /// [`LibraryError::Taken`] if another exercise has its name.
+    /// [`LibraryError::NameTaken`] if another exercise has its name.
     pub fn add(&mut self, exercise: Exercise) -> Result<(), LibraryError> {
         if self.get(&exercise.name).is_ok() {
-            return Err(LibraryError::Taken(exercise.name));
+            return Err(LibraryError::NameTaken(exercise.name));
         }
         self.exercises.push(exercise);
         Ok(())
@@ -105,24 +105,25 @@ impl Library {
     ///
     /// # Errors
     /// [`LibraryError::Unknown`] or [`LibraryError::Ambiguous`].
-    pub fn called(&self, text: &str) -> Result<&Exercise, LibraryError> {
-        self.titled(text).or_else(|_| self.only(text, |words, wanted| !wanted.is_empty() && words.starts_with(wanted)))
+    pub fn resolve(&self, text: &str) -> Result<&Exercise, LibraryError> {
+        self.find_exact(text)
+            .or_else(|_| self.find_unique(text, |words, wanted| !wanted.is_empty() && words.starts_with(wanted)))
     }
 
     /// Finds the exercise with this name, or with this name or title, ignoring case.
     ///
     /// # Errors
     /// [`LibraryError::Unknown`] or [`LibraryError::Ambiguous`].
-    pub fn titled(&self, text: &str) -> Result<&Exercise, LibraryError> {
-        self.get(text).or_else(|_| self.only(text, |words, wanted| words == wanted))
+    pub fn find_exact(&self, text: &str) -> Result<&Exercise, LibraryError> {
+        self.get(text).or_else(|_| self.find_unique(text, |words, wanted| words == wanted))
     }
 
-    /// Finds the only exercise for which `is_so` holds for its name or title and `text`, both in lower case and with spaces
+    /// Finds the only exercise for which `matches` holds for its name or title and `text`, both in lower case and with spaces
     /// for hyphens.
-    fn only(&self, text: &str, is_so: impl Fn(&str, &str) -> bool) -> Result<&Exercise, LibraryError> {
+    fn find_unique(&self, text: &str, matches: impl Fn(&str, &str) -> bool) -> Result<&Exercise, LibraryError> {
         let plain = |words: &str| words.to_lowercase().replace('-', " ");
         let wanted = plain(text);
-        let is_wanted = |words: &&String| is_so(&plain(words), &wanted);
+        let is_wanted = |words: &&String| matches(&plain(words), &wanted);
         let either = |exercise: &&Exercise| [&exercise.name, &exercise.title].iter().any(is_wanted);
         match self.exercises.iter().filter(either).collect::<Vec<_>>()[..] {
             [] => Err(LibraryError::Unknown(text.to_owned())),
@@ -132,7 +133,7 @@ impl Library {
     }
 
     /// Finds the name of the exercise whose name or title is most similar to `text`, if one is similar enough.
-    pub fn like(&self, text: &str) -> Option<&str> {
+    pub fn most_similar(&self, text: &str) -> Option<&str> {
         let wanted = text.to_lowercase();
         let alike = |exercise: &Exercise| {
             let of = |words: &str| jaro_winkler(&words.to_lowercase(), &wanted);
@@ -140,7 +141,7 @@ impl Library {
         };
         let rated = self.exercises.iter().map(|exercise| (alike(exercise), exercise));
         let (alike, nearest) = rated.max_by(|one, other| one.0.total_cmp(&other.0))?;
-        (alike > ALIKE).then_some(nearest.name.as_str())
+        (alike > MIN_SIMILARITY).then_some(nearest.name.as_str())
     }
 
     /// Returns all exercises.
@@ -200,12 +201,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_own_exercise_may_not_take_a_name_that_is_there() {
+    fn own_exercise_with_an_existing_name_is_refused() {
         let bundled = Library::bundled();
         let taken = bundled.exercises()[3].clone();
         let own = Exercise { name: "mine".to_owned(), category: Category::Own, ..taken.clone() };
         let (library, refused) = Library::with_own(vec![own.clone(), taken.clone(), own.clone()]);
-        assert_eq!(refused, [taken.name.clone(), own.name.clone()].map(LibraryError::Taken));
+        assert_eq!(refused, [taken.name.clone(), own.name.clone()].map(LibraryError::NameTaken));
         assert_eq!(library.exercises().len(), bundled.exercises().len() + 1);
         assert_eq!(library.get("mine"), Ok(&own));
         assert!(library.is_bundled(&taken.name) && !library.is_bundled("mine"));
@@ -213,14 +214,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_nearly_a_name_or_a_title_is_known_and_what_is_far_from_all_is_not() {
-        let like = |text| Library::bundled().like(text);
+    fn only_similar_names_and_titles_are_suggested() {
+        let like = |text| Library::bundled().most_similar(text);
         assert_eq!(["naturel", "The-opning"].map(like), [Some("natural"), Some("opening-break")]);
         assert_eq!(["xyzzy", ""].map(like), [None, None]);
     }
 
     #[test]
-    fn an_exercise_is_found_by_name_title_and_the_beginning_of_either() {
+    fn exercise_is_found_by_name_title_or_prefix() {
         let exercise = |name: &str, title: &str| Exercise {
             name: name.to_owned(),
             title: title.to_owned(),
@@ -233,7 +234,7 @@ mod tests {
             library.add(exercise(name, title)).unwrap();
         }
         let name =
-            |text| library.called(text).map(|exercise| exercise.name.as_str()).map_err(|error| error.to_string());
+            |text| library.resolve(text).map(|exercise| exercise.name.as_str()).map_err(|error| error.to_string());
         assert_eq!(
             ["draw", "DRAW", "back", "draw-", "back f", "ÄRG", "two"].map(name),
             ["draw", "draw", "draw", "draw-long", "draw-long", "one", "two"].map(Ok)
@@ -246,11 +247,11 @@ mod tests {
         assert!(name("TWO").unwrap_err().contains("two (twice) and twice (Two)"));
         assert!(name("three").unwrap_err().contains("carom drill list") && name("").unwrap_err().contains("\"\""));
         assert_eq!(name("back-from-afar"), Ok("draw-long"), "a title with hyphens");
-        assert!(library.titled("BACK").is_ok() && library.titled("bac").is_err(), "a beginning is no title");
+        assert!(library.find_exact("BACK").is_ok() && library.find_exact("bac").is_err(), "a beginning is no title");
     }
 
     #[test]
-    fn a_filter_lets_through_what_meets_all_of_it() {
+    fn filter_accepts_exercises_that_meet_all_criteria() {
         let library = Library::bundled();
         let all = library.find(&Filter::default()).count();
         assert_eq!(all, library.exercises().len());
@@ -265,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tag_is_found_with_and_without_its_sign() {
+    fn tag_filter_ignores_the_hash_sign() {
         let tagged = |name: &str, tag: &str| Exercise {
             tags: vec![tag.to_owned()],
             ..crate::drills::session::tests::exercise(name)

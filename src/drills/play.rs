@@ -12,7 +12,7 @@ use crate::{
 
 /// Separates the stroke errors from the other random numbers of a session's seed, so that the coach's search cannot
 /// exploit them.
-const ERRORS: u64 = 0x7374_726f_6b65_733f;
+const ERROR_STREAM: u64 = 0x7374_726f_6b65_733f;
 
 /// Why an attempt cannot be made.
 #[derive(Debug, thiserror::Error)]
@@ -33,7 +33,7 @@ pub enum PlayError {
 
 /// The result of a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Played {
+pub struct PlayedStroke {
     /// The stroke with the player's errors.
     pub stroke: CueInputs,
     /// Whether the tip slipped off the ball; then no ball moves, and there is no point.
@@ -46,11 +46,11 @@ pub struct Played {
     pub end: Layout,
 }
 
-impl Played {
+impl PlayedStroke {
     /// Plays a stroke without further errors.
     pub fn of(rule: Rule, table: &Table, layout: &Layout, stroke: CueInputs) -> Self {
         let impulse = strike(table, &stroke);
-        let mut referee = Referee::to_the_end().beginning(Tally::from_stroke(table, layout, &impulse));
+        let mut referee = Referee::until_end().with_tally(Tally::from_stroke(table, layout, &impulse));
         let miscue = stroke.is_miscue(table);
         let ended = (!miscue).then(|| simulate(table, layout, &impulse, &mut referee));
         let end = ended.map_or(*layout, |end| end.layout(table));
@@ -81,9 +81,9 @@ pub fn check(table: &Table, cue: &CueInputs) -> Result<(), CueError> {
 }
 
 /// Returns the intended stroke with the cue raised over the rails and balls behind it.
-fn raised(table: &Table, layout: &Layout, meant: &CueInputs) -> Result<CueInputs, PlayError> {
-    check(table, meant)?;
-    Ok(raise_to_clear(table, layout, meant)?)
+fn with_raised_cue(table: &Table, layout: &Layout, intended: &CueInputs) -> Result<CueInputs, PlayError> {
+    check(table, intended)?;
+    Ok(raise_to_clear(table, layout, intended)?)
 }
 
 impl Session {
@@ -98,7 +98,8 @@ impl Session {
             Some(last) if self.is_game() => {
                 let layout = last.layout.unwrap_or(exercise.layout);
                 // The simulation is deterministic to the last bit.
-                let end = last.played.map_or(layout, |stroke| Played::of(exercise.rule, &table, &layout, stroke).end);
+                let end =
+                    last.played.map_or(layout, |stroke| PlayedStroke::of(exercise.rule, &table, &layout, stroke).end);
                 if self.is_match() && !last.made { end.for_the_opponent() } else { end }
             }
             _ if self.shifted => shifted(&exercise.layout, &table, self.seed, self.attempts.len() as u32),
@@ -113,17 +114,17 @@ impl Session {
     /// # Errors
     /// Fails if the session is over, the stroke is impossible, or the cue has no room for it. In these cases nothing is
     /// recorded.
-    pub fn play(&mut self, meant: CueInputs, helped: bool) -> Result<Played, PlayError> {
+    pub fn play(&mut self, intended: CueInputs, helped: bool) -> Result<PlayedStroke, PlayError> {
         let (table, layout) = self.position()?.ok_or(PlayError::Over)?;
-        let meant = raised(&table, &layout, &meant)?;
+        let intended = with_raised_cue(&table, &layout, &intended)?;
         let exercise = self.exercise().ok_or(PlayError::Over)?;
         let number = self.attempts.len();
-        let errors = errors::independent(number + 1, self.seed ^ ERRORS)[number];
-        let stroke = self.skill.stroke(table.radius, &meant, &errors);
-        let played = Played::recorded(exercise.rule, &table, &layout, stroke);
+        let errors = errors::independent(number + 1, self.seed ^ ERROR_STREAM)[number];
+        let stroke = self.skill.stroke(table.radius, &intended, &errors);
+        let played = PlayedStroke::recorded(exercise.rule, &table, &layout, stroke);
         let attempt = Attempt {
             layout: (layout != exercise.layout).then_some(layout),
-            meant: Some(meant),
+            intended: Some(intended),
             played: Some(stroke),
             helped: helped && !self.is_coachs_turn(),
             by_coach: self.is_coachs_turn(),
@@ -161,7 +162,7 @@ impl Attempt {
             helped: false,
             by_coach: false,
             layout: None,
-            meant: None,
+            intended: None,
             played: None,
             chance: None,
             advised: None,
@@ -181,10 +182,10 @@ mod tests {
     use glam::DVec2;
 
     #[test]
-    fn a_miss_says_by_how_much_and_on_which_side_a_ball_was_passed() {
+    fn miss_reports_the_gap_and_the_side() {
         // Yellow lies 10 cm to the left of the path, red far behind.
         let layout = Layout::parse("-1,0 0,0.1 -1.3,-0.6", &Table::default()).unwrap();
-        let exercise = Exercise::own("passed", Rule::StraightRail, "match", layout);
+        let exercise = Exercise::new_own("passed", Rule::StraightRail, "match", layout);
         let mut session = Session::new(Goal::Free, Venue::Program, vec![exercise], Skill::PERFECT, 1);
         let played = session.play(CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 2.0 }, false).unwrap();
         let words = |unit| played.words(CueBall::White, unit);
@@ -193,11 +194,11 @@ mod tests {
     }
 
     #[test]
-    fn an_own_table_of_the_size_of_the_exercises_is_played_on_and_kept_with_the_session() {
+    fn own_table_of_equal_size_is_used_and_saved() {
         let own = Table { name: "cellar".to_owned(), sliding_friction: 0.1, ..Table::default() };
         let exercise = |table: &str| {
             let layout = Layout::opening(&Table::preset(table).unwrap());
-            Exercise::own("mine", Rule::StraightRail, table, layout)
+            Exercise::new_own("mine", Rule::StraightRail, table, layout)
         };
         let session = |table: &str| {
             let mut session = Session::new(Goal::Free, Venue::Program, vec![exercise(table)], Skill::PERFECT, 1);
@@ -228,10 +229,10 @@ mod tests {
     }
 
     #[test]
-    fn a_stroke_at_a_touching_ball_is_a_foul_in_a_drill_and_counts_as_missed() {
+    fn pushing_a_touching_ball_counts_as_a_miss() {
         let table = Table::default();
         let layout = Layout::parse(&format!("0,0 {},0 -0.3,0.02", 2.0 * table.radius), &table).unwrap();
-        let exercise = Exercise::own("frozen", Rule::StraightRail, "match", layout);
+        let exercise = Exercise::new_own("frozen", Rule::StraightRail, "match", layout);
         let mut session = Session::new(Goal::Free, Venue::Program, vec![exercise], Skill::PERFECT, 1);
         let stroke = |degrees: f64| CueInputs {
             a: 0.0,
@@ -243,9 +244,9 @@ mod tests {
         let played = session.play(stroke(0.0), false).unwrap();
         let said = played.words(CueBall::White, LengthUnit::Metres);
         assert!(!played.made && said.starts_with("Foul: the stroke pushes yellow"), "{said}");
-        assert!(played.verdict.tally.met_both() && !session.attempts[0].made);
+        assert!(played.verdict.tally.has_hit_both() && !session.attempts[0].made);
         // The same for a shot that is not recorded, and for the make probability.
-        let one = Played::of(Rule::StraightRail, &table, &layout, stroke(0.0));
+        let one = PlayedStroke::of(Rule::StraightRail, &table, &layout, stroke(0.0));
         assert!(!one.made && one.verdict.tally.pushed == Some(1));
         for doubt in [Doubt::NONE, Doubt::FULL] {
             let shooter = Shooter { skill: Skill::CLUB, doubt };
@@ -258,16 +259,16 @@ mod tests {
     }
 
     #[test]
-    fn a_rail_raises_the_cue_that_is_meant_level_and_a_cue_without_room_is_refused() {
+    fn rail_raises_the_cue_or_refuses_it_without_room() {
         let table = Table { room: Some(Room::default()), ..Table::default() };
         let layout = Layout::new([DVec2::new(0.0, -table.half_width()), DVec2::new(-0.5, 0.3), DVec2::new(0.6, 0.1)]);
-        let meant = |b| CueInputs { a: 0.0, b, theta: 0.0, phi: std::f64::consts::FRAC_PI_2, speed: 2.0 };
-        let raised = |table: &Table, b| super::raised(table, &layout, &meant(b));
+        let intended = |b| CueInputs { a: 0.0, b, theta: 0.0, phi: std::f64::consts::FRAC_PI_2, speed: 2.0 };
+        let raised = |table: &Table, b| super::with_raised_cue(table, &layout, &intended(b));
         let up = raised(&table, 0.395).unwrap();
-        assert!(up.theta > 0.1_f64.to_radians() && CueInputs { theta: 0.0, ..up } == meant(0.395), "{up:?}");
+        assert!(up.theta > 0.1_f64.to_radians() && CueInputs { theta: 0.0, ..up } == intended(0.395), "{up:?}");
         let said = raised(&table, 0.1).unwrap_err().to_string();
         assert!(said.contains("no room") && said.contains("the bottom rail"), "{said}");
-        assert_eq!(raised(&Table { room: None, ..table.clone() }, 0.1).unwrap(), meant(0.1));
+        assert_eq!(raised(&Table { room: None, ..table.clone() }, 0.1).unwrap(), intended(0.1));
         assert!(matches!(raised(&table, 0.9), Err(PlayError::Cue(_))));
     }
 }

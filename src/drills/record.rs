@@ -45,7 +45,7 @@ impl Record {
     }
 
     /// Returns the record of the attempts in a session whose numbers, from 0 on, `counts` accepts.
-    pub(super) fn of_part(session: &Session, counts: impl Fn(usize) -> bool) -> Self {
+    pub(super) fn of_attempts(session: &Session, counts: impl Fn(usize) -> bool) -> Self {
         Self::of_all([session], |_, number| counts(number))
     }
 
@@ -95,7 +95,7 @@ impl Record {
 
     /// Returns the same `record` separately for real tables and for the program, where there are attempts: results at one say
     /// little about the other.
-    pub fn apart<'a>(
+    pub fn by_venue<'a>(
         sessions: &'a [Session],
         record: impl Fn(&mut dyn Iterator<Item = &'a Session>) -> Self,
     ) -> Vec<(Venue, Self)> {
@@ -115,7 +115,7 @@ mod tests {
     use crate::drills::{Goal, session::tests::session};
 
     #[test]
-    fn points_innings_average_and_high_run_are_those_counted_by_hand() {
+    fn points_innings_average_and_high_run_are_correct() {
         // Innings of 2, 0 and 3 points, the last one open; then 4, ended by a miss.
         let sessions = [session(Goal::Free, "xx--xxx"), session(Goal::Free, "xxxx-")];
         let record = Record::of(&sessions, |_, _| true);
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn results_without_order_count_in_the_rate_alone() {
+    fn unordered_results_count_only_in_the_rate() {
         let mut sessions = [session(Goal::Free, "xxxxx---"), session(Goal::Free, "x-")];
         sessions[0].unordered = true;
         let record = Record::of(&sessions, |_, _| true);
@@ -139,7 +139,7 @@ mod tests {
 
     /// Regression test: unordered misses were overlooked, so the average seemed to cover all attempts.
     #[test]
-    fn misses_without_order_are_told_from_those_noted_one_by_one() {
+    fn unordered_misses_are_marked_as_unordered() {
         let mut sessions = [session(Goal::Free, "----------"), session(Goal::Free, "x-")];
         assert!(!Record::of(&sessions, |_, _| true).has_unordered);
         sessions[0].unordered = true;
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_coach_played_counts_in_its_session_and_not_for_the_player() {
+    fn coach_strokes_count_for_the_session_only() {
         let mut sessions = [session(Goal::Run(2), "-xx")];
         sessions[0].attempts[1].by_coach = true;
         sessions[0].attempts[2].by_coach = true;
@@ -170,10 +170,10 @@ mod tests {
     }
 
     #[test]
-    fn results_of_a_real_table_and_strokes_that_are_played_here_count_apart() {
+    fn real_table_and_program_results_are_separate() {
         let here = Session { venue: Venue::Program, ..session(Goal::Free, "x---") };
         let all = |sessions: &[Session]| -> Vec<_> {
-            let apart = Record::apart(sessions, |sessions| Record::of_exercise(sessions, "first"));
+            let apart = Record::by_venue(sessions, |sessions| Record::of_exercise(sessions, "first"));
             apart.into_iter().map(|(venue, record)| (venue, record.made, record.tried)).collect()
         };
         let sessions = [here, session(Goal::Free, "xx-")];
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn a_game_from_an_exercise_is_no_repetition_of_it() {
+    fn game_does_not_count_as_repetition() {
         let sessions = [session(Goal::Game { innings: 1 }, "xx-"), session(Goal::Free, "x")];
         assert_eq!(Record::of_exercise(&sessions, "first").tried, 1);
         assert_eq!(Record::of_exercise(&sessions, "second").tried, 0);

@@ -121,7 +121,8 @@ pub struct Attempt {
     pub layout: Option<Layout>,
     /// The stroke that the player intended.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub meant: Option<CueInputs>,
+    #[serde(rename = "meant")]
+    pub intended: Option<CueInputs>,
     /// The stroke that resulted, with the player's errors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub played: Option<CueInputs>,
@@ -280,13 +281,13 @@ impl Session {
     }
 
     /// Returns the cue ball of the next attempt.
-    pub fn cue_ball_now(&self) -> CueBall {
+    pub fn next_cue_ball(&self) -> CueBall {
         self.cue_ball_of(self.attempts.len())
     }
 
     /// Whether the next stroke is the coach's: the other side's in a match against the coach.
     pub fn is_coachs_turn(&self) -> bool {
-        self.is_against_coach() && self.cue_ball_now() != self.cue_ball
+        self.is_against_coach() && self.next_cue_ball() != self.cue_ball
     }
 
     /// Returns the current inning, like `inning 2 of 10`; `None` if the session has no innings.
@@ -321,14 +322,14 @@ impl Session {
             return None;
         }
         let [one, other] =
-            [self.cue_ball, self.cue_ball.other()].map(|ball| (self.side_name(ball), self.side(ball).made));
+            [self.cue_ball, self.cue_ball.other()].map(|ball| (self.side_name(ball), self.side_record(ball).made));
         Some(format!("{} {} : {} {}", one.0, one.1, other.1, other.0))
     }
 
     /// Returns the score of one side of a match.
-    pub fn side(&self, cue_ball: CueBall) -> Record {
+    pub fn side_record(&self, cue_ball: CueBall) -> Record {
         let balls: Vec<CueBall> = self.cue_balls().collect();
-        Record::of_part(self, |number| balls[number] == cue_ball)
+        Record::of_attempts(self, |number| balls[number] == cue_ball)
     }
 
     /// Returns the exercise of an attempt, as stored in this session.
@@ -342,7 +343,7 @@ impl Session {
     }
 
     /// Returns the current number of points in a row.
-    pub fn run(&self) -> u32 {
+    pub fn current_run(&self) -> u32 {
         self.attempts.iter().rev().take_while(|attempt| attempt.made).count() as u32
     }
 
@@ -392,7 +393,7 @@ pub mod tests {
     }
 
     #[test]
-    fn a_match_of_before_the_coach_could_play_in_it_is_read_and_written_as_it_was() {
+    fn match_without_coach_keeps_its_old_format() {
         let text = r#"{"match":{"innings":10}}"#;
         let goal: Goal = serde_json::from_str(text).unwrap();
         assert_eq!(goal, Goal::Match { innings: 10, against_coach: false });
@@ -400,7 +401,7 @@ pub mod tests {
     }
 
     #[test]
-    fn a_match_tells_its_inning_and_its_score() {
+    fn match_describes_its_inning_and_score() {
         let mut played = session(Goal::Match { innings: 3, against_coach: true }, "xx-x--");
         assert_eq!(played.inning_words().as_deref(), Some("inning 2 of 3"));
         assert_eq!(played.score_words().as_deref(), Some("you 2 : 1 coach"));
@@ -412,40 +413,40 @@ pub mod tests {
     }
 
     #[test]
-    fn a_run_is_over_when_it_was_made_in_a_row_and_a_game_after_its_innings() {
+    fn run_and_game_goals_end_the_session() {
         assert!(!session(Goal::Run(3), "xx-xx").is_over());
         let done = session(Goal::Run(3), "xx-xxx");
-        assert!(done.is_over() && done.exercise().is_none() && done.run() == 3);
+        assert!(done.is_over() && done.exercise().is_none() && done.current_run() == 3);
         let game = Goal::Game { innings: 2 };
         assert!(!session(game, "xxx-x").is_over() && session(game, "xxx-x-").is_over());
         assert!(!session(Goal::Game { innings: 0 }, "-----").is_over());
     }
 
     #[test]
-    fn in_a_match_the_cue_ball_changes_with_each_miss_and_each_side_has_its_own_score() {
+    fn match_cue_ball_alternates_and_sides_score_separately() {
         // White makes two and misses, yellow misses, white makes one and misses, yellow makes two.
         let results = "xx--x-xx";
         let mut played = session(Goal::Match { innings: 3, against_coach: false }, results);
         let balls: String = (0..8).map(|number| &played.cue_ball_of(number).name()[..1]).collect();
         assert_eq!(balls, "wwwywwyy");
-        assert_eq!((played.cue_ball_now(), played.is_over()), (CueBall::Yellow, false));
-        let [white, yellow] = [CueBall::White, CueBall::Yellow].map(|ball| played.side(ball));
+        assert_eq!((played.next_cue_ball(), played.is_over()), (CueBall::Yellow, false));
+        let [white, yellow] = [CueBall::White, CueBall::Yellow].map(|ball| played.side_record(ball));
         assert_eq!((white.made, white.innings, white.high_run), (3, 2, 2));
         assert_eq!((yellow.made, yellow.innings, yellow.high_run), (2, 2, 2));
         // With yellow as the first cue ball, the colours are swapped throughout.
         played.cue_ball = CueBall::Yellow;
-        assert_eq!((played.cue_ball_of(0), played.side(CueBall::Yellow)), (CueBall::Yellow, white));
+        assert_eq!((played.cue_ball_of(0), played.side_record(CueBall::Yellow)), (CueBall::Yellow, white));
         assert!(
             session(Goal::Match { innings: 1, against_coach: false }, "x--").is_over()
                 && !session(Goal::Match { innings: 1, against_coach: false }, "x-").is_over()
         );
         // A single player keeps the cue ball.
         let alone = session(Goal::Game { innings: 3 }, "--x");
-        assert_eq!(alone.cue_ball_now(), CueBall::White);
+        assert_eq!(alone.next_cue_ball(), CueBall::White);
     }
 
     #[test]
-    fn a_match_goes_on_from_where_the_balls_lie_with_the_other_one_as_the_cue_ball() {
+    fn match_continues_from_final_layout_with_other_cue_ball() {
         let mut session = Session::new(
             Goal::Match { innings: 5, against_coach: false },
             Venue::Program,
@@ -464,7 +465,7 @@ pub mod tests {
     }
 
     #[test]
-    fn an_exam_goes_through_its_exercises_once() {
+    fn exam_uses_each_exercise_once() {
         let exercises = ["one", "two"].map(exercise).to_vec();
         let mut session = Session::new(Goal::Exam, Venue::Table, exercises, Skill::CLUB, 1);
         for name in ["one", "two"] {
@@ -478,9 +479,9 @@ pub mod tests {
     }
 
     #[test]
-    fn a_session_is_read_back_as_it_was_written() {
+    fn session_round_trips_through_json() {
         let mut session = session(Goal::Game { innings: 3 }, "x-");
-        session.attempts[0].meant = Some(CueInputs { a: 0.1, b: 0.25, theta: 0.0, phi: 0.0, speed: 2.5 });
+        session.attempts[0].intended = Some(CueInputs { a: 0.1, b: 0.25, theta: 0.0, phi: 0.0, speed: 2.5 });
         let text = serde_json::to_string(&session).unwrap();
         assert_eq!(serde_json::from_str::<Session>(&text).unwrap(), session);
     }

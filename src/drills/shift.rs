@@ -51,7 +51,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_repetition_is_possible_half_a_ball_away_and_another_one() {
+    fn repetitions_are_valid_distinct_half_ball_shifts() {
         let table = Table::default();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
         for seed in 0..200 {
@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn balls_that_touch_in_a_corner_are_moved_together() {
+    fn touching_balls_in_a_corner_move_together() {
         let table = Table::default();
         let corner = table.reach();
         let apart = 2.0 * table.radius;

@@ -61,12 +61,12 @@ impl Attempt {
             layout.validate(&exercise.table()?)?;
         }
         [self.chance, self.advised_chance].into_iter().flatten().try_for_each(check_share)?;
-        for cue in [self.meant, self.advised].iter().flatten() {
+        for cue in [self.intended, self.advised].iter().flatten() {
             cue.validate()?;
         }
         if let Some(CueInputs { theta, phi, speed, .. }) = self.played {
             // Errors may move the tip off the ball, and the other inputs slightly beyond the range of intended strokes.
-            let speed = speed * (CueInputs::MAX_SPEED / Skill::FASTEST);
+            let speed = speed * (CueInputs::MAX_SPEED / Skill::MAX_SPEED_WITH_ERRORS);
             CueInputs { a: 0.0, b: 0.0, theta, phi: 0.5 * phi, speed }.validate()?;
         }
         Ok(())
@@ -84,14 +84,14 @@ mod tests {
     use glam::DVec2;
 
     #[test]
-    fn what_nobody_can_have_played_is_refused_and_what_errors_make_of_a_stroke_is_not() {
+    fn impossible_strokes_are_refused_but_erroneous_ones_accepted() {
         let good = CueInputs { a: 0.0, b: 0.5, theta: 0.0, phi: 1.0, speed: 100.0 };
         let changed = |change: &dyn Fn(&mut Session)| {
             let mut session = session(Goal::Free, "x-");
             change(&mut session);
             session.validate()
         };
-        changed(&|session| session.attempts[1].meant = Some(good)).unwrap();
+        changed(&|session| session.attempts[1].intended = Some(good)).unwrap();
         changed(&|session| session.attempts[1].played = Some(CueInputs { b: 1.2, speed: 100.5, ..good })).unwrap();
         // The player with the largest errors, who hits too hard by three standard errors.
         let wild = Skill { speed: Skill::REFERENCE_SPEED, growth: Growth::USUAL, ..Skill::CLUB };
@@ -103,7 +103,7 @@ mod tests {
             &|session| session.started = u64::MAX,
             &|session| session.attempts[1].at = YEAR_10000,
             &|session| session.attempts[1].advised = Some(bad),
-            &|session| session.attempts[1].meant = Some(bad),
+            &|session| session.attempts[1].intended = Some(bad),
             &|session| session.attempts[1].played = Some(bad),
             &|session| session.attempts[1].layout = Some(Layout::new([DVec2::ZERO; 3])),
         ];

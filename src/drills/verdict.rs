@@ -1,6 +1,6 @@
 //! The result of a stroke, and its difference from the model shot, in players' words.
 
-use super::{Played, difference};
+use super::{PlayedStroke, difference};
 use crate::{
     coach::words::{LengthUnit, TipUnit, Units},
     physics::CueInputs,
@@ -12,7 +12,7 @@ const MIN_CHANGES: (f64, f64, f64, f64) = (0.05, 0.5, 1.0, 0.1);
 /// Difference in aim, degrees, beyond which it counts as a different shot.
 const ANOTHER_SHOT: f64 = 12.0;
 
-impl Played {
+impl PlayedStroke {
     /// Whether it made the point, and what was missing otherwise, for a player with `cue_ball`.
     pub fn words(&self, cue_ball: CueBall, unit: LengthUnit) -> String {
         if self.miscue {
@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn changes_say_which_way_and_how_far_across_the_half_turn_too() {
+    fn changes_state_direction_and_size_across_half_a_turn() {
         let table = Table::default();
         let cue = |a, b, theta: f64, phi: f64, speed| CueInputs {
             a: a * 0.001 / table.radius,

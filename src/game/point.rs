@@ -49,7 +49,7 @@ mod tests {
     };
 
     #[test]
-    fn only_the_first_three_cushion_shot_of_a_umb_game_asks_for_the_red_ball() {
+    fn only_three_cushion_opening_requires_red_first() {
         let umb = Table { opening: Opening::Umb, ..Table::default() };
         let thesis = Table { opening: Opening::Thesis, ..Table::default() };
         for side in [Side::Left, Side::Right] {
@@ -65,12 +65,12 @@ mod tests {
     }
 
     #[test]
-    fn the_opponents_ball_first_is_no_point_where_red_is_asked_for() {
+    fn other_ball_first_is_no_point_if_red_required() {
         let rail = EventKind::BallRail(0, Rail::Top);
         let tally = |first, second| {
             let mut tally = Tally::default();
             for kind in [EventKind::BallBall(0, first), rail, rail, rail, EventKind::BallBall(0, second)] {
-                tally.note(&Event { time: 0.0, kind });
+                tally.count(&Event { time: 0.0, kind });
             }
             tally
         };
@@ -81,7 +81,7 @@ mod tests {
 
     /// From the opening, some strokes make three cushions off the opponent's ball; these do not count.
     #[test]
-    fn scoring_an_opening_shot_looks_at_the_ball_that_comes_first() {
+    fn opening_shot_scores_only_if_red_is_first() {
         let umb = Table { opening: Opening::Umb, ..Table::default() };
         let free = Table { opening: Opening::Thesis, ..umb.clone() };
         let layout = Layout::opening(&umb);

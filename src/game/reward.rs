@@ -63,7 +63,7 @@ impl Reward {
     }
 
     /// Returns the largest reward that a shot can earn.
-    pub const fn highest(self) -> f64 {
+    pub const fn max_value(self) -> f64 {
         match self {
             Self::R2 | Self::R4 => 2.0,
             _ => 1.0,
@@ -91,13 +91,13 @@ impl Reward {
 
     /// Returns the reward of a shot, simulated until it is decided. The layout and the stroke are not validated.
     pub fn of(self, table: &Table, layout: &Layout, cue: &CueInputs) -> f64 {
-        self.within(table, layout, cue, u32::MAX)
+        self.of_within_steps(table, layout, cue, u32::MAX)
     }
 
     /// Like [`Reward::of`], but gives up a shot whose resting contacts need more than `steps` integration steps; it
     /// keeps what it has earned so far. For training: such shots hardly ever earn more, because balls that press each
     /// other lose their speed.
-    pub fn within(self, table: &Table, layout: &Layout, cue: &CueInputs, steps: u32) -> f64 {
+    pub fn of_within_steps(self, table: &Table, layout: &Layout, cue: &CueInputs, steps: u32) -> f64 {
         let impulse = strike(table, cue);
         let enough = match self {
             Self::R1 | Self::R1Difficulty => Some(1),
@@ -114,9 +114,9 @@ impl Reward {
         }
     }
 
-    /// Like [`Reward::within`], but a stroke for which the cue has no room is not played and earns nothing.
-    pub fn with_room(self, table: &Table, layout: &Layout, cue: &CueInputs, steps: u32) -> f64 {
-        if has_room(table, layout, cue) { self.within(table, layout, cue, steps) } else { 0.0 }
+    /// Like [`Reward::of_within_steps`], but a stroke for which the cue has no room is not played and earns nothing.
+    pub fn of_playable(self, table: &Table, layout: &Layout, cue: &CueInputs, steps: u32) -> f64 {
+        if has_room(table, layout, cue) { self.of_within_steps(table, layout, cue, steps) } else { 0.0 }
     }
 
     /// Returns the reward of a shot with this `tally` and this final layout.
@@ -132,8 +132,8 @@ impl Reward {
     fn contact_reward(self, tally: &Tally) -> f64 {
         let one = |made: bool| f64::from(u8::from(made));
         match self {
-            Self::R1 | Self::R2 => one(tally.met_any()),
-            Self::R1Difficulty => one(tally.met_any()) * 0.5_f64.powf(f64::from(tally.cushions_before_first)),
+            Self::R1 | Self::R2 => one(tally.has_hit_any()),
+            Self::R1Difficulty => one(tally.has_hit_any()) * 0.5_f64.powf(f64::from(tally.cushions_before_first)),
             Self::R3 | Self::R4 => one(tally.is_point(Rule::StraightRail)),
             Self::OneCushion => one(tally.is_point(Rule::OneCushion)),
             Self::ThreeCushion => one(tally.is_point(Rule::ThreeCushion)),
@@ -170,7 +170,7 @@ mod tests {
     use glam::DVec2;
 
     #[test]
-    fn the_distance_reward_spans_nought_to_one() {
+    fn distance_reward_ranges_from_zero_to_one() {
         let table = Table::default();
         let reach = table.reach();
         let corners = Layout::new([-reach, reach, DVec2::new(reach.x, -reach.y)]);
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn a_half_ball_carom_earns_what_asks_for_no_cushion() {
+    fn direct_carom_earns_rewards_without_cushions() {
         let table = Table::default();
         let layout = Layout::parse("-0.4,0 0,0 0.2,0.28", &table).unwrap();
         let cue = CueInputs::parse("0,0.25,3,4.5,1.5").unwrap();
@@ -190,32 +190,32 @@ mod tests {
     }
 
     #[test]
-    fn a_stroke_for_which_the_cue_has_no_room_earns_nothing() {
+    fn stroke_without_room_earns_nothing() {
         let table = Table::default();
         // The second object ball lies in the way of the cue.
         let layout = |behind| Layout::parse(&format!("-0.4,0 0,0 {behind},0"), &table).unwrap();
         let cue = CueInputs::parse("0,0,10,0,2").unwrap();
         for reward in Reward::ALL {
-            let earned = |behind| reward.with_room(&table, &layout(behind), &cue, u32::MAX);
+            let earned = |behind| reward.of_playable(&table, &layout(behind), &cue, u32::MAX);
             assert_eq!(earned("0.5"), reward.of(&table, &layout("0.5"), &cue), "{reward}");
             assert_eq!(earned("-0.48"), 0.0, "{reward}");
         }
     }
 
     #[test]
-    fn a_point_by_cushions_needs_as_many_before_the_second_ball() {
+    fn cushion_rewards_count_cushions_before_second_ball() {
         let layout = Layout::opening(&Table::default());
         let earned = |cushions| {
-            let tally = Tally { met: [true; 2], cushions, cushions_before_second: cushions, ..Tally::default() };
+            let tally = Tally { hit: [true; 2], cushions, cushions_before_second: cushions, ..Tally::default() };
             [Reward::OneCushion, Reward::ThreeCushion].map(|reward| reward.value(&Table::default(), &tally, &layout))
         };
         assert_eq!([0, 1, 2, 3].map(earned), [[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 1.0]]);
     }
 
     #[test]
-    fn a_reward_that_says_whether_a_shot_makes_a_point_knows_fouls() {
+    fn point_rewards_are_zero_after_a_foul() {
         let layout = Layout::opening(&Table::default());
-        let made = Tally { met: [true; 2], cushions: 3, cushions_before_second: 3, ..Tally::default() };
+        let made = Tally { hit: [true; 2], cushions: 3, cushions_before_second: 3, ..Tally::default() };
         for reward in Reward::ALL.into_iter().filter(|reward| reward.rule().is_some()) {
             let earned = |tally| reward.value(&Table::default(), &tally, &layout);
             assert_eq!([earned(made), earned(Tally { left_table: true, ..made })], [1.0, 0.0], "{reward}");
@@ -225,8 +225,8 @@ mod tests {
     }
 
     #[test]
-    fn a_cushion_before_the_ball_halves_the_reward_for_difficulty() {
-        let tally = Tally { met: [true, false], cushions: 3, cushions_before_first: 2, ..Tally::default() };
+    fn each_cushion_before_first_ball_halves_r1_difficulty() {
+        let tally = Tally { hit: [true, false], cushions: 3, cushions_before_first: 2, ..Tally::default() };
         let layout = Layout::opening(&Table::default());
         assert_eq!(Reward::R1Difficulty.value(&Table::default(), &tally, &layout), 0.25);
         assert_eq!(Reward::R3.value(&Table::default(), &tally, &layout), 0.0);

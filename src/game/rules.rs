@@ -77,7 +77,7 @@ impl FromStr for Rule {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
     /// Whether it has hit each object ball (balls 1 and 2).
-    pub met: [bool; 2],
+    pub hit: [bool; 2],
     /// Whether ball 2, the red one, was hit first.
     pub red_first: bool,
     /// Number of cushion contacts.
@@ -87,14 +87,14 @@ pub struct Tally {
     /// Number of cushion contacts before the second object ball.
     pub cushions_before_second: u32,
     /// Whether it has hit its first object ball again before the second.
-    pub met_again: bool,
+    pub hit_again: bool,
     /// Whether a ball has left the table: a foul by every rule, so no point.
     pub left_table: bool,
     /// The ball that touched the cue ball and was pushed by the stroke, which is a foul too. No event reports it, so it
     /// must be set when the tally is created.
     pub pushed: Option<usize>,
     /// Number of balls in the air.
-    pub aloft: u8,
+    pub airborne: u8,
 }
 
 impl Tally {
@@ -105,25 +105,25 @@ impl Tally {
     }
 
     /// Counts one event.
-    pub fn note(&mut self, event: &Event) {
+    pub fn count(&mut self, event: &Event) {
         match event.kind {
             EventKind::BallRail(0, _) => self.cushions += 1,
-            EventKind::BallBall(0, ball) if !self.met[ball - 1] => {
-                if !self.met_any() {
+            EventKind::BallBall(0, ball) if !self.hit[ball - 1] => {
+                if !self.has_hit_any() {
                     self.red_first = ball == 2;
                 }
-                self.met[ball - 1] = true;
-                if self.met_both() {
+                self.hit[ball - 1] = true;
+                if self.has_hit_both() {
                     self.cushions_before_second = self.cushions;
                 } else {
                     self.cushions_before_first = self.cushions;
                 }
             }
-            EventKind::BallBall(0, _) => self.met_again |= !self.met_both(),
-            EventKind::Jumps(_) => self.aloft += 1,
-            EventKind::Lands(_) => self.aloft -= 1,
+            EventKind::BallBall(0, _) => self.hit_again |= !self.has_hit_both(),
+            EventKind::Jumps(_) => self.airborne += 1,
+            EventKind::Lands(_) => self.airborne -= 1,
             EventKind::LeavesTable(_) => {
-                self.aloft -= 1;
+                self.airborne -= 1;
                 self.left_table = true;
             }
             _ => {}
@@ -133,28 +133,28 @@ impl Tally {
     /// Whether nothing can change the result: the cue ball has hit `enough` object balls and no ball is in the air, or
     /// there was a foul.
     pub fn is_decided(&self, enough: u8) -> bool {
-        let met = u8::from(self.met[0]) + u8::from(self.met[1]);
-        self.is_foul() || (met >= enough && self.aloft == 0)
+        let hits = u8::from(self.hit[0]) + u8::from(self.hit[1]);
+        self.is_foul() || (hits >= enough && self.airborne == 0)
     }
 
     /// Whether the cue ball has hit an object ball.
-    pub fn met_any(&self) -> bool {
-        self.met[0] || self.met[1]
+    pub fn has_hit_any(&self) -> bool {
+        self.hit[0] || self.hit[1]
     }
 
     /// Whether it has hit both object balls.
-    pub fn met_both(&self) -> bool {
-        self.met[0] & self.met[1]
+    pub fn has_hit_both(&self) -> bool {
+        self.hit[0] & self.hit[1]
     }
 
     /// Returns the object ball that was hit first, if any: 1 or 2.
     pub fn first_ball(&self) -> Option<usize> {
-        self.met_any().then_some(if self.red_first { 2 } else { 1 })
+        self.has_hit_any().then_some(if self.red_first { 2 } else { 1 })
     }
 
     /// Returns the object balls that have not been hit yet.
-    pub fn unmet(&self) -> [bool; 2] {
-        self.met.map(|met| !met)
+    pub fn not_hit(&self) -> [bool; 2] {
+        self.hit.map(|hit| !hit)
     }
 
     /// Whether there was a foul, which rules out a point.
@@ -165,7 +165,7 @@ impl Tally {
     /// Whether this is a point by the rule, whichever ball was first; it can still become one until both object balls
     /// are hit. [`super::Point`] has the additional condition of an opening shot.
     pub fn is_point(&self, rule: Rule) -> bool {
-        self.met_both() && self.cushions_before_second >= rule.cushions() && !self.is_foul()
+        self.has_hit_both() && self.cushions_before_second >= rule.cushions() && !self.is_foul()
     }
 }
 
@@ -175,7 +175,7 @@ pub struct Referee {
     /// The contacts of the cue ball so far.
     pub tally: Tally,
     enough: Option<u8>,
-    patience: StepBudget,
+    step_budget: StepBudget,
 }
 
 impl Default for Referee {
@@ -187,19 +187,19 @@ impl Default for Referee {
 
 impl Referee {
     /// Observes a shot to its end.
-    pub fn to_the_end() -> Self {
+    pub fn until_end() -> Self {
         Self::new(None, u32::MAX)
     }
 
     /// Observes until the cue ball has hit `enough` object balls, or to the end of the shot if `None`. A shot whose
     /// resting contacts take more than `steps` integration steps counts as decided by then.
     pub fn new(enough: Option<u8>, steps: u32) -> Self {
-        Self { tally: Tally::default(), enough, patience: StepBudget(steps) }
+        Self { tally: Tally::default(), enough, step_budget: StepBudget(steps) }
     }
 
     /// Starts with this tally.
     #[must_use]
-    pub const fn beginning(self, tally: Tally) -> Self {
+    pub const fn with_tally(self, tally: Tally) -> Self {
         Self { tally, ..self }
     }
 }
@@ -210,12 +210,12 @@ impl Observer for Referee {
     }
 
     fn awaited(&self) -> Option<[bool; 2]> {
-        self.enough.map(|_| self.tally.unmet())
+        self.enough.map(|_| self.tally.not_hit())
     }
 
     #[inline]
     fn event(&mut self, event: Event) -> ControlFlow<()> {
-        self.tally.note(&event);
+        self.tally.count(&event);
         match self.enough {
             Some(enough) if self.tally.is_decided(enough) => ControlFlow::Break(()),
             _ => ControlFlow::Continue(()),
@@ -223,14 +223,14 @@ impl Observer for Referee {
     }
 
     fn contact_step(&mut self) -> ControlFlow<()> {
-        self.patience.step()
+        self.step_budget.step()
     }
 }
 
 /// Whether a shot makes a point. The layout and the stroke are not validated.
 pub fn scores(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     let impulse = strike(table, cue);
-    let mut referee = Referee::default().beginning(Tally::from_stroke(table, layout, &impulse));
+    let mut referee = Referee::default().with_tally(Tally::from_stroke(table, layout, &impulse));
     watch_with::<AllSavings, _>(table, layout, &impulse, &mut referee);
     Point::of(rule, table, layout).is_made(&referee.tally)
 }
@@ -243,7 +243,7 @@ mod tests {
     fn tally(kinds: &[EventKind]) -> Tally {
         let mut tally = Tally::default();
         for (index, kind) in kinds.iter().enumerate() {
-            tally.note(&Event { time: index as f64, kind: *kind });
+            tally.count(&Event { time: index as f64, kind: *kind });
         }
         tally
     }
@@ -260,21 +260,21 @@ mod tests {
     }
 
     #[test]
-    fn a_first_ball_that_is_met_again_is_noted_until_the_second_is_met() {
-        let met_again = |balls: &[usize]| {
+    fn hit_again_is_set_only_before_second_ball() {
+        let hit_again = |balls: &[usize]| {
             let mut tally = Tally::default();
             for ball in balls {
-                tally.note(&Event { time: 0.0, kind: EventKind::BallBall(0, *ball) });
+                tally.count(&Event { time: 0.0, kind: EventKind::BallBall(0, *ball) });
             }
-            tally.met_again
+            tally.hit_again
         };
-        assert!(met_again(&[1, 1, 2]) && met_again(&[2, 2]));
-        assert!(!met_again(&[1, 2]) && !met_again(&[1, 2, 1]));
+        assert!(hit_again(&[1, 1, 2]) && hit_again(&[2, 2]));
+        assert!(!hit_again(&[1, 2]) && !hit_again(&[1, 2, 1]));
     }
 
     #[test]
-    fn a_foul_decides_a_shot_and_makes_no_point() {
-        let both = Tally { met: [true; 2], ..Tally::default() };
+    fn foul_decides_the_shot_without_a_point() {
+        let both = Tally { hit: [true; 2], ..Tally::default() };
         assert!(both.is_point(Rule::StraightRail));
         for foul in [Tally { left_table: true, ..both }, Tally { pushed: Some(1), ..both }] {
             assert!(!foul.is_point(Rule::StraightRail) && foul.is_decided(2));
@@ -286,24 +286,24 @@ mod tests {
     }
 
     #[test]
-    fn the_same_ball_twice_is_no_point() {
+    fn hitting_one_ball_twice_is_no_point() {
         let tally = tally(&[EventKind::BallBall(0, 1), RAIL, EventKind::BallBall(0, 1)]);
         assert!(tally.first_ball() == Some(1) && !tally.is_point(Rule::StraightRail));
     }
 
     #[test]
-    fn what_object_balls_do_among_themselves_counts_for_nothing() {
+    fn contacts_between_object_balls_are_ignored() {
         let tally = tally(&[
             EventKind::BallBall(0, 1),
             EventKind::BallBall(1, 2),
             EventKind::BallRail(1, Rail::Left),
             EventKind::SlidingRolling(0),
         ]);
-        assert_eq!((tally.met, tally.cushions), ([true, false], 0));
+        assert_eq!((tally.hit, tally.cushions), ([true, false], 0));
     }
 
     #[test]
-    fn names_are_read_back_and_an_unknown_one_is_named() {
+    fn rule_names_round_trip_and_unknown_names_are_refused() {
         for rule in Rule::ALL {
             assert_eq!(rule.name().parse(), Ok(rule));
         }

@@ -6,7 +6,7 @@ use crate::{
 };
 
 /// Maximum gap between balls that count as touching, m: no referee sees a gap of a hundredth of a millimetre.
-const NO_GAP: f64 = 1e-5;
+const MAX_TOUCHING_GAP: f64 = 1e-5;
 
 /// The object balls that touch the cue ball. By the UMB's rules of carom the stroke must not move them: the cue ball is
 /// played away from them, or the balls are placed on their spots.
@@ -18,7 +18,7 @@ impl Touching {
     #[inline]
     pub fn of(table: &Table, layout: &Layout) -> Self {
         let [cue_ball, balls @ ..] = layout.balls;
-        let reach = 2.0 * table.radius + NO_GAP;
+        let reach = 2.0 * table.radius + MAX_TOUCHING_GAP;
         Self(balls.map(|ball| cue_ball.distance_squared(ball) <= reach * reach))
     }
 
@@ -43,7 +43,7 @@ mod tests {
     use glam::DVec2;
 
     #[test]
-    fn a_touching_ball_is_played_away_from() {
+    fn only_strokes_away_from_touching_balls_are_legal() {
         let table = Table::default();
         let pushes = |gap: f64, degrees: f64| {
             let first = DVec2::new(2.0 * table.radius + gap, 0.0);

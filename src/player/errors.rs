@@ -77,16 +77,16 @@ fn radical_inverse(mut n: u32, base: u32) -> f64 {
 /// attempts.
 pub fn independent(count: usize, seed: u64) -> Vec<Errors> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-    (0..count).map(|_| one(&mut rng)).collect()
+    (0..count).map(|_| random(&mut rng)).collect()
 }
 
 /// Draws the errors of one stroke.
-pub fn one(rng: &mut Xoshiro256PlusPlus) -> Errors {
-    std::array::from_fn(|_| normal(rng))
+pub fn random(rng: &mut Xoshiro256PlusPlus) -> Errors {
+    std::array::from_fn(|_| standard_normal(rng))
 }
 
 /// Draws a standard normal number.
-pub fn normal(rng: &mut Xoshiro256PlusPlus) -> f64 {
+pub fn standard_normal(rng: &mut Xoshiro256PlusPlus) -> f64 {
     normal_pair(rng)[0]
 }
 
@@ -95,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn streams_have_mean_nought_and_deviation_one_and_do_not_correlate() {
+    fn streams_are_uncorrelated_standard_normal() {
         let mut streams = Streams::new(4);
         let all: Vec<[f64; 20]> = (0..768).map(|n| std::array::from_fn(|stream| streams.number(stream, n))).collect();
         let mean = |f: &dyn Fn(&[f64; 20]) -> f64| all.iter().map(f).sum::<f64>() / all.len() as f64;
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn both_kinds_have_mean_nought_and_deviation_one_and_do_not_correlate() {
+    fn halton_and_independent_errors_are_standard_normal() {
         // The means of independent errors typically deviate by 0.5 %.
         let halton = Halton::new(3);
         let spread = (0..4096).map(|n| halton.errors(n)).collect();

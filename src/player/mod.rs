@@ -6,5 +6,5 @@ mod sight;
 mod skill;
 
 pub use input::Input;
-pub use sight::{aimed, misplaced};
+pub use sight::{perturbed_layout, re_aimed};
 pub use skill::{Growth, Skill, SkillError};

@@ -7,7 +7,7 @@ use crate::{
 
 /// Draws a possible real layout behind the reported `layout`, whose coordinates each have a standard error of `placing` m. A
 /// ball that would overlap another one or a cushion is moved less far.
-pub fn misplaced(table: &Table, layout: &Layout, placing: f64, mut normal: impl FnMut() -> f64) -> Layout {
+pub fn perturbed_layout(table: &Table, layout: &Layout, placing: f64, mut normal: impl FnMut() -> f64) -> Layout {
     let mut moved = *layout;
     if placing == 0.0 {
         return moved;
@@ -25,19 +25,19 @@ pub fn misplaced(table: &Table, layout: &Layout, placing: f64, mut normal: impl 
     moved
 }
 
-/// Returns the stroke of a player who is given `cue` for the `meant` layout but sees the `real` one. It is turned so that it
+/// Returns the stroke of a player who is given `cue` for the `assumed` layout but sees the `real` one. It is turned so that it
 /// hits its first ball with the same fullness, or aims at the same point of a cushion if it hits no ball.
-pub fn aimed(table: &Table, meant: &Layout, real: &Layout, cue: &CueInputs) -> CueInputs {
-    let [start, real_start] = [meant.balls[0], real.balls[0]];
+pub fn re_aimed(table: &Table, assumed: &Layout, real: &Layout, cue: &CueInputs) -> CueInputs {
+    let [start, real_start] = [assumed.balls[0], real.balls[0]];
     let along = glam::DVec2::from_angle(cue.phi + squirt(table, cue.a));
     let ahead = |ball: &usize| {
-        let to_ball = meant.balls[*ball] - start;
+        let to_ball = assumed.balls[*ball] - start;
         let distance = to_ball.dot(along);
         (distance > 0.0 && along.perp_dot(to_ball).abs() < 2.0 * table.radius).then_some(distance)
     };
     let first = [1, 2].into_iter().filter_map(|ball| Some((ball, ahead(&ball)?))).min_by(|a, b| a.1.total_cmp(&b.1));
     let (target, real_target) = if let Some((ball, _)) = first {
-        (meant.balls[ball], real.balls[ball])
+        (assumed.balls[ball], real.balls[ball])
     } else {
         let reach = table.reach();
         let until = |place: f64, speed: f64, most: f64| {
@@ -60,22 +60,22 @@ mod tests {
     use glam::DVec2;
 
     #[test]
-    fn a_player_aims_at_the_ball_where_it_lies_and_at_the_point_of_the_cushion_where_it_is() {
-        let (table, meant) =
+    fn re_aiming_keeps_the_target_ball_or_rail_point() {
+        let (table, assumed) =
             (Table::default(), Layout::new([DVec2::new(-0.8, 0.1), DVec2::new(0.4, 0.3), DVec2::new(0.9, -0.5)]));
-        let mut real = meant;
+        let mut real = assumed;
         real.balls[0] += DVec2::new(0.003, -0.004);
         real.balls[1] += DVec2::new(-0.002, 0.005);
         let towards = |layout: &Layout, ball: usize| (layout.balls[ball] - layout.balls[0]).to_angle();
         let cue = |phi| CueInputs { a: 0.2, b: 0.1, theta: 0.0, phi: phi - squirt(&table, 0.2), speed: 2.0 };
-        let half = cue(towards(&meant, 1) + 0.03);
-        let turned = aimed(&table, &meant, &real, &half);
-        assert!((turned.phi - half.phi - (towards(&real, 1) - towards(&meant, 1))).abs() < 1e-12);
+        let half = cue(towards(&assumed, 1) + 0.03);
+        let turned = re_aimed(&table, &assumed, &real, &half);
+        assert!((turned.phi - half.phi - (towards(&real, 1) - towards(&assumed, 1))).abs() < 1e-12);
         // Straight up: from another position the same point needs another direction.
         let up = cue(std::f64::consts::FRAC_PI_2);
-        let turned = aimed(&table, &meant, &real, &up);
+        let turned = re_aimed(&table, &assumed, &real, &up);
         let point = DVec2::new(-0.8, table.half_width());
-        assert!((turned.phi - up.phi - (point - meant.balls[0]).angle_to(point - real.balls[0])).abs() < 1e-12);
-        assert_eq!(aimed(&table, &meant, &meant, &up), up);
+        assert!((turned.phi - up.phi - (point - assumed.balls[0]).angle_to(point - real.balls[0])).abs() < 1e-12);
+        assert_eq!(re_aimed(&table, &assumed, &assumed, &up), up);
     }
 }

@@ -38,7 +38,7 @@ impl Errors {
         let outcome = |events: &[(f64, EventKind)]| {
             let mut tally = Tally::default();
             for &(time, kind) in events {
-                tally.note(&Event { time, kind });
+                tally.count(&Event { time, kind });
             }
             RULES.map(|rule| tally.is_point(rule))
         };

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    coach::{FirstMet, Skill},
+    coach::{FirstContact, Skill},
     game::Rule,
     table::BALLS,
     terminal::words::player_words,
@@ -20,7 +20,7 @@ pub struct Terms {
     pub plan: bool,
     /// What the cue ball has to meet first. It applies to the present question only and is never saved.
     #[serde(skip)]
-    pub first: FirstMet,
+    pub first: FirstContact,
 }
 
 impl Terms {

@@ -7,7 +7,7 @@ pub use crate::printing::fixed;
 use crate::{
     coach::{
         Skill,
-        words::{LengthUnit, short},
+        words::{LengthUnit, format_trimmed},
     },
     game::Rule,
     simulation::{EventKind, Rail},
@@ -98,8 +98,8 @@ fn average_words(skill: Skill) -> String {
     match named_skill(skill) {
         _ if average > most => format!("above {most}"),
         _ if average < least => format!("below {least}"),
-        Some(_) => short((20.0 * average).round() / 20.0, 2),
-        None => short(average, 2),
+        Some(_) => format_trimmed((20.0 * average).round() / 20.0, 2),
+        None => format_trimmed(average, 2),
     }
 }
 
@@ -170,7 +170,7 @@ pub fn in_diamonds(table: &Table, place: DVec2) -> DVec2 {
 /// Formats a step, given in millimetres, in the fine unit for placing balls, without trailing zeros.
 pub fn step_words(millimetres: f64, unit: LengthUnit) -> String {
     let (in_a_metre, symbol, decimals) = unit.fine();
-    format!("{} {symbol}", short(1e-3 * in_a_metre * millimetres, decimals))
+    format!("{} {symbol}", format_trimmed(1e-3 * in_a_metre * millimetres, decimals))
 }
 
 /// The side of the tip's offset `a`, in ball radii, positive to the shooter's left; "mid" for the centre.

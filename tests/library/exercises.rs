@@ -7,7 +7,7 @@ use carom::{
         PATTERNS, Pattern, Skill, Technique,
         systems::{Guide, Line, System, diamonds, guide, metres},
     },
-    drills::{Category, Exercise, GATHERED, Library, LibraryFile, Par, decode, encode, flaws, shifted},
+    drills::{Category, Exercise, Library, LibraryFile, MAX_GATHERED_DISTANCE, Par, decode, encode, flaws, shifted},
     game::scores,
     physics::CueInputs,
     simulation::Recording,
@@ -52,7 +52,7 @@ fn every_shot_shows_what_its_category_teaches() {
     }
     let turns = |exercise: &&Exercise| {
         let table = exercise.table().unwrap();
-        Technique::of(&table, &exercise.layout, &exercise.shot.unwrap()).unwrap().turn.to_degrees() > 90.0
+        Technique::of(&table, &exercise.layout, &exercise.shot.unwrap()).unwrap().deflection.to_degrees() > 90.0
     };
     let draws = exercises.iter().filter(|e| e.category == Category::Draw);
     assert!(draws.filter(turns).count() >= 6);
@@ -118,7 +118,7 @@ fn a_cue_that_is_sighted_through_the_number_of_a_systems_exercise_makes_the_poin
         let lines = lines.map(|along| Line::between(from, system.first_at(along)));
         let line = lines.min_by(|one, other| off(one).total_cmp(&off(other))).unwrap();
         assert!(off(&line) < 0.02, "{}: {line:?}", exercise.name);
-        let phi = (metres(&table, from + line.way) - metres(&table, from)).to_angle();
+        let phi = (metres(&table, from + line.direction) - metres(&table, from)).to_angle();
         assert!(scores(exercise.rule, &table, &exercise.layout, &CueInputs { phi, ..shot }), "{}", exercise.name);
     }
 }
@@ -131,7 +131,7 @@ fn balls_are_gathered_for_players_too() {
         let gathered = |errors: &[f64; 5]| {
             let stroke = Skill::EXPERT.stroke(table.radius, &shot, errors);
             let technique = Technique::of(&table, &exercise.layout, &stroke).unwrap();
-            technique.tally.is_point(exercise.rule) && technique.spread <= GATHERED
+            technique.tally.is_point(exercise.rule) && technique.spread <= MAX_GATHERED_DISTANCE
         };
         let mut errors = || {
             let [[a, b], [theta, phi], [speed, _]] = std::array::from_fn(|_| normal_pair(&mut rng));

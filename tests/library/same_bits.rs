@@ -168,7 +168,7 @@ fn ends_out_of_reach(count: usize) -> usize {
         watch_with::<S, _>(table, &shot.layout, &impulse, &mut watching);
         // Cushions no longer count if no ball is met after them.
         let Counting(Referee { tally, .. }, steps) = watching;
-        (Tally { cushions: 0, met_again: tally.met_again && tally.met_both(), ..tally }, steps)
+        (Tally { cushions: 0, hit_again: tally.hit_again && tally.has_hit_both(), ..tally }, steps)
     }
     let table = Table::preset("thesis").unwrap();
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);

@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use super::{
     leg::Leg,
-    lines::{Line, Mirror, behind_at, metres},
-    shift::Shift,
+    lines::{Line, Mirror, metres, start_at},
+    shift::ParallelShift,
     system::{Numbers, System},
 };
 use crate::{
@@ -15,16 +15,16 @@ use crate::{
 };
 
 /// Minimum side at the first cushion that counts as running, `R w / v`; a system without side requires less.
-const RUNNING: f64 = 0.15;
+const MIN_RUNNING_SIDE: f64 = 0.15;
 /// Maximum distance on the first cushion between the system's aim and the aim of a shot that it still describes,
 /// diamonds. Tables differ by half a diamond from each other.
-const NEAR: f64 = 1.0;
+const MAX_AIM_DISTANCE: f64 = 1.0;
 /// Position of the ball along the line of the example, as a share.
-const EXAMPLE: f64 = 0.25;
+const EXAMPLE_POSITION: f64 = 0.25;
 /// Number of intervals in which the first cushion is scanned.
-const TRIED: usize = 48;
+const SCAN_INTERVALS: usize = 48;
 /// Maximum change of the error between two neighbouring lines of the scan: of the arrival, diamonds, and of the third number.
-const JUMPS: [f64; 2] = [0.7, 10.0];
+const MAX_ERROR_STEPS: [f64; 2] = [0.7, 10.0];
 /// Bisection steps between two lines: to a thousandth of a diamond or better.
 const HALVINGS: u32 = 12;
 
@@ -35,7 +35,7 @@ pub enum Guide {
     /// The numbers of a system.
     System(Applied),
     /// A parallel shift of a neighbouring line, if no system applies.
-    Shift(Shift),
+    Shift(ParallelShift),
 }
 
 /// A system applied to one shot.
@@ -79,7 +79,7 @@ pub fn guide(table: &Table, recording: &Recording) -> Option<Guide> {
     }
     let leg = Leg::of(table, recording)?;
     let system = System::ALL.into_iter().find_map(|system| Applied::of(system, table, &leg)).map(Guide::System);
-    system.or_else(|| Shift::of(table, &leg).map(Guide::Shift))
+    system.or_else(|| ParallelShift::of(table, &leg).map(Guide::Shift))
 }
 
 impl Guide {
@@ -98,29 +98,30 @@ impl Applied {
     fn of(system: System, table: &Table, leg: &Leg) -> Option<Self> {
         let rails = leg.rails();
         let mirror = Mirror::ALL.into_iter().find(|mirror| rails.map(|rail| mirror.rail(rail)) == system.rails())?;
-        if (leg.english > RUNNING) != system.is_running() || leg.english < -RUNNING {
+        if (leg.english > MIN_RUNNING_SIDE) != system.is_running() || leg.english < -MIN_RUNNING_SIDE {
             return None;
         }
-        let place = |index: usize| mirror.place(leg.hits[index].1);
+        let place = |index: usize| mirror.apply(leg.hits[index].1);
         let arrival = system.arrival(table, place(1), place(2))?;
-        let applied = Self::counted(system, table, mirror, mirror.place(leg.from), arrival)?;
+        let applied = Self::for_arrival(system, table, mirror, mirror.apply(leg.from), arrival)?;
         let shot = Line::between(applied.line.from, place(0));
         let (counted, played) = (system.first_along(&applied.line)?, system.first_along(&shot)?);
         let shot_first = system.numbers(&shot).map(|numbers| numbers.first);
-        ((counted - played).abs() <= NEAR).then_some(Self { shot_first, ..applied })
+        ((counted - played).abs() <= MAX_AIM_DISTANCE).then_some(Self { shot_first, ..applied })
     }
 
     /// Applies `system` to a ball centred at `from` that should arrive at `arrival` on the third cushion, both in
     /// diamonds in the standard orientation. `None` if the system has no line for it.
-    fn counted(system: System, table: &Table, mirror: Mirror, from: DVec2, arrival: f64) -> Option<Self> {
+    fn for_arrival(system: System, table: &Table, mirror: Mirror, from: DVec2, arrival: f64) -> Option<Self> {
         let wanted = system.third_number(arrival)?;
         let aimed = |along: f64| Line::between(from, system.first_at(along));
         let [low, _] = system.first_ends();
         let third_off = |along: f64| Some(system.numbers(&aimed(along))?.third - wanted);
-        let counted = solve(system, low, JUMPS[1], third_off)?;
+        let counted = solve(system, low, MAX_ERROR_STEPS[1], third_off)?;
         let line = aimed(counted);
-        let played = |line: &Line| system.played(table, mirror, line, &system.natural());
-        let on_table = solve(system, counted, JUMPS[0], |along| Some(played(&aimed(along))? - arrival)).map(aimed);
+        let played = |line: &Line| system.simulated_arrival(table, mirror, line, &system.natural_stroke());
+        let on_table =
+            solve(system, counted, MAX_ERROR_STEPS[0], |along| Some(played(&aimed(along))? - arrival)).map(aimed);
         Some(Self {
             system,
             rails: system.rails().map(|rail| mirror.rail(rail)),
@@ -137,18 +138,18 @@ impl Applied {
     /// Returns the system's textbook example, on this table.
     pub fn example(system: System, table: &Table) -> Option<Self> {
         let line = system.example();
-        let from = line.from + EXAMPLE * line.way;
-        Self::counted(system, table, Mirror::default(), from, system.third_along(system.numbers(&line)?.third)?)
+        let from = line.from + EXAMPLE_POSITION * line.direction;
+        Self::for_arrival(system, table, Mirror::default(), from, system.third_along(system.numbers(&line)?.third)?)
     }
 
     /// Returns the path of the system's natural stroke on the system's line, as this table plays it, from the diamond
     /// behind it to the third cushion: the centres of the ball at the cushions, m.
     pub fn path(&self, table: &Table) -> Vec<DVec2> {
         let Self { system, mirror, line, .. } = self;
-        let turned = |place: DVec2| metres(table, mirror.place(place));
-        let line_on_table = Line::between(mirror.place(line.from), mirror.place(line.from + line.way));
-        let hits = system.natural().run(table, &line_on_table, mirror.rail(system.rails()[0]));
-        let behind = line.behind().map(|along| turned(behind_at(along)));
+        let turned = |place: DVec2| metres(table, mirror.apply(place));
+        let line_on_table = Line::between(mirror.apply(line.from), mirror.apply(line.from + line.direction));
+        let hits = system.natural_stroke().run(table, &line_on_table, mirror.rail(system.rails()[0]));
+        let behind = line.start_along().map(|along| turned(start_at(along)));
         let hits = hits.into_iter().take(3).map(|(_, place)| metres(table, place));
         behind.into_iter().chain([turned(line.from)]).chain(hits).collect()
     }
@@ -159,16 +160,16 @@ impl Applied {
 /// not a solution.
 fn solve(system: System, near: f64, jump: f64, error: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let [low, high] = system.first_ends();
-    let at = |step: usize| low + (high - low) * step as f64 / TRIED as f64;
-    let errors: Vec<Option<f64>> = (0..=TRIED).map(|step| error(at(step))).collect();
-    let exact = |step: usize| errors[step].filter(|error| error.abs() < EXACT).map(|_| (at(step), None));
+    let at = |step: usize| low + (high - low) * step as f64 / SCAN_INTERVALS as f64;
+    let errors: Vec<Option<f64>> = (0..=SCAN_INTERVALS).map(|step| error(at(step))).collect();
+    let exact = |step: usize| errors[step].filter(|error| error.abs() < ZERO_ERROR).map(|_| (at(step), None));
     let crossed = |step: usize| match (errors[step], errors.get(step + 1).copied().flatten()) {
         (Some(one), Some(other)) if one * other < 0.0 && (one - other).abs() < jump => {
             Some((at(step), Some(one < 0.0)))
         }
         _ => None,
     };
-    let found = (0..=TRIED).filter_map(|step| exact(step).or_else(|| crossed(step)));
+    let found = (0..=SCAN_INTERVALS).filter_map(|step| exact(step).or_else(|| crossed(step)));
     let (mut low, below) = found.min_by(|one, other| (one.0 - near).abs().total_cmp(&(other.0 - near).abs()))?;
     let Some(below) = below else { return Some(low) };
     let mut high = low + at(1) - at(0);
@@ -184,7 +185,7 @@ fn solve(system: System, near: f64, jump: f64, error: impl Fn(f64) -> Option<f64
 }
 
 /// An error below this is zero up to rounding.
-const EXACT: f64 = 1e-9;
+const ZERO_ERROR: f64 = 1e-9;
 
 #[cfg(test)]
 mod tests {
@@ -198,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn every_example_is_counted_as_it_is_taught_and_corrected_by_what_the_table_plays() {
+    fn textbook_examples_match_and_are_corrected_for_the_table() {
         let table = Table::default();
         for (system, numbers) in
             [(System::Corner5, [50.0, 20.0, 30.0]), (System::Plus, [4.0, 3.0, 7.0]), (System::Seven, [4.0, 24.0, 6.0])]
@@ -211,7 +212,8 @@ mod tests {
             );
             // With the table's own number, the natural stroke must arrive there.
             let on_table = Line::between(applied.line.from, system.first_at(first_along(system, &applied)));
-            let arrival = system.played(&table, applied.mirror, &on_table, &system.natural()).unwrap();
+            let arrival =
+                system.simulated_arrival(&table, applied.mirror, &on_table, &system.natural_stroke()).unwrap();
             assert!((arrival - applied.arrival).abs() < 0.02, "{system}: {arrival} for {}", applied.arrival);
             assert_eq!(applied.path(&table).len(), 5, "{system}");
         }
@@ -226,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bank_with_running_side_is_counted_by_corner_5_whichever_way_it_runs() {
+    fn running_bank_uses_corner_5_in_every_orientation() {
         // From the lower right corner to the upper long cushion, and its three mirror images.
         let mut told = Vec::new();
         for (layout, cue) in [
@@ -246,7 +248,7 @@ mod tests {
 
     /// Each number is rounded as it is displayed, and the sum is computed from the displayed numbers.
     #[test]
-    fn the_number_to_aim_at_is_what_the_sum_comes_to() {
+    fn aim_number_equals_the_displayed_sum() {
         let example = Applied::example(System::Corner5, &Table::preset("textbook").unwrap()).unwrap();
         let numbers = Numbers { start: 65.6, first: 30.3, third: 35.3 };
         let applied = Applied { numbers, table_first: None, table_third: None, ..example };
@@ -257,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn the_number_at_which_the_shot_itself_is_aimed_is_said_where_it_is_another() {
+    fn differing_shot_number_is_displayed() {
         let example = Applied::example(System::Corner5, &Table::default()).unwrap();
         let numbers = Numbers { start: 50.0, first: 20.0, third: 30.0 };
         let said = |table_first, shot_first| {
@@ -273,14 +275,14 @@ mod tests {
     }
 
     #[test]
-    fn without_running_side_or_three_cushions_no_system_is_named() {
+    fn no_system_without_running_side_or_three_cushions() {
         assert_eq!(guided("6d,1d 7d,3.5d 0.5d,0.5d", "0,0,0,133,0.6"), None);
         let reverse = guided("6d,1d 7d,3.5d 0.5d,0.5d", "-0.4,0.3,0,133,4");
         assert!(!matches!(reverse, Some(Guide::System(_))), "{reverse:?}");
     }
 
     #[test]
-    fn a_line_that_no_system_has_is_counted_from_the_line_beside_it() {
+    fn line_outside_all_systems_uses_the_parallel_shift() {
         // Three times across the table: long cushion, opposite long cushion, first long cushion.
         let Some(Guide::Shift(shift)) = guided("2.3d,1d 7d,3.5d 0.5d,0.5d", "0,0.2,0,75,4") else { panic!() };
         assert_eq!(shift.rails, [crate::simulation::Rail::Top; 2]);

@@ -7,7 +7,7 @@ use glam::DVec2;
 use crate::{simulation::Rail, table::Table};
 
 /// Distance of the diamonds behind the noses, in diamonds: 80 mm on a match table.
-pub const BEHIND: f64 = 0.225;
+pub const DIAMOND_SETBACK: f64 = 0.225;
 
 /// Diamonds along the length and along the width.
 pub const SIZE: DVec2 = DVec2::new(8.0, 4.0);
@@ -41,7 +41,7 @@ impl Mirror {
     ];
 
     /// Mirrors a position in diamonds. This is its own inverse.
-    pub fn place(self, place: DVec2) -> DVec2 {
+    pub fn apply(self, place: DVec2) -> DVec2 {
         DVec2::select(glam::BVec2::new(self.x, self.y), SIZE - place, place)
     }
 
@@ -63,47 +63,47 @@ pub struct Line {
     /// A point on it.
     pub from: DVec2,
     /// Its direction, of any length except zero.
-    pub way: DVec2,
+    pub direction: DVec2,
 }
 
 impl Line {
     /// Creates the line from one position to another.
     pub fn between(from: DVec2, to: DVec2) -> Self {
-        Self { from, way: to - from }
+        Self { from, direction: to - from }
     }
 
     /// Returns the `y` of the intersection with the vertical line at `x`; `None` if the lines are parallel.
     pub fn at_x(&self, x: f64) -> Option<f64> {
-        let y = self.from.y + (x - self.from.x) / self.way.x * self.way.y;
+        let y = self.from.y + (x - self.from.x) / self.direction.x * self.direction.y;
         y.is_finite().then_some(y)
     }
 
     /// Returns the `x` of the intersection with the horizontal line at `y`; `None` if the lines are parallel.
     pub fn at_y(&self, y: f64) -> Option<f64> {
-        let x = self.from.x + (y - self.from.y) / self.way.y * self.way.x;
+        let x = self.from.x + (y - self.from.y) / self.direction.y * self.direction.x;
         x.is_finite().then_some(x)
     }
 
     /// Returns the intersection with the line of a cushion's diamonds, as the position along the cushion.
     pub fn at_rail(&self, rail: Rail) -> Option<f64> {
         match rail {
-            Rail::Top => self.at_y(4.0 + BEHIND),
-            Rail::Bottom => self.at_y(-BEHIND),
-            Rail::Left => self.at_x(-BEHIND),
-            Rail::Right => self.at_x(8.0 + BEHIND),
+            Rail::Top => self.at_y(4.0 + DIAMOND_SETBACK),
+            Rail::Bottom => self.at_y(-DIAMOND_SETBACK),
+            Rail::Left => self.at_x(-DIAMOND_SETBACK),
+            Rail::Right => self.at_x(8.0 + DIAMOND_SETBACK),
         }
     }
 
     /// Returns the start of a line that leads up and to the left, measured along the diamonds of the lower cushion to
     /// the right and on up those of the right cushion; their corner is at 8.225.
-    pub fn behind(&self) -> Option<f64> {
-        if self.way.x >= 0.0 || self.way.y <= 0.0 {
+    pub fn start_along(&self) -> Option<f64> {
+        if self.direction.x >= 0.0 || self.direction.y <= 0.0 {
             return None;
         }
-        let corner = 8.0 + BEHIND;
-        match self.at_y(-BEHIND)? {
+        let corner = 8.0 + DIAMOND_SETBACK;
+        match self.at_y(-DIAMOND_SETBACK)? {
             x if x <= corner => Some(x),
-            _ => Some(corner + self.at_x(corner)? + BEHIND),
+            _ => Some(corner + self.at_x(corner)? + DIAMOND_SETBACK),
         }
     }
 }
@@ -111,17 +111,21 @@ impl Line {
 /// Returns the position at the diamonds of a cushion, `along` diamonds along it.
 pub const fn edge(rail: Rail, along: f64) -> DVec2 {
     match rail {
-        Rail::Top => DVec2::new(along, 4.0 + BEHIND),
-        Rail::Bottom => DVec2::new(along, -BEHIND),
-        Rail::Left => DVec2::new(-BEHIND, along),
-        Rail::Right => DVec2::new(8.0 + BEHIND, along),
+        Rail::Top => DVec2::new(along, 4.0 + DIAMOND_SETBACK),
+        Rail::Bottom => DVec2::new(along, -DIAMOND_SETBACK),
+        Rail::Left => DVec2::new(-DIAMOND_SETBACK, along),
+        Rail::Right => DVec2::new(8.0 + DIAMOND_SETBACK, along),
     }
 }
 
-/// Returns the position at the diamonds for a value of [`Line::behind`].
-pub fn behind_at(along: f64) -> DVec2 {
-    let corner = 8.0 + BEHIND;
-    if along <= corner { DVec2::new(along, -BEHIND) } else { DVec2::new(corner, along - corner - BEHIND) }
+/// Returns the position at the diamonds for a value of [`Line::start_along`].
+pub fn start_at(along: f64) -> DVec2 {
+    let corner = 8.0 + DIAMOND_SETBACK;
+    if along <= corner {
+        DVec2::new(along, -DIAMOND_SETBACK)
+    } else {
+        DVec2::new(corner, along - corner - DIAMOND_SETBACK)
+    }
 }
 
 #[cfg(test)]
@@ -129,16 +133,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_way_along_the_diamonds_goes_round_the_corner_and_back() {
+    fn start_along_and_start_at_are_inverse() {
         for along in [0.5, 4.0, 8.0, 8.225, 8.5, 10.4] {
-            let line = Line::between(behind_at(along), DVec2::new(0.3, 4.1));
-            assert!((line.behind().unwrap() - along).abs() < 1e-12, "{along}");
+            let line = Line::between(start_at(along), DVec2::new(0.3, 4.1));
+            assert!((line.start_along().unwrap() - along).abs() < 1e-12, "{along}");
         }
-        assert_eq!(Line::between(DVec2::ZERO, DVec2::ONE).behind(), None);
+        assert_eq!(Line::between(DVec2::ZERO, DVec2::ONE).start_along(), None);
     }
 
     #[test]
-    fn a_line_to_a_diamond_meets_the_cushion_there() {
+    fn line_to_a_diamond_intersects_the_rail_there() {
         for rail in Rail::ALL {
             let line = Line::between(DVec2::new(3.1, 1.7), edge(rail, 2.5));
             assert!((line.at_rail(rail).unwrap() - 2.5).abs() < 1e-12, "{rail:?}");
@@ -146,11 +150,11 @@ mod tests {
     }
 
     #[test]
-    fn turned_over_twice_is_as_before() {
+    fn mirroring_twice_restores_the_position() {
         let table = Table::default();
         let place = DVec2::new(1.5, 3.25);
         for mirror in Mirror::ALL {
-            assert_eq!(mirror.place(mirror.place(place)), place);
+            assert_eq!(mirror.apply(mirror.apply(place)), place);
             for rail in Rail::ALL {
                 assert_eq!(mirror.rail(mirror.rail(rail)), rail);
             }

@@ -12,7 +12,7 @@ use crate::{
 
 /// The motion of a cue ball that is played as a system assumes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Natural {
+pub struct NaturalStroke {
     /// Running side on the first cushion: the equator's speed divided by the ball's.
     pub side: f64,
     /// Forward spin divided by that of a rolling ball.
@@ -21,11 +21,11 @@ pub struct Natural {
     pub speed: f64,
 }
 
-impl Natural {
+impl NaturalStroke {
     /// Simulates a ball alone on `table` that runs on `line` towards the cushion `first`. Returns up to five cushions
     /// that it hits and its centre at each, in diamonds.
     pub fn run(&self, table: &Table, line: &Line, first: Rail) -> Vec<(Rail, DVec2)> {
-        let [from, to] = [line.from, line.from + line.way].map(|place| metres(table, place));
+        let [from, to] = [line.from, line.from + line.direction].map(|place| metres(table, place));
         let ahead = (to - from).normalize_or_zero();
         // Running side carries the ball further in its direction along the cushion.
         let running = if ahead.perp_dot(reflected(ahead, first)) < 0.0 { 1.0 } else { -1.0 };
@@ -38,14 +38,14 @@ impl Natural {
 
 /// Returns the first five cushions that a ball alone on the table hits, with its centre in diamonds.
 pub fn hits(table: &Table, from: DVec2, impulse: &Impulse) -> Vec<(Rail, DVec2)> {
-    let followed = Follower::new(&[], MOST).follow(table, &lone_ball_layout(from), impulse);
+    let followed = Follower::new(&[], MAX_CUSHIONS).follow(table, &lone_ball_layout(from), impulse);
     followed.hits.into_iter().map(|(_, rail, place)| (rail, diamonds(table, place))).collect()
 }
 
 /// Returns the direction after an ideal reflection from a cushion, without spin.
-pub fn reflected(way: DVec2, rail: Rail) -> DVec2 {
-    way - 2.0 * way.dot(rail.normal()) * rail.normal()
+pub fn reflected(direction: DVec2, rail: Rail) -> DVec2 {
+    direction - 2.0 * direction.dot(rail.normal()) * rail.normal()
 }
 
 /// Maximum number of cushions: systems use three, and a corner may add one.
-const MOST: usize = 5;
+const MAX_CUSHIONS: usize = 5;

@@ -43,7 +43,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn between_two_starts_the_arrival_is_between_theirs() {
+    fn arrival_is_interpolated_between_start_numbers() {
         assert_eq!([third(2.0, 3.0), third(3.0, 3.0), third(2.5, 3.0)], [Some(5.0), Some(6.0), Some(5.5)]);
         assert_eq!([third(8.0, 4.0), third(7.5, 4.0)], [Some(8.0), Some(7.5)]);
         assert_eq!([third(8.0, 3.4), third(1.9, 3.0), third(5.0, 2.4), third(3.0, 4.1)], [None; 4]);

@@ -11,7 +11,7 @@ impl Scale {
     }
 
     /// Returns the position of a number; `None` beyond the ends.
-    pub fn place(&self, number: f64) -> Option<f64> {
+    pub fn position(&self, number: f64) -> Option<f64> {
         between(self.0.iter().copied(), number)
     }
 
@@ -36,11 +36,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_and_places_are_each_others_inverse_and_end_where_the_scale_does() {
+    fn numbers_and_positions_are_inverse_within_the_scale() {
         let scale = Scale(&[(0.0, 0.2), (10.0, 1.0), (20.0, 3.0)]);
         for number in [0.0, 3.0, 10.0, 19.5, 20.0] {
-            assert!((scale.number(scale.place(number).unwrap()).unwrap() - number).abs() < 1e-12);
+            assert!((scale.number(scale.position(number).unwrap()).unwrap() - number).abs() < 1e-12);
         }
-        assert_eq!((scale.number(0.1), scale.place(20.1), scale.ends()), (None, None, [0.2, 3.0]));
+        assert_eq!((scale.number(0.1), scale.position(20.1), scale.ends()), (None, None, [0.2, 3.0]));
     }
 }

@@ -14,14 +14,14 @@ use super::{
 use crate::{simulation::Rail, table::Table};
 
 /// Maximum difference between the shift's prediction and the actual arrival, diamonds.
-const NEAR: f64 = 0.5;
+const MAX_ARRIVAL_ERROR: f64 = 0.5;
 
 /// Smaller shifts do not matter to a player, diamonds: the line itself leads to the diamond.
-const LEAST: f64 = 0.05;
+const MIN_SHIFT: f64 = 0.05;
 
 /// A line that leads to a diamond, and the shot's parallel line next to it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Shift {
+pub struct ParallelShift {
     /// Always `parallel-shift`.
     name: &'static str,
     /// The first cushion and the third.
@@ -42,7 +42,7 @@ pub struct Shift {
     pub path: [DVec2; 4],
 }
 
-impl Shift {
+impl ParallelShift {
     /// Returns the rule of the shift, as a sentence.
     pub fn rule(&self) -> &'static str {
         if self.by * (self.third - self.arrival) < 0.0 {
@@ -53,7 +53,7 @@ impl Shift {
     }
 
     /// Returns where the shot itself is aimed on the first cushion, in its diamonds.
-    pub fn aimed(&self) -> f64 {
+    pub fn shot_aim(&self) -> f64 {
         self.diamond + self.by
     }
 
@@ -73,7 +73,7 @@ impl Shift {
             return None;
         }
         let aimed = leg.line().at_rail(first)?;
-        if (aimed - aimed.round()).abs() < LEAST {
+        if (aimed - aimed.round()).abs() < MIN_SHIFT {
             return None;
         }
         let (lower, last) = (aimed.floor(), if is_long(first) { SIZE.x } else { SIZE.y });
@@ -84,11 +84,11 @@ impl Shift {
         // There is no diamond to aim at beyond the corner.
         beside.into_iter().filter(|diamond| (0.0..=last).contains(diamond)).find_map(|diamond| {
             let by = aimed - diamond;
-            let path = path_beside(table, leg, -by)?;
+            let path = parallel_path(table, leg, -by)?;
             let arrival = along(path[3], third);
             let third = arrival + turned * by;
             // Nor can a ball arrive beyond a corner.
-            let is_there = (0.0..=last).contains(&third) && (third - table_third).abs() <= NEAR;
+            let is_there = (0.0..=last).contains(&third) && (third - table_third).abs() <= MAX_ARRIVAL_ERROR;
             is_there.then_some(Self {
                 name: "parallel-shift",
                 rails: [first, leg.hits[2].0],
@@ -105,7 +105,7 @@ impl Shift {
 
 /// Simulates the path of the shot's ball, from its start to the third cushion, if it reached the first one `by`
 /// diamonds further along. `None` if it takes other cushions.
-fn path_beside(table: &Table, leg: &Leg, by: f64) -> Option<[DVec2; 4]> {
+fn parallel_path(table: &Table, leg: &Leg, by: f64) -> Option<[DVec2; 4]> {
     let (place, motion) = &leg.motion;
     let first = leg.hits[0].0;
     let further = if is_long(first) { DVec2::X } else { DVec2::Y } * by;
@@ -146,7 +146,7 @@ mod tests {
     use super::*;
     use crate::{
         coach::{
-            candidates::any_stroke,
+            candidates::random_stroke,
             systems::{Guide, guide},
         },
         simulation::Recording,
@@ -154,23 +154,23 @@ mod tests {
     };
 
     #[test]
-    fn a_ball_is_aimed_at_a_diamond_that_is_there_and_a_stranger_reads_where_it_comes() {
+    fn shift_uses_existing_diamonds_and_describes_the_arrival() {
         let (table, mut rng) = (Table::default(), Xoshiro256PlusPlus::seed_from_u64(3));
         let shots = (0..4000).filter_map(|_| {
             let layout = Layout::random(&table, &mut rng);
-            let cue = any_stroke(&table, &layout, &mut rng);
+            let cue = random_stroke(&table, &layout, &mut rng);
             match guide(&table, &Recording::new(&table, &layout, &cue).ok()?)? {
                 Guide::Shift(shift) => Some(shift),
                 Guide::System(_) => None,
             }
         });
-        let shifts: Vec<Shift> = shots.collect();
+        let shifts: Vec<ParallelShift> = shots.collect();
         assert!(shifts.len() > 20, "{}", shifts.len());
         for shift in &shifts {
             let last = if is_long(shift.rails[0]) { 8.0 } else { 4.0 };
             assert!((0.0..=last).contains(&shift.diamond) && (0.0..=last).contains(&shift.third), "{shift:?}");
         }
-        let shift = Shift {
+        let shift = ParallelShift {
             name: "parallel-shift",
             rails: [Rail::Top, Rail::Bottom],
             diamond: 3.0,
@@ -188,11 +188,11 @@ mod tests {
         let brief =
             "diamond 3 of the top rail leads to 5.1 of the bottom rail; 3.4, as here, to 4.7; on this table to 4.6";
         assert_eq!(shift.brief(), brief);
-        assert!(Shift { table_third: 4.7, ..shift }.brief().ends_with("as here, to 4.7"));
+        assert!(ParallelShift { table_third: 4.7, ..shift }.brief().ends_with("as here, to 4.7"));
     }
 
     #[test]
-    fn a_line_begins_on_the_table() {
+    fn line_entry_point_is_on_the_table() {
         let to = DVec2::new(2.0, 4.0);
         assert_eq!(entry(DVec2::new(1.0, 1.0), to), DVec2::new(1.0, 1.0));
         assert_eq!(entry(DVec2::new(-1.0, 1.0), to), DVec2::new(0.0, 2.0));

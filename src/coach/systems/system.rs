@@ -9,8 +9,8 @@ use glam::DVec2;
 use serde::{Serialize, Serializer};
 
 use super::{
-    lines::{BEHIND, Line, Mirror, behind_at, edge},
-    natural::Natural,
+    lines::{DIAMOND_SETBACK, Line, Mirror, edge, start_at},
+    natural::NaturalStroke,
     plus,
     scale::Scale,
 };
@@ -146,24 +146,24 @@ impl System {
 
     /// Returns the stroke that the system assumes, one for all its lines. Fitted by `study::filmed` so that its arrivals are
     /// nearest to those on the `match` table.
-    pub const fn natural(self) -> Natural {
+    pub const fn natural_stroke(self) -> NaturalStroke {
         match self {
-            Self::Corner5 => Natural { side: 0.99, roll: 1.27, speed: 3.0 },
-            Self::Plus => Natural { side: 0.66, roll: 1.06, speed: 4.5 },
-            Self::Seven => Natural { side: -0.13, roll: 1.48, speed: 2.7 },
+            Self::Corner5 => NaturalStroke { side: 0.99, roll: 1.27, speed: 3.0 },
+            Self::Plus => NaturalStroke { side: 0.66, roll: 1.06, speed: 4.5 },
+            Self::Seven => NaturalStroke { side: -0.13, roll: 1.48, speed: 2.7 },
         }
     }
 
     /// Returns the numbers of a line that leads up and to the left; `None` if its start, its end or its arrival is
     /// outside the scale.
     pub fn numbers(self, line: &Line) -> Option<Numbers> {
-        let start = self.start_scale().number(line.behind()?)?;
+        let start = self.start_scale().number(line.start_along()?)?;
         let place = self.first_along(line)?;
         Some(match self {
             Self::Corner5 => {
                 let first = CORNER_5_FIRST.number(place)?;
                 let third = start - first;
-                CORNER_5_THIRD.place(third)?;
+                CORNER_5_THIRD.position(third)?;
                 Numbers { start, first, third }
             }
             Self::Plus => {
@@ -173,7 +173,7 @@ impl System {
             Self::Seven => {
                 let first = SEVEN_FIRST.number(place)?;
                 let third = first / start;
-                SEVEN_THIRD.place(third)?;
+                SEVEN_THIRD.position(third)?;
                 Numbers { start, first, third }
             }
         })
@@ -213,9 +213,9 @@ impl System {
         let leg = Line::between(before, place);
         let radius = 4.0 * table.radius / table.width;
         match self {
-            Self::Corner5 => leg.at_y(radius).filter(|_| leg.way.y < 0.0),
-            Self::Plus => leg.at_rail(Rail::Bottom).filter(|_| leg.way.y < 0.0),
-            Self::Seven => leg.at_rail(Rail::Right).filter(|_| leg.way.x > 0.0),
+            Self::Corner5 => leg.at_y(radius).filter(|_| leg.direction.y < 0.0),
+            Self::Plus => leg.at_rail(Rail::Bottom).filter(|_| leg.direction.y < 0.0),
+            Self::Seven => leg.at_rail(Rail::Right).filter(|_| leg.direction.x > 0.0),
         }
     }
 
@@ -223,7 +223,7 @@ impl System {
     pub fn third_number(self, along: f64) -> Option<f64> {
         match self {
             Self::Corner5 => CORNER_5_THIRD.number(along),
-            Self::Plus => (0.0..=8.0 + BEHIND).contains(&along).then_some(along),
+            Self::Plus => (0.0..=8.0 + DIAMOND_SETBACK).contains(&along).then_some(along),
             Self::Seven => SEVEN_THIRD.number(4.0 - along),
         }
     }
@@ -231,9 +231,9 @@ impl System {
     /// Returns the arrival of a number, in diamonds along the third cushion.
     pub fn third_along(self, number: f64) -> Option<f64> {
         match self {
-            Self::Corner5 => CORNER_5_THIRD.place(number),
-            Self::Plus => (0.0..=8.0 + BEHIND).contains(&number).then_some(number),
-            Self::Seven => SEVEN_THIRD.place(number).map(|down| 4.0 - down),
+            Self::Corner5 => CORNER_5_THIRD.position(number),
+            Self::Plus => (0.0..=8.0 + DIAMOND_SETBACK).contains(&number).then_some(number),
+            Self::Seven => SEVEN_THIRD.position(number).map(|down| 4.0 - down),
         }
     }
 
@@ -247,11 +247,11 @@ impl System {
 
     /// Simulates this `stroke` on `line` on the table mirrored by `mirror` and returns the arrival, in diamonds along
     /// the third cushion. `None` if the ball does not arrive there.
-    pub fn played(self, table: &Table, mirror: Mirror, line: &Line, stroke: &Natural) -> Option<f64> {
+    pub fn simulated_arrival(self, table: &Table, mirror: Mirror, line: &Line, stroke: &NaturalStroke) -> Option<f64> {
         let [first, _, third] = self.rails();
-        let turned = Line::between(mirror.place(line.from), mirror.place(line.from + line.way));
+        let turned = Line::between(mirror.apply(line.from), mirror.apply(line.from + line.direction));
         let hits = stroke.run(table, &turned, mirror.rail(first));
-        let hit = |index: usize| hits.get(index).map(|(rail, place)| (mirror.rail(*rail), mirror.place(*place)));
+        let hit = |index: usize| hits.get(index).map(|(rail, place)| (mirror.rail(*rail), mirror.apply(*place)));
         // Near a corner the third cushion may be hit before the second.
         let index = if hit(1)?.0 == third { 1 } else { 2 };
         self.arrival(table, hit(index - 1)?.1, hit(index)?.1)
@@ -260,9 +260,9 @@ impl System {
     /// Returns the system's textbook example.
     pub fn example(self) -> Line {
         match self {
-            Self::Corner5 => Line::between(behind_at(8.0 + BEHIND), self.first_at(2.0)),
-            Self::Plus => Line::between(behind_at(4.0), self.first_at(3.0)),
-            Self::Seven => Line::between(behind_at(6.0), self.first_at(2.4)),
+            Self::Corner5 => Line::between(start_at(8.0 + DIAMOND_SETBACK), self.first_at(2.0)),
+            Self::Plus => Line::between(start_at(4.0), self.first_at(3.0)),
+            Self::Seven => Line::between(start_at(6.0), self.first_at(2.4)),
         }
     }
 
@@ -274,15 +274,15 @@ impl System {
             Self::Plus => &[2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0],
             Self::Seven => &[2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0],
         };
-        let start = numbers.iter().filter_map(|&number| Some((number, behind_at(scale.place(number)?))));
+        let start = numbers.iter().filter_map(|&number| Some((number, start_at(scale.position(number)?))));
         let first: Vec<(f64, f64)> = match self {
             Self::Corner5 => [10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0]
                 .iter()
-                .filter_map(|&number| Some((number, CORNER_5_FIRST.place(number)?)))
+                .filter_map(|&number| Some((number, CORNER_5_FIRST.position(number)?)))
                 .collect(),
             Self::Plus => vec![(5.0, 2.0), (4.0, 2.5), (3.0, 3.0), (2.0, 3.5)],
             Self::Seven => {
-                [10.0, 20.0, 30.0].iter().filter_map(|&number| Some((number, SEVEN_FIRST.place(number)?))).collect()
+                [10.0, 20.0, 30.0].iter().filter_map(|&number| Some((number, SEVEN_FIRST.position(number)?))).collect()
             }
         };
         let thirds: &[f64] = match self {
@@ -316,7 +316,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_line_that_no_system_has_has_no_numbers() {
+    fn line_outside_a_system_has_no_numbers() {
         let line = |from: [f64; 2], to: [f64; 2]| Line::between(DVec2::from(from), DVec2::from(to));
         let steep = line([0.5, 0.5], [0.45, 3.0]);
         assert_eq!(System::Seven.numbers(&steep), None);
@@ -325,17 +325,19 @@ mod tests {
     }
 
     #[test]
-    fn a_turned_table_is_played_as_the_one_that_is_taught() {
+    fn mirrored_table_gives_the_same_arrival() {
         let table = Table::default();
         let line = Line::between(DVec2::new(5.0, 0.6), DVec2::new(2.0, 4.225));
-        let played = |mirror| System::Corner5.played(&table, mirror, &line, &System::Corner5.natural()).unwrap();
+        let played = |mirror| {
+            System::Corner5.simulated_arrival(&table, mirror, &line, &System::Corner5.natural_stroke()).unwrap()
+        };
         for mirror in Mirror::ALL {
             assert!((played(mirror) - played(Mirror::default())).abs() < 1e-6, "{mirror:?}");
         }
     }
 
     #[test]
-    fn labels_stand_where_the_numbers_are() {
+    fn labels_are_at_the_positions_of_their_numbers() {
         for system in System::ALL {
             let labels = system.labels();
             let mut counted = 0;

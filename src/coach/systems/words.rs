@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::{
     guide::{Applied, Guide},
-    shift::Shift,
+    shift::ParallelShift,
     system::{Numbers, System},
 };
 
@@ -86,21 +86,21 @@ impl fmt::Display for Applied {
     }
 }
 
-impl Shift {
+impl ParallelShift {
     /// Describes where the line to the diamond leads, and the shot next to it: `aimed at diamond 3 of the top rail, the ball
     /// comes to 5.1 of the bottom rail; aimed at 3.4, as here, to 4.7`.
-    pub fn counted(&self) -> String {
+    pub fn description(&self) -> String {
         let Self { rails: [first, last], diamond, arrival, .. } = self;
         let (first, last) = (first.name(), last.name());
         format!(
             "aimed at diamond {diamond:.0} of the {first} rail, the ball comes to {arrival:.1} of the {last} rail; aimed at {:.1}, as \
              here, to {:.1}",
-            self.aimed(),
+            self.shot_aim(),
             self.displayed_third()
         )
     }
 
-    /// Like [`counted`](Self::counted) in fewer words, with the correction for this table: `diamond 3 of the top rail
+    /// Like [`description`](Self::description) in fewer words, with the correction for this table: `diamond 3 of the top rail
     /// leads to 5.1 of the bottom rail; 3.4, as here, to 4.7; on this table to 4.6`.
     pub fn brief(&self) -> String {
         let Self { rails: [first, last], diamond, arrival, .. } = self;
@@ -108,7 +108,7 @@ impl Shift {
         let more = self.correction().map_or_else(String::new, |correction| format!("; {correction}"));
         format!(
             "diamond {diamond:.0} of the {first} rail leads to {arrival:.1} of the {last} rail; {:.1}, as here, to {:.1}{more}",
-            self.aimed(),
+            self.shot_aim(),
             self.displayed_third()
         )
     }
@@ -126,9 +126,9 @@ impl Shift {
     }
 }
 
-impl fmt::Display for Shift {
+impl fmt::Display for ParallelShift {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "Parallel shift: {}", self.counted())?;
+        write!(formatter, "Parallel shift: {}", self.description())?;
         self.correction().map_or(Ok(()), |correction| write!(formatter, "; {correction}"))
     }
 }

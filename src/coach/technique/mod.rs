@@ -51,10 +51,10 @@ pub struct Technique {
     /// Cushions between the first and the second object ball, in order.
     pub between: Vec<Cushion>,
     /// Cushions that the first object ball hits in the whole shot, in order.
-    pub sent: Vec<Rail>,
+    pub first_ball_rails: Vec<Rail>,
     /// Angle between the cue ball's paths to and from the first ball, rad. The second is measured once it rolls or hits
     /// something.
-    pub turn: f64,
+    pub deflection: f64,
     /// The object ball that the cue ball flies over before its first contact.
     pub over: Option<usize>,
     /// Angle by which the cue ball's path bends until its first contact, rad.
@@ -71,7 +71,7 @@ pub struct Technique {
     pub is_close: bool,
     /// Number of cushions between the balls before the cue ball hits the first ball again; `None` if it does not do so
     /// before the second ball.
-    pub again: Option<usize>,
+    pub rehit_after: Option<usize>,
     /// Largest distance between two balls at the end, m.
     pub spread: f64,
 }
@@ -96,15 +96,17 @@ impl Technique {
             second: first.and_then(|first| hit(table, recording, |ball| ball != first.ball)),
             before: Vec::new(),
             between: Vec::new(),
-            sent: events.filter_map(|event| event.kind.rail().filter(|_| of_first(event.kind.balls().0))).collect(),
-            turn: 0.0,
+            first_ball_rails: events
+                .filter_map(|event| event.kind.rail().filter(|_| of_first(event.kind.balls().0)))
+                .collect(),
+            deflection: 0.0,
             over: jump::flown_over(table, recording),
             bend: 0.0,
             roll: 0.0,
             english: 0.0,
             drives_second: false,
             is_close: false,
-            again: None,
+            rehit_after: None,
             spread: spread(&recording.final_layout()),
         };
         technique.follow(table, recording);
@@ -131,10 +133,10 @@ impl Technique {
     fn follow(&mut self, table: &Table, recording: &Recording) {
         let (mut first, mut incoming, mut has_touched) = (None, None, false);
         for event in recording.events() {
-            self.tally.note(event);
+            self.tally.count(event);
             let before = recording.state(0, event.time - JUST_BEFORE);
             if let (Some(way), true) = (incoming, event.kind.balls().0 == 0) {
-                self.turn = before.velocity.angle_to(way).abs();
+                self.deflection = before.velocity.angle_to(way).abs();
                 incoming = None;
             }
             let touches = match event.kind {
@@ -163,7 +165,7 @@ impl Technique {
                     self.roll = table.radius * before.spin.truncate().dot(ahead.perp()) / before.velocity.length();
                 }
                 EventKind::BallBall(0, ball) if first == Some(ball) => {
-                    self.again.get_or_insert(self.between.len());
+                    self.rehit_after.get_or_insert(self.between.len());
                 }
                 EventKind::BallRail(0, rail) => {
                     let along = before.velocity.dot(rail.normal().perp().abs());
@@ -176,7 +178,7 @@ impl Technique {
                 }
                 _ => {}
             }
-            if self.tally.met_both() {
+            if self.tally.has_hit_both() {
                 break;
             }
         }
@@ -209,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn a_jump_is_a_shot_that_flies_over_a_ball_or_its_edge_before_it_meets_another() {
+    fn jump_requires_flight_over_a_ball_before_first_contact() {
         let name = |technique: &Technique| Pattern::of(technique).map(|pattern| pattern.name);
         let over = technique("-0.5,0 -0.2,0 0.52,-0.02", "0,0,45,-1,5");
         assert_eq!((over.over, over.first.map(|hit| hit.ball), name(&over)), (Some(1), Some(2), Some("jump")));
@@ -228,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn the_course_and_the_side_are_told_apart_by_hand_made_shots() {
+    fn bank_shot_distinguishes_running_and_reverse_english() {
         // Up and to the right into the upper long cushion: a ball that rolls along it turns counter-clockwise, as with a < 0.
         let bank = |a: &str| technique("-1,-0.5 1.3,-0.5 1.3,0.5", &format!("{a},0,0,45,3"));
         let (running, reverse) = (bank("-0.3"), bank("0.3"));
@@ -239,23 +241,23 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_that_is_met_twice_is_told_with_the_cushions_before_that() {
+    fn rehit_of_first_ball_counts_cushions_in_between() {
         // The red ball rebounds from the short rail and hits the cue ball that follows it.
         let twice = technique("0.9,0 1.2,0 -1,0.5", "0,0.5,2,0.2,3");
-        assert_eq!((twice.again, twice.first.map(|hit| hit.ball)), (Some(0), Some(1)));
-        assert_eq!(technique("-0.3,0 0,0 -1,0.3", "0,-0.4,2,0.3,3").again, None);
+        assert_eq!((twice.rehit_after, twice.first.map(|hit| hit.ball)), (Some(0), Some(1)));
+        assert_eq!(technique("-0.3,0 0,0 -1,0.3", "0,-0.4,2,0.3,3").rehit_after, None);
     }
 
     #[test]
-    fn a_full_ball_is_drawn_back_and_followed_through() {
+    fn full_hit_distinguishes_draw_from_follow() {
         let drawn = technique("-0.3,0 0,0 -1,0.3", "0,-0.4,2,0.3,3");
         let followed = technique("-0.3,0 0,0 -1,0.3", "0,0.4,2,0.3,3");
-        assert!(drawn.turn > 2.5 && followed.turn < 0.6, "{} {}", drawn.turn, followed.turn);
+        assert!(drawn.deflection > 2.5 && followed.deflection < 0.6, "{} {}", drawn.deflection, followed.deflection);
         assert!(drawn.fullness() > 0.9 && drawn.roll < -0.5 && followed.roll > 0.5, "{drawn:?} {followed:?}");
     }
 
     #[test]
-    fn a_shot_that_misses_the_second_ball_has_no_name() {
+    fn missed_second_ball_has_no_pattern() {
         let is_called = |second: &str| {
             let shot = technique(&format!("-0.3,0 0,0 {second}"), "0,0.4,2,0.3,3");
             (shot.second.is_some(), Pattern::of(&shot).is_some())
@@ -264,14 +266,14 @@ mod tests {
     }
 
     #[test]
-    fn the_first_ball_may_be_the_red_one() {
+    fn red_can_be_the_first_ball() {
         let red = technique("-0.3,0 -1,0.3 0,0", "0,0.4,2,0.3,3");
         assert!(red.first.is_some_and(|hit| hit.ball == 2));
-        assert!(red.sent.contains(&Rail::Right), "{red:?}");
+        assert!(red.first_ball_rails.contains(&Rail::Right), "{red:?}");
     }
 
     #[test]
-    fn a_pattern_that_is_told_by_three_cushions_says_where_there_are_more() {
+    fn three_cushion_pattern_mentions_additional_cushions() {
         let bank = technique("-1,-0.5 1.3,-0.5 1.3,0.5", "-0.3,0,0,45,3");
         let with = |many| Technique { between: vec![bank.before[0]; many], before: Vec::new(), ..bank.clone() };
         let called = |name: &str| PATTERNS.iter().find(|pattern| pattern.name == name).unwrap();
@@ -283,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cue_that_is_raised_high_bends_the_way() {
+    fn steep_cue_with_side_bends_the_path() {
         let bent = technique("-0.3,-0.3 0.5,0.5 1,0.3", "0.3,-0.2,60,0,3");
         assert!(bent.bend > 0.2, "{}", bent.bend);
     }

@@ -162,7 +162,7 @@ pub const PATTERNS: [Pattern; 31] = [
         tag: "draw",
         name: "draw",
         course: "a ball, from which the cue ball turns back",
-        is_it: |t| t.roll < DRAWN && t.turn > FRAC_PI_3,
+        is_it: |t| t.roll < DRAWN && t.deflection > FRAC_PI_3,
     },
     Pattern {
         tag: "follow",
@@ -224,7 +224,7 @@ pub const PATTERNS: [Pattern; 31] = [
 impl Pattern {
     /// Finds the pattern of a shot; `None` if it does not hit both balls.
     pub fn of(technique: &Technique) -> Option<&'static Self> {
-        PATTERNS.iter().find(|pattern| technique.tally.met_both() && (pattern.is_it)(technique))
+        PATTERNS.iter().find(|pattern| technique.tally.has_hit_both() && (pattern.is_it)(technique))
     }
 
     /// Describes the course for this shot. Adds the number of cushions if the pattern only defines the first three and

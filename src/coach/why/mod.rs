@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::{
     Alternative, Input, Pattern, Recommendation, Sensitivity, Shooter, Skill, Technique,
     draws::Draws,
-    trial::{CONTACT_STEPS, Task, without_limits},
+    trial::{CONTACT_STEPS, Task, with_unlimited_task},
     words::table_lengths,
 };
 use crate::{
@@ -26,14 +26,14 @@ use crate::{
 const ATTEMPTS: usize = 200;
 
 /// Minimum share of the attempts for a kiss to be reported.
-const NAMED: f64 = 0.02;
+const MIN_KISS_SHARE: f64 = 0.02;
 
 /// The aim width is reported only if it is at least this share of the window in which the player's direction must stay
 /// to make the shot as often as it is made.
-const EXPLAINED: f64 = 0.8;
+const MIN_EXPLAINED_SHARE: f64 = 0.8;
 
 /// Contacts of the same two balls within this time count as one, s: a ball that follows another through runs into it again.
-const SAME: f64 = 0.1;
+const SAME_CONTACT_WINDOW: f64 = 0.1;
 
 /// An unintended contact of two balls.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -110,7 +110,7 @@ pub fn why(
 ) -> Result<Why, ShotError> {
     let shooter = shooter.into();
     let technique = Technique::of(table, layout, &advice.cue)?;
-    let sensitivity = Sensitivity::new(rule, table, layout, shooter.doubts());
+    let sensitivity = Sensitivity::new(rule, table, layout, shooter.effective_doubt());
     let second = advice.alternatives.first().map(|other| -> Result<Difference, ShotError> {
         let its = Technique::of(table, layout, &other.cue)?;
         let [ball, its_ball] = [&technique, &its].map(|technique| technique.first.map(|hit| hit.ball));
@@ -150,7 +150,7 @@ fn aim_width(sensitivity: &Sensitivity, cue: &CueInputs, skill: Skill, made: Opt
     let width = margin.less? + margin.more?;
     // Of all windows of this width, errors stay most often within the one centred at zero.
     let least = |rate: f64| 2.0 * skill.at(cue).phi.to_degrees() * normal_quantile(0.5 * (1.0 + rate));
-    let explains = made.is_none_or(|made| made.rate >= 1.0 || width > EXPLAINED * least(made.rate));
+    let explains = made.is_none_or(|made| made.rate >= 1.0 || width > MIN_EXPLAINED_SHARE * least(made.rate));
     explains.then_some(width)
 }
 
@@ -159,7 +159,7 @@ fn kiss(shooter: Shooter, rule: Rule, table: &Table, layout: &Layout, cue: &CueI
     if shooter.skill.is_perfect() {
         return None;
     }
-    without_limits(table, layout, rule, shooter, CONTACT_STEPS, &AtomicBool::new(false), |task| {
+    with_unlimited_task(table, layout, rule, shooter, CONTACT_STEPS, &AtomicBool::new(false), |task| {
         worst_kiss(task, cue, seed)
     })
 }
@@ -170,7 +170,7 @@ fn worst_kiss(task: &Task, cue: &CueInputs, seed: u64) -> Option<Kiss> {
         return None;
     }
     // Contacts long after the end of the intended shot do no harm.
-    let latest = 1.2 * meant.met.last().map_or(0.0, |contact| contact.0);
+    let latest = 1.2 * meant.events.last().map_or(0.0, |contact| contact.0);
     let mut found: Vec<([usize; 2], CueInputs, &Table, &Layout, f64)> = Vec::new();
     let draws = Draws::independent(ATTEMPTS, task.worlds, seed);
     for draw in draws.iter() {
@@ -187,7 +187,7 @@ fn worst_kiss(task: &Task, cue: &CueInputs, seed: u64) -> Option<Kiss> {
     let most = found.iter().map(|kiss| kiss.0).max_by_key(|pair| count(*pair))?;
     let (balls, stroke, real, layout, time) = found.iter().find(|kiss| kiss.0 == most)?;
     let share = count(*balls) as f64 / ATTEMPTS as f64;
-    if share < NAMED {
+    if share < MIN_KISS_SHARE {
         return None;
     }
     let places = Recording::new(real, layout, stroke).ok()?.positions(*time);
@@ -197,27 +197,27 @@ fn worst_kiss(task: &Task, cue: &CueInputs, seed: u64) -> Option<Kiss> {
 /// Records the contacts of balls until the cue ball has hit both object balls, or until `latest`.
 struct Contacts {
     tally: Tally,
-    met: Vec<(f64, [usize; 2])>,
+    events: Vec<(f64, [usize; 2])>,
     latest: f64,
-    patience: StepBudget,
+    step_budget: StepBudget,
 }
 
 impl Contacts {
     fn of(table: &Table, layout: &Layout, cue: &CueInputs, latest: f64) -> Self {
-        let patience = StepBudget(CONTACT_STEPS);
-        let mut contacts = Self { tally: Tally::default(), met: Vec::new(), latest, patience };
+        let step_budget = StepBudget(CONTACT_STEPS);
+        let mut contacts = Self { tally: Tally::default(), events: Vec::new(), latest, step_budget };
         watch(table, layout, &strike(table, cue), &mut contacts);
         contacts
     }
 
     fn count(&self, pair: [usize; 2]) -> usize {
-        self.met.iter().filter(|contact| contact.1 == pair).count()
+        self.events.iter().filter(|contact| contact.1 == pair).count()
     }
 
     /// Finds the first contact that does not occur in the intended shot: two balls meet more often than there.
     fn unexpected(&self, meant: &Self) -> Option<(f64, [usize; 2])> {
         let mut seen = Vec::new();
-        self.met.iter().copied().find(|(_, pair)| {
+        self.events.iter().copied().find(|(_, pair)| {
             seen.push(*pair);
             seen.iter().filter(|one| *one == pair).count() > meant.count(*pair)
         })
@@ -233,19 +233,19 @@ impl Observer for Contacts {
         if event.time > self.latest {
             return ControlFlow::Break(());
         }
-        self.tally.note(&event);
+        self.tally.count(&event);
         if let EventKind::BallBall(one, other) = event.kind {
             let pair = [one, other];
-            let last = self.met.iter().rev().find(|contact| contact.1 == pair);
-            if last.is_none_or(|last| event.time - last.0 > SAME) {
-                self.met.push((event.time, pair));
+            let last = self.events.iter().rev().find(|contact| contact.1 == pair);
+            if last.is_none_or(|last| event.time - last.0 > SAME_CONTACT_WINDOW) {
+                self.events.push((event.time, pair));
             }
         }
-        if self.tally.met_both() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if self.tally.has_hit_both() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
     fn contact_step(&mut self) -> ControlFlow<()> {
-        self.patience.step()
+        self.step_budget.step()
     }
 }
 
@@ -255,7 +255,7 @@ mod tests {
 
     /// The break with natural english: red returns from the far cushions across the path of the cue ball.
     #[test]
-    fn a_kiss_that_the_errors_bring_is_named_with_its_balls_and_its_place() {
+    fn frequent_kiss_is_reported_with_balls_and_position() {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let cue = CueInputs::parse("0.143,0.256,0.713,351.760,2.967").unwrap();
@@ -268,7 +268,7 @@ mod tests {
     }
 
     #[test]
-    fn the_room_of_the_aim_is_told_where_it_explains_how_often_the_shot_is_made() {
+    fn aim_width_is_reported_if_it_explains_the_probability() {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let cue = CueInputs::parse("0.143,0.256,0.713,351.760,2.967").unwrap();

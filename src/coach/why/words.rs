@@ -4,7 +4,7 @@ use super::{Difference, Kiss, Why};
 use crate::{
     coach::{
         Units,
-        words::{PlaceUnit, capital, short},
+        words::{PositionUnit, capitalize, format_trimmed},
     },
     table::CueBall,
 };
@@ -14,8 +14,8 @@ use crate::{
 const NOTABLE_DIFFERENCE: f64 = 0.03;
 
 /// Minimum differences that are reported, of fullness and of table lengths.
-const FULLER: f64 = 0.06;
-const HARDER: f64 = 0.3;
+const MIN_FULLNESS_DIFFERENCE: f64 = 0.06;
+const MIN_LENGTHS_DIFFERENCE: f64 = 0.3;
 
 impl Why {
     /// Describes the reasons in sentences, for a player with `cue_ball`.
@@ -45,9 +45,9 @@ impl Why {
         }));
         parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], place }| {
             let (diamond, middle) = self.scale;
-            let at = (place + middle).to_array().map(|along| match units.place {
-                PlaceUnit::Diamonds => short(along / diamond, 1),
-                PlaceUnit::Mm => format!("{} mm", short(1e3 * along, 0)),
+            let at = (place + middle).to_array().map(|along| match units.position {
+                PositionUnit::Diamonds => format_trimmed(along / diamond, 1),
+                PositionUnit::Mm => format!("{} mm", format_trimmed(1e3 * along, 0)),
             });
             let [along, up] = at;
             format!(
@@ -66,7 +66,7 @@ impl Why {
         parts.push(
             second.map_or_else(|| alone.to_owned(), |second| format!("the second shot is {}", second.parts(names))),
         );
-        parts.iter().map(|part| format!("{}.", capital(part))).collect::<Vec<_>>().join(" ")
+        parts.iter().map(|part| format!("{}.", capitalize(part))).collect::<Vec<_>>().join(" ")
     }
 
     /// Whether the second-best shot has the higher make probability, and this one leads because the next point counts
@@ -119,7 +119,7 @@ impl Why {
 
     /// Returns short forms without what a list of the shots with their probabilities contains, each with one fact
     /// fewer; empty if there are none.
-    pub fn beside_the_list(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
+    pub fn facts_beyond_list(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
         let luck = match &self.unsure[..] {
             [] => None,
             // The plan does not rank them by the make probability alone.
@@ -130,7 +130,7 @@ impl Why {
                 Some(format!("shots {} and {last}: higher rates may be chance", numbers.join(", ")))
             }
         };
-        shortened_texts(luck.into_iter().chain(self.facts(cue_ball)).collect()).map(|sentence| capital(&sentence))
+        shortened_texts(luck.into_iter().chain(self.facts(cue_ball)).collect()).map(|sentence| capitalize(&sentence))
     }
 
     /// Returns facts that the list of the shots does not contain. If the plan decides, that comes first.
@@ -163,16 +163,21 @@ fn percent(share: f64) -> String {
 }
 
 fn degrees(width: f64) -> String {
-    if width < 0.005 { "less than 0.01\u{b0}".to_owned() } else { format!("{}\u{b0}", short(width, 2)) }
+    if width < 0.005 { "less than 0.01\u{b0}".to_owned() } else { format!("{}\u{b0}", format_trimmed(width, 2)) }
 }
 
 impl Difference {
     fn parts(&self, names: [&'static str; 3]) -> String {
         let mut parts = vec![self.pattern.unwrap_or("another shot").to_owned()];
         parts.extend(self.first_ball.map(|ball| format!("off {}", names[ball])));
-        parts
-            .extend((self.fuller.abs() > FULLER).then(|| if self.fuller > 0.0 { "thicker" } else { "thinner" }.into()));
-        parts.extend((self.harder.abs() > HARDER).then(|| if self.harder > 0.0 { "harder" } else { "softer" }.into()));
+        parts.extend(
+            (self.fuller.abs() > MIN_FULLNESS_DIFFERENCE)
+                .then(|| if self.fuller > 0.0 { "thicker" } else { "thinner" }.into()),
+        );
+        parts.extend(
+            (self.harder.abs() > MIN_LENGTHS_DIFFERENCE)
+                .then(|| if self.harder > 0.0 { "harder" } else { "softer" }.into()),
+        );
         parts.join(", ")
     }
 }
@@ -186,7 +191,7 @@ mod tests {
     };
 
     #[test]
-    fn the_reasons_are_facts_of_the_two_best_shots() {
+    fn reasons_compare_the_two_best_shots() {
         let table = Table::default();
         let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
         let coach = Coach::without_policy(table.clone());
@@ -222,11 +227,11 @@ mod tests {
         };
         let reason = "the plan decides: it leaves the next point at 62 %";
         let said = planned.words(CueBall::White, Units::default());
-        assert!(said.contains(&format!("{} (after the second shot: 31 %).", capital(reason))), "{said}");
+        assert!(said.contains(&format!("{} (after the second shot: 31 %).", capitalize(reason))), "{said}");
         for sentence in planned.brief(CueBall::White) {
             assert!(sentence.contains(&format!("{reason} (after shot 2: 31 %)")), "{sentence}");
         }
-        assert!(planned.beside_the_list(CueBall::White).all(|sentence| sentence.starts_with("The plan decides")));
+        assert!(planned.facts_beyond_list(CueBall::White).all(|sentence| sentence.starts_with("The plan decides")));
         let unknown = Why { next_probability: None, ..planned }.words(CueBall::White, Units::default());
         assert!(unknown.contains("The plan decides: the next point counts too."), "{unknown}");
         // If the second shot seems to be made more often only by chance, that is no reason against the first.
@@ -239,10 +244,10 @@ mod tests {
         for sentence in second(&[2]).brief(CueBall::White) {
             assert!(sentence.contains("%, maybe by chance"), "{sentence}");
         }
-        let first = second(&[2]).beside_the_list(CueBall::White).next().unwrap();
+        let first = second(&[2]).facts_beyond_list(CueBall::White).next().unwrap();
         assert!(first.starts_with("Shot 2's higher rate may be chance"), "{first}");
         for (unsure, words) in [(&[3][..], "Shot 3's higher rate"), (&[2, 3], "Shots 2 and 3: higher rates")] {
-            let first = second(unsure).beside_the_list(CueBall::White).next().unwrap();
+            let first = second(unsure).facts_beyond_list(CueBall::White).next().unwrap();
             assert!(first.starts_with(words), "{first}");
         }
         let said = second(&[]).words(CueBall::White, Units::default());

@@ -1,6 +1,6 @@
 //! The difference between two strokes, as a player would describe it.
 
-use super::{Hit, ShotWords, TIP, TipUnit, Units, lengths_words, numbers, short};
+use super::{Hit, ShotWords, TIP, TipUnit, Units, format_trimmed, lengths_words, numbers};
 use crate::table::CueBall;
 
 /// Differences of fullness, as shares of a ball: below the first they are not reported, below the second they are "a
@@ -102,7 +102,7 @@ impl ShotWords {
         let degrees = other.direction.angle_to(self.direction).to_degrees();
         (degrees.abs() >= AIM).then(|| {
             let side = if degrees > 0.0 { "left" } else { "right" };
-            format!("aimed {}\u{b0} further {side}", short(degrees.abs(), 2))
+            format!("aimed {}\u{b0} further {side}", format_trimmed(degrees.abs(), 2))
         })
     }
 }
@@ -113,14 +113,14 @@ fn tip_amount(tips: f64, radius: f64, unit: TipUnit) -> Option<String> {
         return None;
     }
     Some(match unit {
-        TipUnit::Mm => format!("{} mm", short(1e3 * radius * TIP * tips.abs(), 1)),
+        TipUnit::Mm => format!("{} mm", format_trimmed(1e3 * radius * TIP * tips.abs(), 1)),
         TipUnit::Tips => match (4.0 * tips.abs()).round() as u32 {
             0 => "a touch".to_owned(),
             1 => "a quarter tip".to_owned(),
             2 => "half a tip".to_owned(),
             3 => "three quarters of a tip".to_owned(),
             4 => "one tip".to_owned(),
-            quarters => format!("{} tips", short(0.25 * f64::from(quarters), 2)),
+            quarters => format!("{} tips", format_trimmed(0.25 * f64::from(quarters), 2)),
         },
     })
 }
@@ -156,13 +156,13 @@ mod tests {
     }
 
     #[test]
-    fn a_stroke_that_nobody_could_tell_from_the_other_has_no_difference() {
+    fn imperceptible_difference_is_not_described() {
         assert_eq!(told("-0.2,0.1,0,0,3", true), "");
         assert_eq!(told("-0.2004,0.1,0,0.001,3.001", false), "");
     }
 
     #[test]
-    fn each_input_is_told_in_the_words_for_it() {
+    fn each_input_difference_has_its_words() {
         assert_eq!(told("-0.225,0.1,0,0,3", false), "a quarter tip more right");
         assert_eq!(told("-0.15,0.1,0,0,3", false), "half a tip less right");
         assert_eq!(told("0.1,0.1,0,0,3", false), "3 tips more left");
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn thickness_is_told_in_eighths_and_as_a_fault_where_it_misses() {
+    fn thickness_differs_in_eighths_and_misses_are_faults() {
         // A degree at 0.7 m is 12 mm, a fifth of a ball.
         assert_eq!(told("-0.2,0.1,0,-0.6,3", false), "an eighth thicker");
         assert_eq!(told("-0.2,0.1,0,-0.6,3", true), "too thick by an eighth");
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn another_ball_another_side_and_none_are_named() {
+    fn different_or_missing_first_contact_is_named() {
         assert_eq!(told("-0.2,0.1,0,-4.5,3", true), "red on its right side");
         let full = of("-0.2,0.1,0,-2.4,3");
         assert!(full.first.is_some_and(|hit| hit.fullness > 0.97), "{:?}", full.first);

@@ -1,14 +1,14 @@
 //! Jumps in words: their height and distance.
 
-use super::{LengthUnit, short};
+use super::{LengthUnit, format_trimmed};
 use crate::{simulation::Jump, table::Table};
 
 /// Formats a height in the unit for small lengths: "12 mm", "0.5 in".
 pub fn height_words(metres: f64, unit: LengthUnit) -> String {
     match unit {
         // A hop is never displayed as zero.
-        LengthUnit::Metres if metres < 0.000_95 => format!("{} mm", short(1e3 * metres.max(1e-5), 2)),
-        LengthUnit::Metres if metres < 0.009_95 => format!("{} mm", short(1e3 * metres, 1)),
+        LengthUnit::Metres if metres < 0.000_95 => format!("{} mm", format_trimmed(1e3 * metres.max(1e-5), 2)),
+        LengthUnit::Metres if metres < 0.009_95 => format!("{} mm", format_trimmed(1e3 * metres, 1)),
         LengthUnit::Metres if metres < 0.0995 => format!("{:.0} mm", 1e3 * metres),
         unit => unit.words(metres),
     }
@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn heights_are_told_in_millimetres_until_they_are_decimetres() {
+    fn heights_switch_units_by_size() {
         let told =
             |height: f64, unit| jump_words(&Jump { ball: 0, start: 0.0, end: 0.1, height, distance: 0.31 }, unit);
         assert_eq!(told(0.000_04, LengthUnit::Metres), "0.04 mm high, 31 cm far");

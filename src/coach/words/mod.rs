@@ -18,8 +18,8 @@ pub use numbers::fullness_word;
 pub(super) use numbers::{NUMBERS, SIXTEENTHS, number_word};
 pub(super) use pace::PACES;
 pub use pace::{lengths_words, pace_word, table_lengths};
-pub(crate) use sentence::capital;
-pub use units::{LengthUnit, PlaceUnit, TipUnit, Units, short};
+pub(crate) use sentence::capitalize;
+pub use units::{LengthUnit, PositionUnit, TipUnit, Units, format_trimmed};
 
 use super::{Cushion, Hit, RailPoint, Technique, line_of_aim};
 use crate::{
@@ -37,13 +37,13 @@ pub const TIP: f64 = 0.1;
 const MIN_ENGLISH: f64 = 0.1;
 
 /// Elevation below which a cue is called level, degrees: no player sees the difference.
-const LEVEL: f64 = 2.0;
+const MAX_LEVEL_ELEVATION: f64 = 2.0;
 
 /// Maximum difference from the least possible elevation for a cue to count as "as level as it can be", rad: half a degree.
-const LEAST: f64 = 0.5_f64.to_radians();
+const LEVEL_TOLERANCE: f64 = 0.5_f64.to_radians();
 
 /// Elevation from which such a cue is no longer called level, degrees: the rail behind the ball alone requires two or three.
-const RAISED: f64 = 5.0;
+const MIN_RAISED_ELEVATION: f64 = 5.0;
 
 /// The effect of side at the first cushion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -85,7 +85,7 @@ pub struct ShotWords {
     pub between: Vec<Cushion>,
     /// Number of those cushions before the first ball is hit again, if it is.
     #[serde(skip)]
-    again: Option<usize>,
+    rehit_after: Option<usize>,
     /// The point at which the cue is aimed.
     pub ahead: RailPoint,
     /// The point behind the cue ball on the line of aim.
@@ -133,10 +133,10 @@ impl ShotWords {
             // Every stroke that can be played runs some distance.
             table_lengths: table_lengths(table, cue.speed).unwrap_or_default(),
             elevation_deg: cue.theta.to_degrees(),
-            is_level: cue.theta - least <= LEAST,
+            is_level: cue.theta - least <= LEVEL_TOLERANCE,
             before: technique.before.clone(),
             between: technique.between.clone(),
-            again: technique.again,
+            rehit_after: technique.rehit_after,
             ahead,
             behind,
             direction: DVec2::from_angle(cue.phi),
@@ -147,6 +147,6 @@ impl ShotWords {
 
     /// Whether players would call the cue level.
     pub fn has_level_cue(&self) -> bool {
-        self.elevation_deg < LEVEL || self.is_level && self.elevation_deg < RAISED
+        self.elevation_deg < MAX_LEVEL_ELEVATION || self.is_level && self.elevation_deg < MIN_RAISED_ELEVATION
     }
 }

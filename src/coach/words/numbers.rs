@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn fullness_is_told_in_eighths_and_a_little_more_or_less() {
+    fn fullness_is_named_in_sixteenths() {
         let told = [0.01, 0.13, 0.25, 0.44, 0.5, 0.56, 0.76, 0.97, 1.0].map(|fullness| fullness_words(fullness).0);
         let wanted = ["a graze", "an eighth full", "a quarter full", "a little thinner than half", "half full"];
         assert_eq!(told[..5], wanted);
@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn tips_and_hours_are_told_in_halves() {
+    fn tips_and_clock_positions_use_halves() {
         assert_eq!(
             [1, 2, 3, 4, 5].map(tips_words).join(", "),
             "half a tip, one tip, one and a half tips, two tips, two and a half tips"

@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use super::short;
+use super::format_trimmed;
 use crate::{
     physics::CueInputs,
     simulation::{EventKind, Rail, Recording},
@@ -43,7 +43,7 @@ pub fn pace_word(lengths: f64) -> &'static str {
 
 /// Formats a number of table lengths in words, to a tenth.
 pub fn lengths_words(lengths: f64) -> String {
-    let number = short(lengths, 1);
+    let number = format_trimmed(lengths, 1);
     let plural = if number == "1" { "" } else { "s" };
     format!("{number} length{plural}")
 }
@@ -53,12 +53,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_length_is_no_plural() {
+    fn one_length_is_singular() {
         assert_eq!([0.98, 1.04, 1.1, 0.5].map(lengths_words), ["1 length", "1 length", "1.1 lengths", "0.5 lengths"]);
     }
 
     #[test]
-    fn a_harder_stroke_runs_further_on_every_table() {
+    fn table_lengths_increase_with_speed() {
         for name in crate::table::PRESETS {
             let table = Table::preset(name).unwrap();
             let lengths: Vec<f64> =
@@ -70,7 +70,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_that_stops_before_the_cushion_has_run_as_far_as_it_lies_away() {
+    fn soft_stroke_length_equals_the_distance_run() {
         let table = Table { rolling_friction: 0.2, ..Table::default() };
         let lengths = table_lengths(&table, 0.5).unwrap();
         let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: 0.5 };

@@ -1,6 +1,6 @@
 //! Sentences that describe a shot: the stroke, the path of the cue ball, and the aim.
 
-use super::{English, ShotWords, TIP, TipUnit, Units, fullness_word, numbers, pace_word, short};
+use super::{English, ShotWords, TIP, TipUnit, Units, format_trimmed, fullness_word, numbers, pace_word};
 use crate::{
     coach::{Cushion, Hit, RailPoint},
     simulation::Rail,
@@ -13,7 +13,7 @@ impl ShotWords {
         // Side that is nearly straight above or below the centre has no clock position of its own.
         let clock = self.clock.filter(|clock| clock % 6.0 != 0.0);
         let clock = clock.map_or_else(String::new, |clock| format!(" at {}", numbers::clock_words(clock)));
-        let lengths = short(self.table_lengths, 1);
+        let lengths = format_trimmed(self.table_lengths, 1);
         let unit = if lengths == "1" { "length" } else { "lengths" };
         self.sentence_with(cue_ball, units, &clock, &format!(" ({lengths} table {unit})"))
     }
@@ -26,7 +26,7 @@ impl ShotWords {
 
     fn sentence_with(&self, cue_ball: CueBall, units: Units, clock: &str, lengths: &str) -> String {
         let (first, tip) = (self.first_words(cue_ball, units), self.tip_words(units, clock));
-        capital(&format!("{first}; {tip}; {}{lengths}, {}.", pace_word(self.table_lengths), self.cue_words()))
+        capitalize(&format!("{first}; {tip}; {}{lengths}, {}.", pace_word(self.table_lengths), self.cue_words()))
     }
 
     /// Describes the path of the cue ball: balls, cushions with positions, and the hit on the second ball.
@@ -53,15 +53,15 @@ impl ShotWords {
         };
         let mut stops = cushions(&self.before);
         stops.extend(self.first.map(|hit| names[hit.ball].to_owned()));
-        let (until, since) = self.between.split_at(self.again.unwrap_or_default().min(self.between.len()));
+        let (until, since) = self.between.split_at(self.rehit_after.unwrap_or_default().min(self.between.len()));
         stops.extend(cushions(until));
-        stops.extend(self.again.and(self.first).map(|hit| format!("{} again", names[hit.ball])));
+        stops.extend(self.rehit_after.and(self.first).map(|hit| format!("{} again", names[hit.ball])));
         stops.extend(cushions(since));
         stops.extend(self.second.map(|hit| names[hit.ball].to_owned()));
         if stops.is_empty() {
             return "Hits neither ball nor cushion".to_owned();
         }
-        capital(&stops.join(" \u{2013} "))
+        capitalize(&stops.join(" \u{2013} "))
     }
 
     /// Describes the line of aim from cushion to cushion, measured at the noses.
@@ -107,7 +107,7 @@ impl ShotWords {
             TipUnit::Tips => [self.tips_right, self.tips_above]
                 .map(|tips| (half_tips(tips) > 0).then(|| numbers::tips_words(half_tips(tips)))),
             TipUnit::Mm => [self.tips_right, self.tips_above].map(|tips| {
-                let text = short(1e3 * self.radius * TIP * tips.abs(), 1);
+                let text = format_trimmed(1e3 * self.radius * TIP * tips.abs(), 1);
                 (text != "0").then(|| format!("{text} mm"))
             }),
         };
@@ -143,7 +143,7 @@ impl ShotWords {
 
     /// Formats a position along a cushion.
     fn place(&self, diamonds: f64, units: Units, decimals: usize) -> String {
-        units.place.words(diamonds, self.diamond, decimals)
+        units.position.words(diamonds, self.diamond, decimals)
     }
 }
 
@@ -158,7 +158,7 @@ const fn rail_words(rail: Rail) -> &'static str {
 }
 
 /// Capitalises the first letter.
-pub fn capital(text: &str) -> String {
+pub fn capitalize(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

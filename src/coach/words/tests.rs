@@ -13,7 +13,7 @@ fn words(layout: &str, cue: &str) -> ShotWords {
 }
 
 #[test]
-fn a_shot_is_told_as_a_player_says_it() {
+fn shot_is_described_in_players_terms() {
     let words = words("-0.7,0 0.9,0.5 0,-0.03075", "-0.2,0.1,0,0,3");
     let sentence = words.sentence(CueBall::White, Units::default());
     assert!(sentence.starts_with("Red, half full on the left; two tips of "), "{sentence}");
@@ -22,7 +22,7 @@ fn a_shot_is_told_as_a_player_says_it() {
 }
 
 #[test]
-fn all_cushions_before_the_first_ball_are_named() {
+fn all_cushions_before_first_ball_are_listed() {
     let cushion = words("-1,-0.5 1.3,-0.5 1.3,0.5", "-0.3,0,0,45,3").before[0];
     let before = [Rail::Top, Rail::Right].map(|rail| Cushion { rail, ..cushion }).to_vec();
     let words = ShotWords { before, ..words("-0.7,0 0.9,0.5 0,-0.03075", "-0.2,0.1,0,0,3") };
@@ -32,7 +32,7 @@ fn all_cushions_before_the_first_ball_are_named() {
 }
 
 #[test]
-fn the_course_ends_with_how_the_second_ball_is_met_as_the_cue_ball_comes_on() {
+fn course_ends_with_the_hit_on_the_second_ball() {
     let course = |layout: &str, cue: &str| words(layout, cue).course(CueBall::White, Units::default());
     let told = course("-1,0 0,0.02 0.6,0.1", "0,0.3,0,0,4");
     assert!(told.starts_with("Yellow \u{2013} ") && told.ends_with(" \u{2013} red, half on the right."), "{told}");
@@ -48,7 +48,7 @@ fn the_course_ends_with_how_the_second_ball_is_met_as_the_cue_ball_comes_on() {
 }
 
 #[test]
-fn a_cue_as_low_as_the_rail_behind_it_allows_is_level_but_one_over_a_near_rail_is_not() {
+fn minimal_elevation_is_level_except_over_a_near_rail() {
     let table = Table::preset("match").unwrap();
     let told = |layout: &str, raised: f64| {
         let layout = Layout::parse(layout, &table).unwrap();
@@ -65,7 +65,7 @@ fn a_cue_as_low_as_the_rail_behind_it_allows_is_level_but_one_over_a_near_rail_i
 }
 
 #[test]
-fn a_jump_says_over_which_ball_and_how_far_the_cue_is_raised() {
+fn jump_names_the_cleared_ball_and_the_elevation() {
     let table = Table { flight: Some(crate::table::Flight::default()), ..Table::preset("textbook").unwrap() };
     let layout = Layout::parse("-0.5,0 -0.2,0 0.5,0.02", &table).unwrap();
     let words = ShotWords::of(&table, &layout, &CueInputs::parse("0,0,45,0,6").unwrap()).unwrap();

@@ -14,7 +14,7 @@ pub enum TipUnit {
 
 /// Unit of positions along the cushions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum PlaceUnit {
+pub enum PositionUnit {
     /// Diamonds, an eighth of the table's length each.
     #[default]
     Diamonds,
@@ -41,17 +41,17 @@ pub struct Units {
     /// Unit of the tip position.
     pub tip: TipUnit,
     /// Unit of positions along the cushions.
-    pub place: PlaceUnit,
+    pub position: PositionUnit,
     /// Units of distances.
     pub length: LengthUnit,
 }
 
-impl PlaceUnit {
+impl PositionUnit {
     /// Formats a position along a cushion, given in diamonds of `diamond` m each. Diamonds have no unit name.
     pub fn words(self, diamonds: f64, diamond: f64, decimals: usize) -> String {
         match self {
-            Self::Diamonds => short(diamonds, decimals),
-            Self::Mm => format!("{} mm", short(1e3 * diamond * diamonds, 0)),
+            Self::Diamonds => format_trimmed(diamonds, decimals),
+            Self::Mm => format!("{} mm", format_trimmed(1e3 * diamond * diamonds, 0)),
         }
     }
 
@@ -81,11 +81,11 @@ impl TipUnit {
         };
         let tenths = (10.0 * size).round();
         let plural = if self == Self::Tips && tenths > 10.0 { "s" } else { "" };
-        (tenths > 0.0).then(|| format!("{} {name}{plural}", short(0.1 * tenths, 1)))
+        (tenths > 0.0).then(|| format!("{} {name}{plural}", format_trimmed(0.1 * tenths, 1)))
     }
 }
 
-impl PlaceUnit {
+impl PositionUnit {
     /// Both units, by name.
     pub const NAMED: [(&'static str, Self); 2] = [("diamonds", Self::Diamonds), ("mm", Self::Mm)];
 }
@@ -121,17 +121,17 @@ impl LengthUnit {
     /// Formats a distance in metres; in the smaller unit if it is below a metre or 24 inches.
     pub fn words(self, metres: f64) -> String {
         match self {
-            Self::Metres if metres < 0.095 => format!("{} cm", short(100.0 * metres, 1)),
+            Self::Metres if metres < 0.095 => format!("{} cm", format_trimmed(100.0 * metres, 1)),
             Self::Metres if metres < 0.995 => format!("{:.0} cm", 100.0 * metres),
-            Self::Metres => format!("{} m", short(metres, 1)),
-            Self::Feet if metres < 24.0 * INCH => format!("{} in", short(metres / INCH, 1)),
-            Self::Feet => format!("{} ft", short(metres / INCH / 12.0, 1)),
+            Self::Metres => format!("{} m", format_trimmed(metres, 1)),
+            Self::Feet if metres < 24.0 * INCH => format!("{} in", format_trimmed(metres / INCH, 1)),
+            Self::Feet => format!("{} ft", format_trimmed(metres / INCH / 12.0, 1)),
         }
     }
 }
 
 /// Formats a number with this number of decimals, without trailing zeros.
-pub fn short(value: f64, decimals: usize) -> String {
+pub fn format_trimmed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
@@ -142,15 +142,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn distances_are_told_in_the_unit_that_fits_them() {
+    fn distances_use_the_unit_that_fits() {
         let told = |unit: LengthUnit| [0.004, 0.03, 0.31, 1.26].map(|metres| unit.words(metres));
         assert_eq!(told(LengthUnit::Metres), ["0.4 cm", "3 cm", "31 cm", "1.3 m"]);
         assert_eq!(told(LengthUnit::Feet), ["0.2 in", "1.2 in", "12.2 in", "4.1 ft"]);
-        assert_eq!([short(-0.01, 1), short(30.0, 0), short(3.10, 2)], ["0", "30", "3.1"]);
+        assert_eq!([format_trimmed(-0.01, 1), format_trimmed(30.0, 0), format_trimmed(3.10, 2)], ["0", "30", "3.1"]);
     }
 
     #[test]
-    fn the_tip_is_told_in_tenths_of_its_unit() {
+    fn tip_distance_is_rounded_to_tenths() {
         let told =
             |unit: TipUnit| [0.0001, 0.049, -0.1, 0.45].map(|radii| unit.words(radii, 0.03075).unwrap_or_default());
         assert_eq!(told(TipUnit::Tips), ["", "0.5 tip", "1 tip", "4.5 tips"]);

@@ -17,7 +17,7 @@ use crate::{
         Entries, EntriesFileError, TablePlay, calibrate, load_entries, may_save_table, next_day_doubt, prior,
         save_table,
     },
-    drills::LONGEST_TITLE,
+    drills::MAX_TITLE_BYTES,
     storage::resolve_symlinks,
     table::{PRESETS, Table, TableDoubt},
 };
@@ -119,9 +119,9 @@ fn check_name(name: &str) -> Result<(), Failure> {
             "\"{name}\" is the name of a bundled table; give another with --name"
         )));
     }
-    if name.trim().is_empty() || name.len() > LONGEST_TITLE {
+    if name.trim().is_empty() || name.len() > MAX_TITLE_BYTES {
         return Err(Failure::wrong_input(format_args!(
-            "the name has {} bytes; accepted are up to {LONGEST_TITLE}, not all of them blanks",
+            "the name has {} bytes; accepted are up to {MAX_TITLE_BYTES}, not all of them blanks",
             name.len()
         )));
     }

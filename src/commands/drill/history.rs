@@ -126,7 +126,7 @@ fn all(sessions: &[Session], json: bool) -> Result<(), Failure> {
         if record.tried == 0 {
             continue;
         }
-        for (venue, record) in Record::apart(sessions, |sessions| subject.record(sessions)) {
+        for (venue, record) in Record::by_venue(sessions, |sessions| subject.record(sessions)) {
             rows.push([
                 subject.name(),
                 venue.word().to_owned(),
@@ -184,7 +184,7 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
     }
     print_table(["started (UTC)", "where", "goal or score", "made", "tried", "rate", "high run"], rows, &[3, 4, 5, 6])?;
     print_line(format_args!("rate   {}", bars(&tried)))?;
-    for (venue, record) in Record::apart(sessions, |sessions| subject.record(sessions)) {
+    for (venue, record) in Record::by_venue(sessions, |sessions| subject.record(sessions)) {
         print_line(format_args!("{:<6} {}", venue.word(), words(&record)))?;
     }
     Ok(())

@@ -137,7 +137,7 @@ pub fn show(args: &ShowArgs) -> Result<(), Failure> {
     if record.tried == 0 {
         print_line(format_args!("record  {}", words(&record)))?;
     }
-    for (venue, record) in Record::apart(&sessions, |sessions| Record::of_exercise(sessions, name)) {
+    for (venue, record) in Record::by_venue(&sessions, |sessions| Record::of_exercise(sessions, name)) {
         print_line(format_args!("{:<7} {}", venue.word(), words(&record)))?;
     }
     print_line(format_args!("code    {code}"))

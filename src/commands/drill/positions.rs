@@ -9,7 +9,7 @@ use crate::{
         typed_stroke::TypedStroke,
     },
     drills::{
-        Exercise, LONGEST_POINT, LONGEST_TITLE, LibraryError, bare_tag, check, decode, encode, store::StoreError,
+        Exercise, LibraryError, MAX_POINT_BYTES, MAX_TITLE_BYTES, bare_tag, check, decode, encode, store::StoreError,
     },
     game::{Rule, scores},
     physics::has_room,
@@ -81,8 +81,8 @@ pub struct RemoveArgs {
 /// Parses a tag, which is displayed with `#` and stored without.
 pub fn tag(text: &str) -> Result<String, String> {
     let word = bare_tag(text.trim());
-    if word.is_empty() || word.contains(char::is_whitespace) || word.len() > LONGEST_TITLE {
-        return Err(format!("accepted is one word of up to {LONGEST_TITLE} bytes, with or without # before it"));
+    if word.is_empty() || word.contains(char::is_whitespace) || word.len() > MAX_TITLE_BYTES {
+        return Err(format!("accepted is one word of up to {MAX_TITLE_BYTES} bytes, with or without # before it"));
     }
     Ok(word.to_owned())
 }
@@ -93,10 +93,10 @@ pub fn save(args: &SaveArgs) -> Result<(), Failure> {
     let typed = args.shot.as_deref().map(TypedStroke::parse).transpose()?;
     let shot = typed.map(|typed| typed.resolve(&table, &layout, CueBall::White)).transpose()?;
     shot.as_ref().map_or(Ok(()), |cue| check(&table, cue)).map_err(Failure::wrong_input)?;
-    let position = Exercise::own(&args.name, args.rule, &table.name, layout);
+    let position = Exercise::new_own(&args.name, args.rule, &table.name, layout);
     let typed = args.title.as_deref().map(str::trim).filter(|title| !title.is_empty());
     let title = typed.map_or(position.title, str::to_owned);
-    for (words, text, longest) in [("title", &title, LONGEST_TITLE), ("point", &args.point, LONGEST_POINT)] {
+    for (words, text, longest) in [("title", &title, MAX_TITLE_BYTES), ("point", &args.point, MAX_POINT_BYTES)] {
         if text.len() > longest {
             return Err(Failure::wrong_input(format_args!(
                 "the {words} has {} bytes; accepted are up to {longest}",
@@ -137,7 +137,7 @@ pub fn add(args: &AddArgs) -> Result<(), Failure> {
 pub fn remove(args: &RemoveArgs) -> Result<(), Failure> {
     let workspace = Workspace::open();
     // An unreadable position is not in the library; its file is removed by name.
-    let name = match workspace.library.titled(&args.name) {
+    let name = match workspace.library.find_exact(&args.name) {
         Ok(exercise) => &exercise.name,
         Err(error @ LibraryError::Ambiguous { .. }) => return Err(Failure::failed(error)),
         Err(_) => &args.name,
@@ -158,7 +158,7 @@ fn save_position(position: &Exercise, replaces: bool) -> Result<(), Failure> {
 fn failure(error: StoreError) -> Failure {
     match error {
         StoreError::Exercise(error) => Failure::wrong_input(error),
-        StoreError::Taken(name) => Failure::failed(format_args!(
+        StoreError::NameTaken(name) => Failure::failed(format_args!(
             "there is a position \"{name}\" already; use --replace to overwrite it, or another name"
         )),
         error => Failure::failed(error),

@@ -36,7 +36,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let Estimate { skill, scale, low, high, attempts, made, shots, left_out } = estimate;
     if args.keep {
         let skill = skill.ok_or_else(|| Failure::failed(format_args!("average {}; {NO_SKILL}", estimate.words())))?;
-        workspace.store.keep_skill(skill).map_err(Failure::failed)?;
+        workspace.store.save_skill(skill).map_err(Failure::failed)?;
     }
     // Compared as text: the file contains degrees, which convert back to nearly the same radians. An unreadable file counts as no saved
     // skill.

@@ -153,7 +153,7 @@ impl<'a> StrokeByStroke<'a> {
             return Ok(());
         }
         let number = self.session.attempts.len() + 1;
-        let cue_ball = self.session.cue_ball_now();
+        let cue_ball = self.session.next_cue_ball();
         if self.options.json {
             let rule = rule.name();
             json_line(&Position {
@@ -180,7 +180,7 @@ impl<'a> StrokeByStroke<'a> {
     /// Plays one stroke and saves it before its result is printed. Returns `false` if the coach was asked for a stroke and found no point.
     pub fn stroke(&mut self, table: &Table, layout: &Layout, stroke: StrokeInput) -> Result<bool, Failure> {
         let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(true) };
-        let cue_ball = self.session.cue_ball_now();
+        let cue_ball = self.session.next_cue_ball();
         let typed = match stroke {
             StrokeInput::Own(typed) => Some(typed.resolve(table, layout, cue_ball)?),
             StrokeInput::Coach => None,
@@ -197,7 +197,7 @@ impl<'a> StrokeByStroke<'a> {
         };
         let Some(meant) = typed.or(advice.map(|advice| advice.cue)) else { return Ok(false) };
         let played = self.session.play(meant, by_coach).map_err(Failure::wrong_input)?;
-        let raised = self.session.attempts.last().and_then(|attempt| attempt.meant).unwrap_or(meant);
+        let raised = self.session.attempts.last().and_then(|attempt| attempt.intended).unwrap_or(meant);
         let is_raised = raised != meant;
         let meant = raised;
         let share = chance(self.session.shooter(), rule, table, layout, &meant);
@@ -219,7 +219,7 @@ impl<'a> StrokeByStroke<'a> {
         let number = self.session.attempts.len();
         // JSON output does not depend on the settings.
         let units = if self.options.json { Units { tip: TipUnit::Mm, ..Units::default() } } else { units() };
-        let (verdict, run) = (played.words(cue_ball, units.length), self.session.run());
+        let (verdict, run) = (played.words(cue_ball, units.length), self.session.current_run());
         let changes = advice.map_or_else(Vec::new, |advice| changes(table, &meant, &advice.cue, units));
         let last = self.session.attempts.last();
         if self.options.json {
@@ -324,8 +324,8 @@ impl<'a> StrokeByStroke<'a> {
                 over: session.is_over(),
                 score: record.into(),
                 sides: session.is_match().then(|| Sides {
-                    white: session.side(CueBall::White).into(),
-                    yellow: session.side(CueBall::Yellow).into(),
+                    white: session.side_record(CueBall::White).into(),
+                    yellow: session.side_record(CueBall::Yellow).into(),
                 }),
                 expected: score.map(|score| score.expected),
                 spread: score.map(|score| score.spread),
@@ -335,7 +335,7 @@ impl<'a> StrokeByStroke<'a> {
         if let Some(score) = session.score_words() {
             print_line(score)?;
             for cue_ball in [session.cue_ball, session.cue_ball.other()] {
-                print_line(format_args!("{}: {}", session.side_words(cue_ball), words(&session.side(cue_ball))))?;
+                print_line(format_args!("{}: {}", session.side_words(cue_ball), words(&session.side_record(cue_ball))))?;
             }
         } else {
             print_line(words(&record))?;

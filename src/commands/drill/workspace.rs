@@ -27,7 +27,7 @@ impl Workspace {
 
     /// Returns the exercise that `text` identifies: a name, a title, or the beginning of one.
     pub fn exercise(&self, text: &str) -> Result<&Exercise, Failure> {
-        self.library.called(text).map_err(|error| match (&error, self.library.like(text)) {
+        self.library.resolve(text).map_err(|error| match (&error, self.library.most_similar(text)) {
             (LibraryError::Unknown(_), Some(name)) => Failure::failed(format_args!(
                 "there is no exercise \"{text}\"; did you mean {name}? carom drill list shows all names"
             )),

@@ -114,7 +114,7 @@ pub fn measure(spec: &Spec, shard: Shard, player: &Player, rule: Rule, reward: R
         let decision = decide(spec, player, rule, reward, table, layout, index);
         let seconds = start.elapsed().as_secs_f64();
         let cue = decision.cue;
-        let earned = reward.with_room(table, layout, &cue, u32::MAX);
+        let earned = reward.of_playable(table, layout, &cue, u32::MAX);
         ShotRecord {
             layout: index,
             earned,

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use crate::{
-    coach::{FirstMet, Pattern, Recommendation, Shooter, ShotWords, Technique, Units, Why, why},
+    coach::{FirstContact, Pattern, Recommendation, Shooter, ShotWords, Technique, Units, Why, why},
     game::Rule,
     physics::CueInputs,
     simulation::ShotError,
@@ -78,8 +78,8 @@ impl Description {
     }
 
     /// Whether the cue ball meets first what was requested.
-    pub fn begins_with(&self, first: FirstMet) -> bool {
-        first.allows_told(&self.words.numbers)
+    pub fn begins_with(&self, first: FirstContact) -> bool {
+        first.allows_words(&self.words.numbers)
     }
 }
 

@@ -52,8 +52,9 @@ impl Margins {
     /// Describes them as text, without the maps.
     pub fn describe(&self, out: &mut impl Write, table: &Table, units: Units) -> io::Result<()> {
         let Aim { ahead, behind, hit } = &self.aim;
-        let place =
-            |mark: &RailPoint| format!("{} {}", mark.rail.name(), units.place.exact(mark.diamond, table.diamond(), 2));
+        let place = |mark: &RailPoint| {
+            format!("{} {}", mark.rail.name(), units.position.exact(mark.diamond, table.diamond(), 2))
+        };
         write!(out, "aim from {} to {}", place(behind), place(ahead))?;
         match hit {
             Some(hit) => {
@@ -66,7 +67,7 @@ impl Margins {
             writeln!(out, "no margins: played exactly, it misses on likely tables")?;
         }
         for margin in self.inputs.iter().flatten() {
-            let (factor, symbol) = margin.input.told_in(units.length);
+            let (factor, symbol) = margin.input.display_unit(units.length);
             let end = |end: Option<f64>| end.map_or_else(|| "any".to_owned(), |end| format!("{:.3}", factor * end));
             let (name, less, more) = (margin.input.name(), end(margin.less), end(margin.more));
             writeln!(out, "{name:<6} {less:>8} less to {more:>8} more, {symbol}")?;

@@ -29,7 +29,7 @@ use super::{
 };
 use crate::{
     coach::{
-        Coach, Doubt, FirstMet, Kind, NO_ATTEMPT, Recommendation, Request, Risk, Shooter, Skill, Source,
+        Coach, Doubt, FirstContact, Kind, NO_MATCHING_ATTEMPT, Recommendation, Request, Risk, Shooter, Skill, Source,
         systems::{Guide, guide},
     },
     game::Rule,
@@ -77,7 +77,7 @@ pub struct Args {
     /// Only shots that begin in this way are searched. "yellow" and "red" mean without a cushion before; after a cushion, the cue ball may
     /// meet either ball.
     #[arg(long, default_value = "any", conflicts_with = "policy_only")]
-    first: FirstMet,
+    first: FirstContact,
     /// Also report how far off each input may be, with maps of the outcome, and where to aim.
     #[arg(long)]
     margins: bool,
@@ -223,10 +223,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         describe(&mut out, args, coach.table(), &answer)?;
     }
     if answer.solved == Some(false) {
-        let begins = args.first.begins(BALL_NAMES);
+        let begins = args.first.opening_words(BALL_NAMES);
         let without = if args.no_jumps { " without jumps and massés" } else { "" };
         let meets_first = answer.shot.description_in_words.as_ref().is_none_or(|words| words.begins_with(args.first));
-        let attempt = if meets_first { "this is the best attempt" } else { NO_ATTEMPT };
+        let attempt = if meets_first { "this is the best attempt" } else { NO_MATCHING_ATTEMPT };
         return Err(Failure::failed(format_args!(
             "no point was found{begins}{without} in {:.0} ms; {attempt}, a larger {} may help",
             answer.elapsed_ms,
@@ -256,7 +256,7 @@ fn answer(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Rec
     let mut answer = shot(args, coach, layout, rule)?;
     if args.margins {
         let (table, layout, cue) = (coach.table().clone(), *layout, answer.shot.cue);
-        let doubt = Shooter { skill: args.skill, doubt: args.doubt }.doubts();
+        let doubt = Shooter { skill: args.skill, doubt: args.doubt }.effective_doubt();
         answer.margins = with_time_limit("the margins", move || Margins::of(rule, &table, &layout, &cue, doubt))?;
     }
     if answer.solved == Some(true) {

@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bytes_of_every_number_and_value_are_read_back() {
+    fn bytes_of_any_length_and_value_round_trip() {
         let bytes: Vec<u8> = (0..=255).collect();
         for length in 0..=256 {
             assert_eq!(decode(&encode(&bytes[..length])).unwrap(), bytes[..length]);
@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn letters_that_no_bytes_give_are_refused() {
+    fn impossible_letter_sequences_are_refused() {
         assert!(matches!(decode("csqpyrk1eu"), Err(CodeError::Letter('u'))));
         for damaged in ["csqpyrk1e80", "csqpyrk1e9", "0"] {
             assert!(matches!(decode(damaged), Err(CodeError::Damaged)), "{damaged}");

@@ -26,7 +26,7 @@ const VERSION: u8 = 1;
 
 /// Maximum length of a code with title and tags, characters. The longest name with a layout and a shot stays below it.
 /// A text that is too long for its one-byte length is left out.
-const LONGEST: usize = 300;
+const MAX_CODE_LENGTH: usize = 300;
 
 /// Flag in the byte after the rule: coordinates in full precision instead of tenths of a millimetre.
 const EXACT: u8 = 1;
@@ -79,11 +79,11 @@ impl From<Truncated> for CodeError {
 pub fn encode(exercise: &Exercise) -> Result<String, ExerciseError> {
     exercise.validate()?;
     let full = code(exercise, &exercise.title, &exercise.tags);
-    if full.len() <= LONGEST {
+    if full.len() <= MAX_CODE_LENGTH {
         return Ok(full);
     }
     let titled = code(exercise, &exercise.title, &[]);
-    Ok(if titled.len() <= LONGEST { titled } else { code(exercise, "", &[]) })
+    Ok(if titled.len() <= MAX_CODE_LENGTH { titled } else { code(exercise, "", &[]) })
 }
 
 fn code(exercise: &Exercise, title: &str, tags: &[String]) -> String {
@@ -187,7 +187,7 @@ fn content_of(reader: &mut Reader) -> Result<Exercise, CodeError> {
         let text = reader.text()?;
         tags.extend(text.split_whitespace().map(bare_tag).filter(|tag| !tag.is_empty()).map(str::to_owned));
     }
-    Ok(Exercise { title, tags, shot, ..Exercise::own(&name, rule, &table, Layout::new(balls)) })
+    Ok(Exercise { title, tags, shot, ..Exercise::new_own(&name, rule, &table, Layout::new(balls)) })
 }
 
 /// Returns a coordinate in tenths of a millimetre; `None` if it is out of range.

@@ -34,7 +34,7 @@ prop_compose! {
         shot in prop::option::of((-0.35..0.35, -0.35..0.35, 0.0..1.5_f64, -10.0..10.0, 0.01..9.0)),
     ) -> Exercise {
         // A name must not begin with a dot.
-        let own = Exercise::own(&format!("x{name}"), rule, &match_table(), layout(seed, sort));
+        let own = Exercise::new_own(&format!("x{name}"), rule, &match_table(), layout(seed, sort));
         let shot = shot.map(|(a, b, theta, phi, speed)| CueInputs { a, b, theta, phi, speed });
         Exercise { title, tags, shot, ..own }
     }
@@ -42,7 +42,7 @@ prop_compose! {
 
 proptest! {
     #[test]
-    fn an_exercise_survives_to_the_stated_precision(exercise in exercises()) {
+    fn exercise_round_trips_to_the_stated_precision(exercise in exercises()) {
         prop_assume!(exercise.validate().is_ok());
         let code = encode(&exercise).unwrap();
         let read = decode(&code).unwrap();
@@ -57,7 +57,7 @@ proptest! {
             prop_assert!((turn - (turn / 360.0).round() * 360.0).abs() <= 0.51e-3);
             prop_assert!((read.speed - shot.speed).abs() <= 0.51e-4);
         }
-        prop_assert!(code.len() <= LONGEST);
+        prop_assert!(code.len() <= MAX_CODE_LENGTH);
         if exercise.title.len() < 40 && exercise.tags.is_empty() && !exercise.title.is_empty() {
             prop_assert_eq!(&read.title, &exercise.title);
         }
@@ -66,7 +66,7 @@ proptest! {
     }
 
     #[test]
-    fn any_wrong_missing_or_additional_letter_is_noticed(exercise in exercises(), letter in "[0-9a-z:=+/é]") {
+    fn any_changed_missing_or_extra_letter_is_detected(exercise in exercises(), letter in "[0-9a-z:=+/é]") {
         prop_assume!(exercise.validate().is_ok());
         let code = encode(&exercise).unwrap();
         for place in 0..=code.len() {
@@ -83,7 +83,7 @@ proptest! {
     }
 
     #[test]
-    fn a_chat_may_wrap_and_capitalise(exercise in exercises(), width in 1..30_usize) {
+    fn decoding_ignores_line_breaks_and_case(exercise in exercises(), width in 1..30_usize) {
         prop_assume!(exercise.validate().is_ok());
         let code = encode(&exercise).unwrap();
         let letters: Vec<char> = code.chars().collect();
@@ -95,17 +95,17 @@ proptest! {
 }
 
 fn plain(layout: Layout) -> Exercise {
-    Exercise::own("mine", Rule::ThreeCushion, &match_table(), layout)
+    Exercise::new_own("mine", Rule::ThreeCushion, &match_table(), layout)
 }
 
 #[test]
-fn a_layout_alone_is_short() {
+fn code_without_shot_is_short() {
     assert!(encode(&plain(layout(1, 0))).unwrap().len() <= 50);
     assert!(encode(&plain(layout(1, 1))).unwrap().len() <= 110);
 }
 
 #[test]
-fn what_is_no_code_or_newer_is_refused_with_a_sentence() {
+fn invalid_and_newer_codes_are_refused_with_a_message() {
     let said = |text: &str| decode(text).unwrap_err().to_string();
     assert!(said("https://example.org").contains("\"https://example.org\"") && said("").contains("carom:"));
     assert!(said("carom:").contains("damaged") && said("carom:u").contains("'u'"));
@@ -115,7 +115,7 @@ fn what_is_no_code_or_newer_is_refused_with_a_sentence() {
 }
 
 #[test]
-fn tags_are_words_and_signs_that_mean_nothing_yet_are_damage() {
+fn tags_are_split_into_words_and_unknown_flags_refused() {
     let tags = ["two words", "#bare", "#", ""].map(str::to_owned);
     let text = code(&plain(layout(1, 0)), "", &tags);
     assert_eq!(decode(&text).unwrap().tags, ["two", "words", "bare"]);
@@ -128,7 +128,7 @@ fn tags_are_words_and_signs_that_mean_nothing_yet_are_damage() {
 }
 
 #[test]
-fn an_exercise_that_cannot_be_played_is_neither_written_nor_read() {
+fn unplayable_exercise_is_neither_encoded_nor_decoded() {
     let table = Table::default();
     let mut overlapping = plain(layout(1, 0));
     overlapping.layout.balls[1] = overlapping.layout.balls[0];

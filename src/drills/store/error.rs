@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::super::{CodeError, ExerciseError, LibraryFileError, Session, SessionError, marked::MarkError};
+use super::super::{CodeError, ExerciseError, LibraryFileError, Session, SessionError, header::HeaderError};
 
 /// Why something cannot be saved or read. The files on disk are unchanged.
 #[derive(Debug, thiserror::Error)]
@@ -28,11 +28,11 @@ pub enum StoreError {
     },
     /// The file has an unknown format or version, or is damaged.
     #[error("{}: {error}", path.display())]
-    Mark {
+    Header {
         /// The file.
         path: PathBuf,
         /// The cause.
-        error: MarkError,
+        error: HeaderError,
     },
     /// The file is not a readable file of exercises.
     #[error("{}: {error}", path.display())]
@@ -91,7 +91,7 @@ pub enum StoreError {
     Bundled(String),
     /// A position has this name.
     #[error("there is a position \"{0}\" already; give this one another name, or have it replaced")]
-    Taken(String),
+    NameTaken(String),
     /// No position has this name.
     #[error("there is no position \"{0}\" of your own")]
     Unknown(String),

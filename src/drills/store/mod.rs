@@ -22,7 +22,7 @@ pub use self::{
 };
 use super::{
     Attempt, Category, Exercise, ExerciseError, Library, LibraryFile, LibraryFileError, Session,
-    marked::{self, MarkError},
+    header::{self, HeaderError},
 };
 use crate::storage::{self, DataPaths, Lock, create_atomic, is_name, remove_abandoned_files, write_atomic};
 
@@ -34,7 +34,7 @@ const EXTENSION: &str = "json";
 
 /// The content of a folder.
 #[derive(Debug)]
-pub struct Found<T> {
+pub struct FolderContents<T> {
     /// The readable items, by name.
     pub items: Vec<T>,
     /// A sentence for every file that cannot be read.
@@ -57,7 +57,7 @@ impl Store {
     }
 
     /// Reads all sessions, the oldest first.
-    pub fn sessions(&self) -> Found<Session> {
+    pub fn sessions(&self) -> FolderContents<Session> {
         let mut found = read_all(&self.sessions, read_session);
         found.items.sort_by(|x, y| (x.started, &x.id).cmp(&(y.started, &y.id)));
         found
@@ -97,7 +97,7 @@ impl Store {
         let path = file(&self.sessions, &session.id)?;
         let is_new = !path.exists();
         if !is_new {
-            let stored: StoredSession = read_marked(&path)?;
+            let stored: StoredSession = read_with_header(&path)?;
             check_name(&path, &stored.id)?;
             // The file may have fewer attempts than `before`, because attempts that could not be written exist only here.
             if stored.attempts.len() < safe || !Attempt::is_prefix(&stored.attempts, before) {
@@ -120,7 +120,7 @@ impl Store {
     /// Writes a session's file, whatever attempts are in the existing one.
     fn write(&self, _lock: &Lock, session: &Session) -> Result<(), StoreError> {
         let path = file(&self.sessions, &session.id)?;
-        let bytes = marked::write(SESSION, session).map_err(|error| StoreError::unwritten(&path, error.into()))?;
+        let bytes = header::write(SESSION, session).map_err(|error| StoreError::unwritten(&path, error.into()))?;
         let written = if path.exists() { write_atomic(&path, &bytes) } else { create_atomic(&path, &bytes) };
         written.map_err(|error| StoreError::unwritten(&path, error))
     }
@@ -134,7 +134,7 @@ impl Store {
     }
 
     /// Reads the player's own positions, by name.
-    pub fn positions(&self) -> Found<Exercise> {
+    pub fn positions(&self) -> FolderContents<Exercise> {
         let mut found = read_all(&self.positions, read_position);
         found.items.sort_by(|x, y| x.name.cmp(&y.name));
         found
@@ -167,7 +167,7 @@ impl Store {
             create_atomic(&path, text.as_bytes())
         };
         written.map_err(|error| match error.kind() {
-            io::ErrorKind::AlreadyExists => StoreError::Taken(position.name.clone()),
+            io::ErrorKind::AlreadyExists => StoreError::NameTaken(position.name.clone()),
             _ => StoreError::unwritten(&path, error),
         })
     }
@@ -180,7 +180,7 @@ impl Store {
         let path = file(&self.positions, name)?;
         // Files of newer versions are never removed.
         let read = read_position(&path);
-        if let Err(StoreError::Library { error: LibraryFileError::Mark(MarkError::Version(_)), .. }) = read {
+        if let Err(StoreError::Library { error: LibraryFileError::Header(HeaderError::Version(_)), .. }) = read {
             return read.map(drop);
         }
         fs::remove_file(&path).map_err(|error| match error.kind() {
@@ -211,13 +211,13 @@ struct StoredSession {
     attempts: Vec<Attempt>,
 }
 
-fn read_marked<T: DeserializeOwned>(path: &Path) -> Result<T, StoreError> {
+fn read_with_header<T: DeserializeOwned>(path: &Path) -> Result<T, StoreError> {
     let text = storage::read(path, storage::MAX_PRACTICE_FILE).map_err(|error| StoreError::file(path, error))?;
-    marked::read(SESSION, &text).map_err(|error| StoreError::Mark { path: path.into(), error })
+    header::read(SESSION, &text).map_err(|error| StoreError::Header { path: path.into(), error })
 }
 
 fn read_session(path: &Path) -> Result<Session, StoreError> {
-    let session: Session = read_marked(path)?;
+    let session: Session = read_with_header(path)?;
     check_name(path, &session.id)?;
     validate(&session)?;
     Ok(session)
@@ -249,8 +249,8 @@ fn check_name(path: &Path, name: &str) -> Result<(), StoreError> {
 }
 
 /// Reads every file in a folder; a missing folder counts as empty.
-fn read_all<T>(folder: &Path, read: impl Fn(&Path) -> Result<T, StoreError>) -> Found<T> {
-    let mut found = Found { items: Vec::new(), notes: Vec::new() };
+fn read_all<T>(folder: &Path, read: impl Fn(&Path) -> Result<T, StoreError>) -> FolderContents<T> {
+    let mut found = FolderContents { items: Vec::new(), notes: Vec::new() };
     let entries = match fs::read_dir(folder) {
         Ok(entries) => entries,
         Err(error) => {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{Store, StoreError};
 use crate::{
     coach::Skill,
-    drills::{marked, session::now},
+    drills::{header, session::now},
     storage::{self, write_atomic},
 };
 
@@ -31,8 +31,8 @@ impl Store {
     pub fn own_skill(&self) -> Result<Option<OwnSkill>, StoreError> {
         let text = storage::read_if_exists(&self.player, storage::MAX_SMALL_FILE);
         let Some(text) = text.map_err(|error| StoreError::file(&self.player, error))? else { return Ok(None) };
-        let refuse = |error| StoreError::Mark { path: self.player.clone(), error };
-        marked::read(PLAYER, &text).map(Some).map_err(refuse)
+        let refuse = |error| StoreError::Header { path: self.player.clone(), error };
+        header::read(PLAYER, &text).map(Some).map_err(refuse)
     }
 
     /// Saves a skill as the player's own.
@@ -40,13 +40,13 @@ impl Store {
     /// # Errors
     /// Fails if the file cannot be written, or an existing one cannot be read, for example because its version is
     /// newer. It is then unchanged.
-    pub fn keep_skill(&self, skill: Skill) -> Result<(), StoreError> {
+    pub fn save_skill(&self, skill: Skill) -> Result<(), StoreError> {
         self.own_skill()?;
-        self.write_own(&OwnSkill { skill, since: now() })
+        self.write_own_skill(&OwnSkill { skill, since: now() })
     }
 
-    pub(super) fn write_own(&self, own: &OwnSkill) -> Result<(), StoreError> {
-        let written = marked::write(PLAYER, own).map_err(io::Error::from);
+    pub(super) fn write_own_skill(&self, own: &OwnSkill) -> Result<(), StoreError> {
+        let written = header::write(PLAYER, own).map_err(io::Error::from);
         let written = written.and_then(|bytes| write_atomic(&self.player, &bytes));
         written.map_err(|error| StoreError::unwritten(&self.player, error))
     }

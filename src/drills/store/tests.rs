@@ -22,7 +22,7 @@ fn write(folder: &Path, name: &str, text: &str) -> PathBuf {
 }
 
 #[test]
-fn a_session_grows_in_its_own_file_and_shrinks_when_an_attempt_is_taken_back() {
+fn session_file_follows_added_and_undone_attempts() {
     let folder = tempfile::tempdir().unwrap();
     let store = store(&folder);
     assert!(store.sessions().items.is_empty() && store.sessions().notes.is_empty(), "nobody has practised yet");
@@ -41,7 +41,7 @@ fn a_session_grows_in_its_own_file_and_shrinks_when_an_attempt_is_taken_back() {
 }
 
 #[test]
-fn what_another_program_has_noted_in_a_session_is_not_written_over() {
+fn changes_by_another_program_are_not_overwritten() {
     let folder = tempfile::tempdir().unwrap();
     let store = store(&folder);
     let known = session(Goal::Run(9), "x");
@@ -80,7 +80,7 @@ fn what_another_program_has_noted_in_a_session_is_not_written_over() {
 }
 
 #[test]
-fn files_of_a_newer_version_and_damaged_ones_are_told_and_never_written() {
+fn newer_and_damaged_files_are_reported_and_never_overwritten() {
     let folder = tempfile::tempdir().unwrap();
     let store = store(&folder);
     let session = session(Goal::Free, "x-");
@@ -103,16 +103,16 @@ fn files_of_a_newer_version_and_damaged_ones_are_told_and_never_written() {
     }
     assert!(fs::read_to_string(newer).unwrap().contains("\"version\":2"));
     write(folder.path(), "player.json", r#"{"format":"carom-player","version":9}"#);
-    assert!(store.keep_skill(Skill::CLUB).unwrap_err().to_string().contains("version 9"));
+    assert!(store.save_skill(Skill::CLUB).unwrap_err().to_string().contains("version 9"));
 }
 
 #[test]
-fn a_position_is_kept_under_a_free_name_and_replaced_only_on_demand() {
+fn position_is_replaced_only_on_request() {
     let folder = tempfile::tempdir().unwrap();
     let store = store(&folder);
     store.save_position(&exercise("mine"), false).unwrap();
     let other = Exercise { title: "Another".to_owned(), ..exercise("mine") };
-    assert!(matches!(store.save_position(&other, false), Err(StoreError::Taken(_))));
+    assert!(matches!(store.save_position(&other, false), Err(StoreError::NameTaken(_))));
     assert_eq!(store.positions().items[0].title, "mine");
     store.save_position(&other, true).unwrap();
     assert_eq!(store.positions().items, [Exercise { category: Category::Own, ..other }]);
@@ -122,7 +122,7 @@ fn a_position_is_kept_under_a_free_name_and_replaced_only_on_demand() {
 }
 
 #[test]
-fn a_copy_of_a_file_under_another_name_counts_nothing_twice() {
+fn copied_file_under_another_name_is_reported_and_ignored() {
     let folder = tempfile::tempdir().unwrap();
     let store = store(&folder);
     let session = session(Goal::Free, "xx");
@@ -133,7 +133,7 @@ fn a_copy_of_a_file_under_another_name_counts_nothing_twice() {
 }
 
 #[test]
-fn what_is_exported_here_is_imported_there_once_and_the_longer_session_wins() {
+fn export_imports_once_and_the_longer_session_wins() {
     let [here, there] = [(); 2].map(|()| tempfile::tempdir().unwrap());
     let [here, there] = [&here, &there].map(store);
     let mut session = session(Goal::Free, "x");
@@ -144,14 +144,14 @@ fn what_is_exported_here_is_imported_there_once_and_the_longer_session_wins() {
     here.save_position(&exercise("mine"), false).unwrap();
     here.save_position(&exercise("ours"), false).unwrap();
     there.save_position(&Exercise { title: "Mine".to_owned(), ..exercise("mine") }, false).unwrap();
-    here.keep_skill(Skill::CLUB).unwrap();
+    here.save_skill(Skill::CLUB).unwrap();
 
     let (practice, notes) = here.export();
     assert!(notes.is_empty());
     let text = serde_json::to_string(&practice).unwrap();
     let practice = Practice::parse(&text).unwrap();
     let imported = there.import(&practice);
-    let refused = vec![StoreError::Taken("mine".to_owned()).to_string()];
+    let refused = vec![StoreError::NameTaken("mine".to_owned()).to_string()];
     assert_eq!(imported, Imported { positions: 1, longer: 1, refused, ..Imported::default() });
     assert_eq!(there.sessions().items, [session.clone()]);
     assert_eq!(there.own_skill().unwrap().unwrap().skill, Skill::CLUB);
@@ -174,7 +174,7 @@ fn what_is_exported_here_is_imported_there_once_and_the_longer_session_wins() {
 }
 
 #[test]
-fn a_session_from_outside_gets_no_file_elsewhere() {
+fn imported_session_cannot_write_outside_its_folder() {
     let folder = tempfile::tempdir().unwrap();
     let store = store(&folder);
     let stray = Session { id: "../player".to_owned(), ..session(Goal::Free, "x") };

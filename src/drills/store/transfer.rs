@@ -72,13 +72,13 @@ impl Store {
     pub fn import(&self, practice: &Practice) -> Imported {
         let mut imported = Imported::default();
         for position in &practice.library.exercises {
-            let taken = self.import_position(position);
-            imported.note(taken, |imported| imported.positions += 1);
+            let outcome = self.import_position(position);
+            imported.note(outcome, |imported| imported.positions += 1);
         }
         for session in &practice.sessions {
-            let taken = self.import_session(session);
-            let longer = matches!(taken, Ok(Taken::Longer));
-            imported.note(taken, |imported| {
+            let outcome = self.import_session(session);
+            let longer = matches!(outcome, Ok(ImportOutcome::Longer));
+            imported.note(outcome, |imported| {
                 *(if longer { &mut imported.longer } else { &mut imported.sessions }) += 1;
             });
         }
@@ -87,24 +87,25 @@ impl Store {
             self.remove_abandoned();
         }
         if let Some(own) = &practice.player {
-            let kept = self.own_skill().and_then(|here| if here.is_none() { self.write_own(own) } else { Ok(()) });
+            let kept =
+                self.own_skill().and_then(|here| if here.is_none() { self.write_own_skill(own) } else { Ok(()) });
             imported.refused.extend(kept.err().map(|error| error.to_string()));
         }
         imported
     }
 
-    fn import_position(&self, position: &Exercise) -> Result<Taken, StoreError> {
+    fn import_position(&self, position: &Exercise) -> Result<ImportOutcome, StoreError> {
         match self.save_position(position, false) {
-            Err(StoreError::Taken(name)) => {
+            Err(StoreError::NameTaken(name)) => {
                 let here = read_position(&file(&self.positions, &name)?)?;
                 // Compared as text, because a number that was written and read is rounded.
                 let same =
                     matches!((position_text(&here), position_text(position)), (Ok(here), Ok(there)) if here == there);
-                if same { Ok(Taken::Known) } else { Err(StoreError::Taken(name)) }
+                if same { Ok(ImportOutcome::Known) } else { Err(StoreError::NameTaken(name)) }
             }
             // Bundled exercises are already known.
-            Err(StoreError::Bundled(name)) if Self::is_bundled_as(&name, position) => Ok(Taken::Known),
-            saved => saved.map(|()| Taken::New),
+            Err(StoreError::Bundled(name)) if Self::is_bundled_as(&name, position) => Ok(ImportOutcome::Known),
+            saved => saved.map(|()| ImportOutcome::New),
         }
     }
 
@@ -112,31 +113,31 @@ impl Store {
         Library::bundled().get(name) == Ok(position)
     }
 
-    fn import_session(&self, session: &Session) -> Result<Taken, StoreError> {
+    fn import_session(&self, session: &Session) -> Result<ImportOutcome, StoreError> {
         validate(session)?;
         let lock = self.lock()?;
-        let taken = match self.session(&session.id)? {
-            None => Taken::New,
-            Some(here) if Attempt::is_prefix(&session.attempts, &here.attempts) => return Ok(Taken::Known),
-            Some(here) if Attempt::is_prefix(&here.attempts, &session.attempts) => Taken::Longer,
+        let outcome = match self.session(&session.id)? {
+            None => ImportOutcome::New,
+            Some(here) if Attempt::is_prefix(&session.attempts, &here.attempts) => return Ok(ImportOutcome::Known),
+            Some(here) if Attempt::is_prefix(&here.attempts, &session.attempts) => ImportOutcome::Longer,
             Some(_) => return Err(StoreError::Diverged(session.id.clone())),
         };
         self.write(&lock, session)?;
-        Ok(taken)
+        Ok(outcome)
     }
 }
 
 /// The result for one item.
-enum Taken {
+enum ImportOutcome {
     New,
     Longer,
     Known,
 }
 
 impl Imported {
-    fn note(&mut self, taken: Result<Taken, StoreError>, count: impl FnOnce(&mut Self)) {
-        match taken {
-            Ok(Taken::Known) => self.known += 1,
+    fn note(&mut self, outcome: Result<ImportOutcome, StoreError>, count: impl FnOnce(&mut Self)) {
+        match outcome {
+            Ok(ImportOutcome::Known) => self.known += 1,
             Ok(_) => count(self),
             Err(error) => self.refused.push(error.to_string()),
         }

@@ -149,7 +149,7 @@ impl Expert<'_> {
         let again = |candidate: &Candidate, attempts| {
             let mut again = [Candidate::new(candidate.observation, candidate.action)];
             self.halving_round(&mut again, attempts, !seed);
-            let success = (again[0].mean() / self.reward.highest()) as f32;
+            let success = (again[0].mean() / self.reward.max_value()) as f32;
             Transition {
                 observation: candidate.observation,
                 conditions: self.conditions,

@@ -10,7 +10,7 @@ use super::{action::Action, context::Inputs, observation::Observation, observati
 use crate::{
     game::Reward,
     learning::evaluation::CONTACT_STEPS,
-    player::{Skill, aimed, misplaced},
+    player::{Skill, perturbed_layout, re_aimed},
     statistics::normal_pair,
     table::{Layout, Table, TableDoubt, TableSampler},
 };
@@ -136,15 +136,15 @@ impl RandomizedTables {
         let RandomizedTable { nominal, actual } = &self.0[conditions.table as usize % self.0.len()];
         let Ok(cue) = playable(nominal, layout, observation, action) else { return 0.0 };
         if conditions.errors == 0.0 {
-            return reward.within(nominal, layout, &cue, CONTACT_STEPS);
+            return reward.of_within_steps(nominal, layout, &cue, CONTACT_STEPS);
         }
         let table = if actual.is_empty() { nominal } else { &actual[rng.random_range(0..actual.len())] };
         let mut normal = || normal_pair(rng)[0];
-        let there = misplaced(nominal, layout, PLACING, &mut normal);
-        let cue = aimed(nominal, layout, &there, &cue);
+        let there = perturbed_layout(nominal, layout, PLACING, &mut normal);
+        let cue = re_aimed(nominal, layout, &there, &cue);
         let errors = std::array::from_fn(|_| normal());
         let stroke = Skill::level(f64::from(conditions.errors)).stroke(table.radius, &cue, &errors);
-        if stroke.is_miscue(table) { 0.0 } else { reward.within(table, &there, &stroke, CONTACT_STEPS) }
+        if stroke.is_miscue(table) { 0.0 } else { reward.of_within_steps(table, &there, &stroke, CONTACT_STEPS) }
     }
 }
 

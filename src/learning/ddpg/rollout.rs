@@ -162,7 +162,7 @@ impl Trainer {
         let attempts = if conditions.errors == 0.0 { 1 } else { self.task.hyperparameters.attempts };
         let attempt = |_| self.tables.attempt(reward, layout, (&observation, action), conditions, &mut self.rng);
         let earned = (0..attempts).map(attempt).sum::<f64>() / attempts as f64;
-        let success = (earned / reward.highest()) as f32;
+        let success = (earned / reward.max_value()) as f32;
         self.replay.push(Transition { observation, conditions, action, success });
         earned
     }
@@ -200,7 +200,7 @@ impl Trainer {
                     logit: f64::from(logit),
                     errors: f64::from(conditions.errors),
                     attempts: attempts as f64,
-                    successes: (0..attempts).map(attempt).sum::<f64>() / reward.highest(),
+                    successes: (0..attempts).map(attempt).sum::<f64>() / reward.max_value(),
                 });
             }
         }

@@ -266,7 +266,7 @@ impl<A: Agent> Learner for TrainingLoop<A> {
             let choice = self.agent.best(&self.state.game.observation(layout))?;
             let State { plan, game, .. } = &self.state;
             // Scored like every other agent: on a table that checks the room for the cue, a stroke without room earns nothing.
-            let reward = plan.reward.with_room(&game.table, layout, &cue_inputs(choice.action), u32::MAX);
+            let reward = plan.reward.of_playable(&game.table, layout, &cue_inputs(choice.action), u32::MAX);
             Ok((reward, reward >= 1.0))
         };
         Ok(Score::of(&layouts.iter().map(play).collect::<Result<Vec<_>, Error>>()?))

@@ -70,14 +70,14 @@ impl Carom {
 
     /// Plays the next shot of the game to its end; returns the reward and whether the shot was a miss.
     fn play_on(&mut self, action: Action) -> (f64, bool) {
-        let mut referee = Referee::to_the_end();
+        let mut referee = Referee::until_end();
         let end = simulate(&self.table, &self.layout, &strike(&self.table, &cue_inputs(action)), &mut referee);
         let tally = referee.tally;
         self.layout = end.layout(&self.table);
         let hit = match self.reward {
-            Reward::R1 | Reward::R1Difficulty | Reward::R2 => tally.met_any(),
-            Reward::R3 | Reward::R4 => tally.met_both(),
-            point => point.value(&self.table, &tally, &self.layout) >= point.highest(),
+            Reward::R1 | Reward::R1Difficulty | Reward::R2 => tally.has_hit_any(),
+            Reward::R3 | Reward::R4 => tally.has_hit_both(),
+            point => point.value(&self.table, &tally, &self.layout) >= point.max_value(),
         };
         (self.reward.value(&self.table, &tally, &self.layout), !hit)
     }
@@ -85,7 +85,7 @@ impl Carom {
 
 impl Environment for Carom {
     fn reward_for(&self, action: Action) -> f64 {
-        self.reward.within(&self.table, &self.layout, &cue_inputs(action), CONTACT_STEPS)
+        self.reward.of_within_steps(&self.table, &self.layout, &cue_inputs(action), CONTACT_STEPS)
     }
 
     fn hindsight_states(&self, action: Action, rng: &mut Xoshiro256PlusPlus) -> Vec<State> {

@@ -9,7 +9,7 @@ use super::{Growth, Skill};
 /// 0.69, 0.52, 0.18 and 0.10 in 200 to 600 innings each. `carom evaluate --self-play --rule three-cushion --skill club
 /// --layouts 300 --simulations 90000` measures one of them.
 const AVERAGE_OF_EXPERTS_ERRORS: f64 = 3.86;
-const FALL: f64 = 1.49;
+const AVERAGE_EXPONENT: f64 = 1.49;
 
 impl Skill {
     /// Averages about 2 points per inning at three-cushion.
@@ -35,7 +35,7 @@ impl Skill {
     /// Returns the level with this three-cushion average; `None` if it is outside the measured range.
     pub fn of_average(average: f64) -> Option<Self> {
         let (least, most) = Self::AVERAGES;
-        let scale = (AVERAGE_OF_EXPERTS_ERRORS / average).powf(1.0 / FALL);
+        let scale = (AVERAGE_OF_EXPERTS_ERRORS / average).powf(1.0 / AVERAGE_EXPONENT);
         (least..=most).contains(&average).then(|| Self::level(scale))
     }
 
@@ -48,7 +48,7 @@ impl Skill {
 
     /// Returns the three-cushion average of such a player.
     pub fn average(scale: f64) -> f64 {
-        AVERAGE_OF_EXPERTS_ERRORS * scale.powf(-FALL)
+        AVERAGE_OF_EXPERTS_ERRORS * scale.powf(-AVERAGE_EXPONENT)
     }
 }
 
@@ -57,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_named_levels_average_what_they_are_named_after_and_who_errs_more_averages_less() {
+    fn named_levels_have_their_averages_in_decreasing_order() {
         for (skill, average) in
             [(Skill::WORLD_CLASS, 2.0), (Skill::NATIONAL, 1.0), (Skill::CLUB, 0.5), (Skill::BEGINNER, 0.15)]
         {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{Input, errors::Errors};
 use crate::physics::CueInputs;
 
-use text::FORMS;
+use text::ERROR_FORMATS;
 pub use text::SkillError;
 
 /// A player's standard errors in the five cue inputs at a level stroke of [`Skill::REFERENCE_SPEED`], and their growth
@@ -56,10 +56,10 @@ impl Growth {
 }
 
 /// Steepest cue that errors can result in, rad: just below vertical, unless the intended cue is steeper.
-const STEEPEST: f64 = 89.9_f64.to_radians();
+const MAX_ELEVATION_WITH_ERRORS: f64 = 89.9_f64.to_radians();
 
 /// Elevation to which [`Growth::elevation`] refers, rad: 30°.
-const RAISED: f64 = std::f64::consts::PI / 6.0;
+const REFERENCE_ELEVATION: f64 = std::f64::consts::PI / 6.0;
 
 impl Skill {
     /// Speed of the stroke to which the errors refer, m/s. In the filmed shots the balls leave the cue at 3.5 m/s,
@@ -67,7 +67,7 @@ impl Skill {
     pub const REFERENCE_SPEED: f64 = 2.5;
 
     /// Fastest stroke that errors can result in, m/s: twice the fastest intended one.
-    pub const FASTEST: f64 = 2.0 * CueInputs::MAX_SPEED;
+    pub const MAX_SPEED_WITH_ERRORS: f64 = 2.0 * CueInputs::MAX_SPEED;
 
     /// A player without errors.
     pub const PERFECT: Self = Self { growth: Growth::NONE, ..Self::EXPERT.scaled(0.0) };
@@ -122,7 +122,7 @@ impl Skill {
     pub fn at(&self, cue: &CueInputs) -> Self {
         let Growth { speed, elevation, is_share } = self.growth;
         let ratio = cue.speed / Self::REFERENCE_SPEED;
-        let hand = (1.0 - speed + speed * ratio * ratio).sqrt() * (1.0 + elevation * cue.theta / RAISED);
+        let hand = (1.0 - speed + speed * ratio * ratio).sqrt() * (1.0 + elevation * cue.theta / REFERENCE_ELEVATION);
         Self {
             a: hand * self.a,
             b: hand * self.b,
@@ -141,20 +141,20 @@ impl Skill {
             a: cue.a + own.a / radius * errors[0],
             b: cue.b + own.b / radius * errors[1],
             // A cue is neither below the cloth nor beyond vertical.
-            theta: (cue.theta + own.theta * errors[2]).clamp(0.0, STEEPEST.max(cue.theta)),
+            theta: (cue.theta + own.theta * errors[2]).clamp(0.0, MAX_ELEVATION_WITH_ERRORS.max(cue.theta)),
             phi: cue.phi + own.phi * errors[3],
             // A stroke never goes backwards, nor faster than a session file may state (`drills::validity`).
-            speed: (cue.speed + own.speed * errors[4]).clamp(1e-3, Self::FASTEST),
+            speed: (cue.speed + own.speed * errors[4]).clamp(1e-3, Self::MAX_SPEED_WITH_ERRORS),
         }
     }
 
     /// Returns the standard error of one input at the reference stroke, in its unit; for other strokes see [`Skill::at`].
     pub fn error(&self, input: Input) -> f64 {
         let index = input as usize;
-        self.values()[index] / FORMS[index].2
+        self.values()[index] / ERROR_FORMATS[index].2
     }
 
-    /// Returns the five errors in the order of [`FORMS`] and [`Input::ALL`], in SI units.
+    /// Returns the five errors in the order of [`ERROR_FORMATS`] and [`Input::ALL`], in SI units.
     const fn values(&self) -> [f64; 5] {
         [self.a, self.b, self.theta, self.phi, self.speed]
     }
@@ -171,7 +171,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_errors_are_in_their_units() {
+    fn errors_are_applied_in_their_units() {
         let cue = CueInputs { a: 0.1, b: 0.0, theta: 0.0, phi: 1.0, speed: 2.0 };
         let stroke = Skill::EXPERT.stroke(0.03, &cue, &[3.0, 0.0, -2.0, 1.0, -1.0]);
         assert!((stroke.a - 0.15).abs() < 1e-12, "1.5 mm on a radius of 30 mm");
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn errors_never_turn_a_raised_cue_over() {
+    fn errors_never_tilt_the_cue_past_vertical() {
         for degrees in [80.0, 89.95_f64] {
             let cue = CueInputs { a: 0.0, b: 0.0, theta: degrees.to_radians(), phi: 0.0, speed: 2.0 };
             // 40° too steep by one standard error of a player with such large errors.
@@ -191,9 +191,9 @@ mod tests {
     }
 
     #[test]
-    fn errors_grow_with_speed_and_elevation_as_far_as_the_skill_says() {
+    fn errors_grow_with_speed_and_elevation() {
         let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: Skill::REFERENCE_SPEED };
-        let (hard, raised) = (CueInputs { speed: 5.0, ..cue }, CueInputs { theta: RAISED, ..cue });
+        let (hard, raised) = (CueInputs { speed: 5.0, ..cue }, CueInputs { theta: REFERENCE_ELEVATION, ..cue });
         let skill = Skill { growth: Growth::USUAL, ..Skill::EXPERT };
         assert_eq!(skill.at(&cue), Skill::EXPERT, "the reference stroke");
         let growth = skill.at(&hard).phi / skill.phi;

@@ -37,7 +37,7 @@ pub enum SkillError {
 
 /// The text form of the five errors: name, unit, the size of that unit in SI units, and the largest accepted value. A
 /// player with larger errors than a ball's radius, half a right angle or 5 m/s cannot play at all.
-pub(super) const FORMS: [(&str, &str, f64, f64); 5] = [
+pub(super) const ERROR_FORMATS: [(&str, &str, f64, f64); 5] = [
     ("a", "mm", 1e-3, 30.0),
     ("b", "mm", 1e-3, 30.0),
     ("theta", "degrees", std::f64::consts::PI / 180.0, 45.0),
@@ -52,7 +52,7 @@ const AVERAGE: &str = "average=";
 const SPEED: &str = "V";
 
 /// The largest accepted share of the speed, %.
-const MOST_SHARE: f64 = 100.0;
+const MAX_SHARE: f64 = 100.0;
 
 impl fmt::Display for Skill {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -72,8 +72,8 @@ impl fmt::Display for Skill {
                 format!("{name}={}", rounded(value / unit))
             }
         };
-        let mut parts: Vec<_> = FORMS.iter().zip(self.values()).map(part).collect();
-        for ((name, _), value) in GROWTHS.iter().zip([speed, elevation]).filter(|(_, value)| *value != 0.0) {
+        let mut parts: Vec<_> = ERROR_FORMATS.iter().zip(self.values()).map(part).collect();
+        for ((name, _), value) in GROWTH_LIMITS.iter().zip([speed, elevation]).filter(|(_, value)| *value != 0.0) {
             parts.push(format!("{name}={}", rounded(value)));
         }
         formatter.pad(&parts.join(","))
@@ -81,7 +81,7 @@ impl fmt::Display for Skill {
 }
 
 /// Names and largest values of the two numbers of a growth: with the speed and with the elevation.
-const GROWTHS: [(&str, f64); 2] = [("growth", 1.0), ("raised", 10.0)];
+const GROWTH_LIMITS: [(&str, f64); 2] = [("growth", 1.0), ("raised", 10.0)];
 
 impl FromStr for Skill {
     type Err = SkillError;
@@ -102,19 +102,19 @@ impl FromStr for Skill {
         let (mut values, mut growths, mut is_share) = ([None; 5], [None; 2], false);
         for part in text.split(',') {
             let (name, value) = part.split_once('=').ok_or_else(unknown)?;
-            if let Some(which) = GROWTHS.iter().position(|growth| growth.0 == name.trim()) {
-                let (name, most) = GROWTHS[which];
+            if let Some(which) = GROWTH_LIMITS.iter().position(|growth| growth.0 == name.trim()) {
+                let (name, most) = GROWTH_LIMITS[which];
                 if growths[which].replace(checked(name, number(value)?, most, "(a share)")?).is_some() {
                     return Err(unknown());
                 }
                 continue;
             }
-            let index = FORMS.iter().position(|form| form.0 == name.trim()).ok_or_else(unknown)?;
-            let (name, unit, si, most) = FORMS[index];
+            let index = ERROR_FORMATS.iter().position(|form| form.0 == name.trim()).ok_or_else(unknown)?;
+            let (name, unit, si, most) = ERROR_FORMATS[index];
             let value = match value.trim().strip_suffix('%').filter(|_| name == SPEED) {
                 Some(share) => {
                     is_share = true;
-                    checked(name, number(share)?, MOST_SHARE, "%")? / 100.0 * Self::REFERENCE_SPEED
+                    checked(name, number(share)?, MAX_SHARE, "%")? / 100.0 * Self::REFERENCE_SPEED
                 }
                 None => checked(name, number(value)?, most, unit)? * si,
             };
@@ -147,7 +147,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_players_own_errors_are_read_in_millimetres_and_degrees_and_written_back() {
+    fn skill_errors_round_trip_in_mm_and_degrees() {
         let text = "a=0.7,b=0.6,theta=0.2,phi=0.15,V=0.1";
         let skill: Skill = text.parse().unwrap();
         assert!((skill.a - 0.7e-3).abs() < 1e-15 && (skill.phi.to_degrees() - 0.15).abs() < 1e-12);
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn a_player_may_be_named_by_an_average_that_was_measured() {
+    fn skill_is_parsed_from_a_measured_average() {
         let skill: Skill = "0.6".parse().unwrap();
         assert!((Skill::average(skill.scale()) - 0.6).abs() < 1e-9 && skill.growth == Growth::USUAL);
         assert_eq!(skill.to_string(), "average=0.6");
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn a_share_of_the_speed_and_growths_are_read_and_written_back() {
+    fn speed_share_and_growth_round_trip() {
         let text = "a=0.7,b=0.6,theta=0.2,phi=0.15,V=4%,growth=0.5,raised=1.5";
         let skill: Skill = text.parse().unwrap();
         assert_eq!(skill.growth, Growth { speed: 0.5, elevation: 1.5, is_share: true });
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bad_skill_is_named_with_what_would_be_accepted() {
+    fn invalid_skill_error_names_accepted_values() {
         let said = |text: &str| text.parse::<Skill>().unwrap_err().to_string();
         assert!(said("master").contains("master") && said("master").contains("expert"));
         assert!(said("a=0.7,b=0.7,theta=0.2,phi=0.2").contains("V="), "one is missing");

@@ -37,7 +37,7 @@ impl FilmedShot {
     /// Whether the filmed shot scores a point.
     pub fn is_point(&self, table: &Table, rule: Rule) -> bool {
         let mut tally = Tally::default();
-        self.meetings(table).iter().for_each(|event| tally.note(event));
+        self.meetings(table).iter().for_each(|event| tally.count(event));
         tally.is_point(rule)
     }
 

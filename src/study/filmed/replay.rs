@@ -69,7 +69,7 @@ impl Replay {
     /// Whether the simulated shot scores a point.
     pub fn is_simulated_point(&self, rule: Rule) -> bool {
         let mut tally = Tally::default();
-        self.recording.events().iter().for_each(|event| tally.note(event));
+        self.recording.events().iter().for_each(|event| tally.count(event));
         tally.is_point(rule)
     }
 

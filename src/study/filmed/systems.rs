@@ -46,7 +46,7 @@ pub struct Natural {
     pub cases: usize,
     /// The stroke.
     #[serde(flatten)]
-    pub stroke: systems::Natural,
+    pub stroke: systems::NaturalStroke,
     /// Root mean square error of the arrivals, diamonds.
     pub rms: f64,
 }
@@ -63,7 +63,7 @@ pub fn bundled() -> Vec<System> {
 impl System {
     /// Returns the best natural stroke on `table`, by a grid search over side, roll and speed that is refined five times.
     pub fn natural(&self, table: &Table) -> Natural {
-        let mut best = (systems::Natural { side: 0.0, roll: 1.0, speed: 2.6 }, f64::INFINITY);
+        let mut best = (systems::NaturalStroke { side: 0.0, roll: 1.0, speed: 2.6 }, f64::INFINITY);
         let mut width = [0.8, 0.6, 1.2];
         let mut middle = [0.5, 0.8, 3.0];
         for _ in 0..5 {
@@ -73,7 +73,7 @@ impl System {
                 if !(0.0..=1.6).contains(&roll) || !(1.5..=4.5).contains(&speed) {
                     continue;
                 }
-                let stroke = systems::Natural { side, roll, speed };
+                let stroke = systems::NaturalStroke { side, roll, speed };
                 let rms = self.rms(table, &stroke);
                 if rms < best.1 {
                     best = (stroke, rms);
@@ -87,7 +87,7 @@ impl System {
 
     /// Returns the root mean square error of the arrivals with one stroke, diamonds. A case whose ball does not reach its rail
     /// counts as one diamond.
-    pub fn rms(&self, table: &Table, stroke: &systems::Natural) -> f64 {
+    pub fn rms(&self, table: &Table, stroke: &systems::NaturalStroke) -> f64 {
         let error = |case: &Case| case.error(self.coach_system()?, table, stroke);
         let squares = self.cases.iter().map(|case| error(case).unwrap_or(1.0).clamp(-1.0, 1.0).powi(2));
         (squares.sum::<f64>() / self.cases.len() as f64).sqrt()
@@ -101,13 +101,14 @@ impl System {
 
 impl Case {
     /// Returns how far the ball arrives beyond the system's arrival, diamonds; `None` if it does not arrive.
-    fn error(&self, system: systems::System, table: &Table, stroke: &systems::Natural) -> Option<f64> {
+    fn error(&self, system: systems::System, table: &Table, stroke: &systems::NaturalStroke) -> Option<f64> {
         let [from, to] = self.cue_line.map(DVec2::from_array);
         let line = (to - from).normalize();
         // The ball starts on the line, 0.4 diamonds inside the nose.
         let inside = |place: DVec2| place.x > 0.4 && place.x < 7.6 && place.y > 0.4 && place.y < 3.6;
         let start = (0..200).map(|step| from + 0.02 * f64::from(step) * line).find(|place| inside(*place))?;
-        let arrival = system.played(table, Mirror::default(), &Line { from: start, way: line }, stroke)?;
+        let arrival =
+            system.simulated_arrival(table, Mirror::default(), &Line { from: start, direction: line }, stroke)?;
         Some(arrival - self.arrival()?)
     }
 
@@ -151,7 +152,7 @@ mod tests {
     fn coach_uses_the_best_fitting_stroke_of_each_system() {
         for (system, most) in bundled().iter().zip([0.11, 0.33, 0.15]) {
             let coach_system = system.coach_system().unwrap();
-            let rms = system.rms(&Table::default(), &coach_system.natural());
+            let rms = system.rms(&Table::default(), &coach_system.natural_stroke());
             assert!(rms <= most, "{coach_system}: {rms}");
         }
     }

@@ -130,7 +130,7 @@ pub fn random_play(table: &Table, reward: Reward, seed: u64) -> f64 {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut shot = |layout: &Layout| {
         let cue = cue_inputs([rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0)]);
-        reward.with_room(table, layout, &cue, u32::MAX)
+        reward.of_playable(table, layout, &cue, u32::MAX)
     };
     held_out_layouts(table, EVALUATION_LAYOUTS, EVALUATION_SEED).iter().map(&mut shot).sum::<f64>()
         / EVALUATION_LAYOUTS as f64

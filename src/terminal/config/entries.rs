@@ -7,7 +7,7 @@ use toml::de::{DeFloat, DeInteger, DeValue};
 use crate::{
     coach::{
         Skill,
-        words::{LengthUnit, PlaceUnit, TipUnit},
+        words::{LengthUnit, PositionUnit, TipUnit},
     },
     game::Rule,
     storage::check_read_allowed,
@@ -192,9 +192,9 @@ pub const ENTRIES: &[Entry] = &[
         key: "place_unit",
         about: "Unit of positions along the cushions.",
         accepted: "\"diamonds\", \"mm\"",
-        choices: || PlaceUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
-        get: |settings| quoted(name(&PlaceUnit::NAMED, &settings.units.place)),
-        set: |settings, value| put(&mut settings.units.place, lookup(&PlaceUnit::NAMED, value)),
+        choices: || PositionUnit::NAMED.map(|(name, _)| quoted(name)).to_vec(),
+        get: |settings| quoted(name(&PositionUnit::NAMED, &settings.units.position)),
+        set: |settings, value| put(&mut settings.units.position, lookup(&PositionUnit::NAMED, value)),
     },
     Entry {
         group: "Units",

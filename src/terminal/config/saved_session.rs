@@ -5,7 +5,7 @@ use std::{io, path::Path};
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    coach::{FirstMet, Skill},
+    coach::{FirstContact, Skill},
     drills::Session,
     game::Rule,
     storage::{self, describe_json_error, write_atomic_unsynced},
@@ -70,7 +70,7 @@ impl SavedSession {
 
     /// The terms of the questions to the coach.
     pub const fn terms(&self) -> Terms {
-        Terms { rule: self.rule, skill: self.skill, plan: self.plan, first: FirstMet::Any }
+        Terms { rule: self.rule, skill: self.skill, plan: self.plan, first: FirstContact::Any }
     }
 
     /// Appends earlier sessions that were not continued, the latest first.
@@ -154,7 +154,7 @@ mod tests {
     use super::*;
 
     fn session(table: Table) -> SavedSession {
-        let terms = Terms { rule: Rule::OneCushion, skill: Skill::CLUB, plan: false, first: FirstMet::Any };
+        let terms = Terms { rule: Rule::OneCushion, skill: Skill::CLUB, plan: false, first: FirstContact::Any };
         let layout = Layout::opening(&table);
         SavedSession::new(table, layout, CueBall::White, terms, None)
     }

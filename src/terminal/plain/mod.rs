@@ -18,8 +18,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::{
     coach::{
-        Coach, FirstMet, Pattern, Request, Sensitivity, ShotWords, Skill, SpokenStroke, Technique, Units, Verdict, Why,
-        aim, judge, systems::guide, why,
+        Coach, FirstContact, Pattern, Request, Sensitivity, ShotWords, Skill, StrokeText, Technique, Units, Verdict,
+        Why, aim, judge, systems::guide, why,
     },
     game::Point,
     physics::CueInputs,
@@ -200,7 +200,7 @@ impl Conversation {
             }
             Command::First(word) => {
                 let names = self.cue_ball().names();
-                self.request.first = FirstMet::said(&word, names).map_err(|error| error.to_string())?;
+                self.request.first = FirstContact::parse(&word, names).map_err(|error| error.to_string())?;
                 self.drop_shots(format!("Met first: {word}."))
             }
             Command::PlanNow => speech::plan(self.request.plan, self.shots.get(self.chosen).and_then(|shot| shot.next)),
@@ -222,7 +222,7 @@ impl Conversation {
             Command::Other => return Err("There is no other shot; say shot to ask for one.".to_owned()),
             Command::Margins => self.with_chosen_shot(|talk, shot| {
                 let Request { rule, .. } = talk.request;
-                let doubt = talk.request.shooter().doubts();
+                let doubt = talk.request.shooter().effective_doubt();
                 Ok(match Sensitivity::new(rule, talk.table(), talk.layout(), doubt).margins(&shot.cue) {
                     Some(found) => speech::margins(&found, talk.units.length),
                     None => "This shot makes no point.".to_owned(),
@@ -311,7 +311,7 @@ impl Conversation {
     /// Describes a stroke of the player's own, given in words.
     fn try_stroke(&mut self, words: &str) -> Answer {
         let before = self.shots.get(self.chosen).map(|shot| shot.cue);
-        let read = SpokenStroke::read(words);
+        let read = StrokeText::parse(words);
         let said = read.and_then(|said| said.stroke(self.table(), self.layout(), self.cue_ball(), before.as_ref()));
         let cue = said.map_err(|error| error.to_string())?;
         let Request { rule, seed, .. } = self.request;
@@ -339,8 +339,8 @@ impl Conversation {
                 let words = ShotWords::of_technique(talk.table(), talk.layout(), &shot.cue, &technique);
                 lines.extend([words.sentence(cue_ball, units), words.course(cue_ball, units), words.aim(units)]);
                 let first = talk.request.first;
-                if shot.is_attempt && !first.allows_told(&words) {
-                    lines.push(format!("No attempt was found{}.", first.begins(cue_ball.names())));
+                if shot.is_attempt && !first.allows_words(&words) {
+                    lines.push(format!("No attempt was found{}.", first.opening_words(cue_ball.names())));
                 }
                 let pattern = Pattern::of(&technique);
                 lines.extend(

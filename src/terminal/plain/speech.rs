@@ -90,9 +90,9 @@ pub fn stroke(table: &Table, cue: &CueInputs, aim: Option<&Aim>, cue_ball: CueBa
         lines.push(format!(
             "The line of aim comes from the {} at {} and goes to the {} at {}.",
             rail_name(behind.rail),
-            units.place.exact(behind.diamond, table.diamond(), 2),
+            units.position.exact(behind.diamond, table.diamond(), 2),
             rail_name(ahead.rail),
-            units.place.exact(ahead.diamond, table.diamond(), 2)
+            units.position.exact(ahead.diamond, table.diamond(), 2)
         ));
         lines.extend(hit.map(|hit| {
             let side = hit.side().map_or_else(String::new, |side| format!(" on its {side} side"));
@@ -196,7 +196,7 @@ pub fn margins(margins: &[Margin], unit: LengthUnit) -> String {
             Input::Direction => ("Direction", "degrees", "to the right", "to the left"),
             Input::Speed => ("Speed", of_speed(unit), "softer", "harder"),
         };
-        let (factor, _) = margin.input.told_in(unit);
+        let (factor, _) = margin.input.display_unit(unit);
         let end = |end: Option<f64>, way: &str| match end {
             Some(end) => format!("up to {} {word} {way}", fixed(factor * end, 2)),
             // Every cue can be lowered only until it is level.

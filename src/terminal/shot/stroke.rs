@@ -3,7 +3,7 @@
 use std::mem::{Discriminant, discriminant};
 
 use crate::{
-    coach::{SpokenError, SpokenStroke},
+    coach::{StrokeText, StrokeTextError},
     physics::{CueInputs, raise_to_clear},
     table::{CueBall, Layout, Table},
     terminal::shot::{History, aiming},
@@ -92,8 +92,14 @@ impl OwnStroke {
     ///
     /// # Errors
     /// The text is not understood, or the stroke cannot be played; the stroke stays as it is.
-    pub fn say(&mut self, words: &str, table: &Table, layout: &Layout, cue_ball: CueBall) -> Result<(), SpokenError> {
-        let cue = SpokenStroke::read(words)?.stroke(table, layout, cue_ball, Some(self.cue()))?;
+    pub fn say(
+        &mut self,
+        words: &str,
+        table: &Table,
+        layout: &Layout,
+        cue_ball: CueBall,
+    ) -> Result<(), StrokeTextError> {
+        let cue = StrokeText::parse(words)?.stroke(table, layout, cue_ball, Some(self.cue()))?;
         self.set(cue);
         Ok(())
     }

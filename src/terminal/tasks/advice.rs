@@ -3,7 +3,7 @@
 use std::{sync::Arc, time::Duration};
 
 use crate::{
-    coach::{Doubt, FirstMet, Map, Margin, Recommendation, Risk, Scatter, Shooter, Skill, systems::Guide},
+    coach::{Doubt, FirstContact, Map, Margin, Recommendation, Risk, Scatter, Shooter, Skill, systems::Guide},
     game::Rule,
     learning::Policy,
     statistics::SuccessRate,
@@ -26,12 +26,12 @@ pub struct CoachQuery {
     /// Whether jumps and massés may be advised.
     pub jumps: bool,
     /// What the cue ball has to meet first.
-    pub first: FirstMet,
+    pub first: FirstContact,
 }
 
 impl Default for CoachQuery {
     fn default() -> Self {
-        let (rule, skill, doubt, first) = (Rule::default(), Skill::EXPERT, Doubt::FULL, FirstMet::Any);
+        let (rule, skill, doubt, first) = (Rule::default(), Skill::EXPERT, Doubt::FULL, FirstContact::Any);
         Self { policy: None, rule, skill, doubt, plan: true, jumps: true, first }
     }
 }
@@ -141,7 +141,7 @@ mod tests {
             CoachQuery { skill: Skill::CLUB, ..query.clone() },
             CoachQuery { plan: false, ..query.clone() },
             CoachQuery { jumps: false, ..query.clone() },
-            CoachQuery { first: FirstMet::Red, ..query.clone() },
+            CoachQuery { first: FirstContact::Red, ..query.clone() },
             CoachQuery { doubt: Doubt::NONE, ..query.clone() },
         ] {
             assert_ne!(query, other);

@@ -4,7 +4,7 @@ use std::sync::{Arc, atomic::AtomicBool};
 
 use crate::{
     coach::{Shooter, Skill},
-    drills::{Advice, Attempt, Exercise, Played, Session},
+    drills::{Advice, Attempt, Exercise, PlayedStroke, Session},
     game::Rule,
     physics::CueInputs,
     statistics::SuccessRate,
@@ -120,7 +120,7 @@ pub struct AttemptOutcome {
     /// The session including this attempt.
     pub session: Session,
     /// The result of the attempt.
-    pub played: Played,
+    pub played: PlayedStroke,
     /// The shot as it was played; `None` after a miscue.
     pub shot: Option<Arc<Shot>>,
     /// Table and layout of the next attempt; `None` when the session is over.

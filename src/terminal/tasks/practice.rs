@@ -73,7 +73,7 @@ impl PracticeWorker {
             },
             DrillTask::SavePosition(exercise, replaces) => {
                 let saved = match self.store.as_ref().map(|store| store.save_position(&exercise, replaces)) {
-                    Some(Err(StoreError::Taken(_))) => Ok(false),
+                    Some(Err(StoreError::NameTaken(_))) => Ok(false),
                     Some(Err(error)) => Err(error.to_string()),
                     Some(Ok(())) => Ok(true),
                     None => Err(NO_STORE.to_owned()),
@@ -85,7 +85,7 @@ impl PracticeWorker {
                 reply(DrillReport::PositionRemoved(name, removed));
             }
             DrillTask::KeepSkill(skill) => {
-                let kept = self.with_store(|store| store.keep_skill(skill));
+                let kept = self.with_store(|store| store.save_skill(skill));
                 reply(DrillReport::SkillKept(skill, kept));
             }
             DrillTask::Film(filmed) => {
@@ -183,7 +183,7 @@ impl PracticeWorker {
         };
         let number = session.attempts.len() - 1;
         // With the cue raised if it had to be.
-        let meant = session.attempts[number].meant.unwrap_or(meant);
+        let meant = session.attempts[number].intended.unwrap_or(meant);
         if let Some((_, advice)) = self.model_shot.as_ref().filter(|(id, _)| *id == advice_id) {
             session.attempts[number].advised = Some(advice.cue);
             session.attempts[number].advised_chance = Some(advice.chance.rate);

@@ -168,7 +168,8 @@ impl CoachWorker {
                 is_early: true,
             });
         };
-        let found = self.coach(job).recommend_and_tell(layout, &request, tell).map_err(|error| error.to_string())?;
+        let found =
+            self.coach(job).recommend_with_progress(layout, &request, tell).map_err(|error| error.to_string())?;
         proposals(job, layout, found)
     }
 
@@ -230,7 +231,7 @@ fn proposals(job: &CoachJob, layout: &Layout, found: Recommendation) -> Result<A
 fn study(job: &CoachJob, cue: &CueInputs, recording: &Recording) -> Option<ShotAnalysis> {
     let CoachJob { table, layout, query, .. } = job;
     let CoachQuery { rule, skill, .. } = query;
-    let sensitivity = Sensitivity::new(*rule, table, layout, query.shooter().doubts());
+    let sensitivity = Sensitivity::new(*rule, table, layout, query.shooter().effective_doubt());
     let unless_cancelled = || (!job.cancel.load(Ordering::Relaxed)).then_some(());
     let margins = sensitivity.margins(cue);
     unless_cancelled()?;

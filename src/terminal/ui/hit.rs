@@ -4,7 +4,7 @@
 use ratatui::{layout::Rect, style::Modifier, text::Span};
 
 use crate::{
-    coach::{Hit, words::capital},
+    coach::{Hit, words::capitalize},
     terminal::{
         shot::{Meeting, Spin},
         ui::{Ink, Theme, Ui, draw_field, draw_title, field::Mark, spin::draw_spin},
@@ -30,7 +30,7 @@ pub fn draw_spin_or_hit(spin: Option<Spin>, meeting: Option<Meeting>, area: Rect
 /// is.
 pub fn draw_hit_panel(whose: Option<&str>, meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
     let is_low = area.height <= LOW + 1;
-    let title = |words: &str| whose.map_or_else(|| capital(words), |whose| format!("{whose} {words}"));
+    let title = |words: &str| whose.map_or_else(|| capitalize(words), |whose| format!("{whose} {words}"));
     let title = match meeting.filter(|_| is_low) {
         // A percentage alone could be taken for a success rate.
         Some(Meeting::Ball(hit)) => Span::styled(title(&format!("{} % full", percent(&hit))), ui.theme.accent()),

@@ -16,7 +16,7 @@ fn table() -> String {
 
 fn exercise() -> Exercise {
     let table = Table::preset("match").unwrap();
-    Exercise::own("mine", Rule::ThreeCushion, &table.name, Layout::opening(&table))
+    Exercise::new_own("mine", Rule::ThreeCushion, &table.name, Layout::opening(&table))
 }
 
 fn library() -> String {

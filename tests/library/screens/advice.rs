@@ -4,7 +4,7 @@ use std::sync::atomic::Ordering;
 
 use super::player::{NEXT, OTHERS, Player, SHOT, SIZES, TRUE_COLOUR, advice, check, proposal};
 use carom::{
-    coach::{FirstMet, Skill},
+    coach::{FirstContact, Skill},
     game::Rule,
     physics::CueInputs,
     terminal::{CoachAnswer, CoachNews, CoachWorker, InfoPanel, Settings},
@@ -86,7 +86,7 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
         assert!(player.app.coach.shot().is_none(), "{keys}");
         let query = &player.press("Enter").asked.unwrap().query;
         assert_eq!(query.plan, keys != "P");
-        assert_eq!(query.first == FirstMet::Red, keys == "B B");
+        assert_eq!(query.first == FirstContact::Red, keys == "B B");
         assert_eq!(query.skill == Skill::PERFECT, keys.contains("S S S S S"));
     }
     let player = Player::new().press("Enter").answer();

@@ -158,7 +158,7 @@ fn aimed_as_the_model_shot(player: Player) -> Player {
 fn a_stroke_is_played_with_errors_told_at_its_end_and_compared() {
     let player = aimed_as_the_model_shot(Player::practising(TRUE_COLOUR)).press("Space");
     let attempt = player.store().sessions().items[0].attempts[0].clone();
-    assert!(attempt.meant != attempt.played && attempt.chance.is_some() && attempt.advised.is_some());
+    assert!(attempt.intended != attempt.played && attempt.chance.is_some() && attempt.advised.is_some());
     let half = player.wait(0.4);
     assert!(half.app.frame_interval().is_some());
     half.says("the shot is running").says("no attempt yet").is_silent_on("Yours makes");
@@ -281,7 +281,7 @@ fn an_exam_has_twenty_exercises_and_a_grade() {
 #[test]
 fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_them() {
     let folder = tempfile::tempdir().unwrap();
-    Store::new(&places(folder.path())).keep_skill(Skill::level(4.35)).unwrap();
+    Store::new(&places(folder.path())).save_skill(Skill::level(4.35)).unwrap();
     let player = Player::in_folder(TRUE_COLOUR, folder).press("d");
     let own = player.store().own_skill().unwrap().unwrap().skill;
     player.says("player: me by my notes");

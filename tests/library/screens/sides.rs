@@ -123,7 +123,10 @@ fn in_a_match_against_the_coach_it_makes_the_strokes_of_the_other_ball_and_they_
         let session = &played.store().sessions().items[0];
         let by_coach: Vec<bool> = session.attempts.iter().map(|attempt| attempt.by_coach).collect();
         assert_eq!((by_coach, session.attempts[1].helped), (vec![false, true], false));
-        assert!((session.attempts[1].meant.unwrap().speed - meant).abs() < 1e-9, "what the coach has shown is played");
+        assert!(
+            (session.attempts[1].intended.unwrap().speed - meant).abs() < 1e-9,
+            "what the coach has shown is played"
+        );
         assert_eq!(Record::of([session], |_, _| true).tried, 1, "the record is the player's");
     }
 }

@@ -168,7 +168,7 @@ fn the_model_shot_of_an_exercise_is_taken_over_and_the_attempt_is_one_with_a_hin
     let ended = left.press("Space").wait(60.0);
     let attempt = &ended.store().sessions().items[0].attempts[0];
     assert!(attempt.helped, "{attempt:?}");
-    let meant = attempt.meant.unwrap();
+    let meant = attempt.intended.unwrap();
     assert!((meant.speed - CueInputs::parse(SHOT).unwrap().speed).abs() < 1e-9, "the stroke stays set: {meant:?}");
 }
 

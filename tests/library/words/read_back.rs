@@ -1,7 +1,7 @@
 //! A reader of the coach's sentences: converts the text, the balls and the table to a stroke.
 
 use carom::{
-    coach::{Cushion, RailPoint, SpokenStroke, Technique},
+    coach::{Cushion, RailPoint, StrokeText, Technique},
     physics::{CueInputs, raise_to_clear},
     simulation::Rail,
     table::{BALL_NAMES, CueBall, Layout, Table},
@@ -34,7 +34,7 @@ enum Stop {
 pub fn stroke(text: &str, reading: Reading, table: &Table, layout: &Layout) -> Result<CueInputs, String> {
     let [sentence, told, aim] = text.lines().collect::<Vec<_>>()[..] else { return Err("three lines".to_owned()) };
     let said = |text: &str| {
-        let said = SpokenStroke::read(text).and_then(|said| said.stroke(table, layout, CueBall::White, None));
+        let said = StrokeText::parse(text).and_then(|said| said.stroke(table, layout, CueBall::White, None));
         said.map_err(|error| error.to_string())
     };
     let (by_sentence, by_aim) = (said(sentence)?, said(&format!("{sentence}\n{aim}"))?);
@@ -49,7 +49,7 @@ pub fn stroke(text: &str, reading: Reading, table: &Table, layout: &Layout) -> R
             // A sixteenth of a ball, or a tenth of a diamond on a cushion, is lost by rounding.
             let half = match stops.first().ok_or("no stop")? {
                 Stop::Ball(ball) => 0.08 * table.radius / (layout.balls[*ball] - start).length(),
-                Stop::Cushion(mark) => 0.08 * table.diamond() / (mark.place(table) - start).length(),
+                Stop::Cushion(mark) => 0.08 * table.diamond() / (mark.position(table) - start).length(),
             };
             nearest(by_sentence, half, &by_sentence, &stops, table, layout)
         }
@@ -121,7 +121,7 @@ fn unlike_course(technique: &Technique, stops: &[Stop]) -> f64 {
     let mut course: Vec<Stop> = technique.before.iter().map(cushion).collect();
     course.extend(technique.first.map(|hit| Stop::Ball(hit.ball)));
     course.extend(technique.between.iter().map(cushion));
-    if technique.tally.met_both() {
+    if technique.tally.has_hit_both() {
         course.extend(technique.first.map(|hit| Stop::Ball(3 - hit.ball)));
     }
     let unlike = |(place, stop): (usize, &Stop)| match (stop, course.get(place)) {

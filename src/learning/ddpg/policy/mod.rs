@@ -119,7 +119,7 @@ impl Policy {
         // Small batches stay in the processor's cache.
         for layouts in layouts.chunks(64) {
             for (layout, proposals) in layouts.iter().zip(self.proposals_for(table, layouts, &Skill::PERFECT)) {
-                let first = reward.with_room(table, layout, &proposals[0].cue, u32::MAX);
+                let first = reward.of_playable(table, layout, &proposals[0].cue, u32::MAX);
                 played.push((first, any_scores(table, reward, layout, first, &proposals[1..])));
             }
         }
@@ -130,7 +130,7 @@ impl Policy {
 /// Whether any proposal earns a reward of 1 or more: the first, whose reward is `first`, or one of the `others`.
 pub fn any_scores(table: &Table, reward: Reward, layout: &Layout, first: f64, others: &[Proposal]) -> bool {
     // With a limit on contact steps: on the `thesis` table a few proposals would take all the time, and hardly any of them earns anything.
-    first >= 1.0 || others.iter().any(|proposal| reward.with_room(table, layout, &proposal.cue, CONTACT_STEPS) >= 1.0)
+    first >= 1.0 || others.iter().any(|proposal| reward.of_playable(table, layout, &proposal.cue, CONTACT_STEPS) >= 1.0)
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::{
-    coach::{FirstMet, words::no_jump_words},
+    coach::{FirstContact, words::no_jump_words},
     drills::Session,
     game::{Point, Rule},
     table::{BALLS, CueBall, Layout, Opening, Side},

@@ -24,7 +24,7 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::{
-    coach::{FirstMet, Skill, Units, Verdict},
+    coach::{FirstContact, Skill, Units, Verdict},
     drills::Session,
     game::Rule,
     learning::Policy,
@@ -284,7 +284,7 @@ impl CoachPage {
     /// Applies all settings at the start.
     pub fn take_settings(&mut self, settings: &Settings) {
         let Settings { rule, skill, doubt, plan, jumps, .. } = *settings;
-        self.settings_terms = Terms { rule, skill, plan, first: FirstMet::Any };
+        self.settings_terms = Terms { rule, skill, plan, first: FirstContact::Any };
         self.start_terms = self.settings_terms;
         self.query = CoachQuery { doubt, jumps, ..self.query.with(self.settings_terms) };
         self.budget = Duration::from_millis(settings.think_ms).min(self.max_budget);

@@ -6,7 +6,7 @@ use std::sync::{
 };
 
 use crate::{
-    coach::{Cause, NO_ATTEMPT, Why},
+    coach::{Cause, NO_MATCHING_ATTEMPT, Why},
     physics::CueInputs,
     table::BALLS,
     terminal::{
@@ -278,10 +278,10 @@ fn proposal_message(
     if !shot.solved {
         let tried = effort.map_or(String::new(), |effort| format!(" in {} simulations", effort.simulations));
         let source = &shot.source;
-        let begins = query.first.begins(names);
+        let begins = query.first.opening_words(names);
         let without = if query.jumps { "" } else { " without jumps and massés" };
-        let keeps_wish = query.first.allows_told(&shot.words);
-        let attempt = if keeps_wish { "this is the best attempt" } else { NO_ATTEMPT };
+        let keeps_wish = query.first.allows_words(&shot.words);
+        let attempt = if keeps_wish { "this is the best attempt" } else { NO_MATCHING_ATTEMPT };
         return Message::poor(format!("no point found{begins}{without}{tried}; {attempt} ({source}{took})"));
     }
     let Some(chance) = chance(proposal, query) else {

@@ -2,7 +2,7 @@
 //! exists already.
 
 use crate::{
-    drills::{Category, Exercise, LONGEST_TITLE, Library, bare_tag},
+    drills::{Category, Exercise, Library, MAX_TITLE_BYTES, bare_tag},
     storage::is_name,
     terminal::{
         DrillTask, Effect,
@@ -24,12 +24,12 @@ impl CoachPage {
     pub(super) fn ask_title(&mut self) {
         self.playback.pause();
         let shot = self.shot().filter(|shot| shot.solved).map(|shot| shot.cue);
-        let on = |table: &str| Exercise::own("", self.query.rule, table, *self.layout());
+        let on = |table: &str| Exercise::new_own("", self.query.rule, table, *self.layout());
         let here = Exercise { shot, ..on(&self.table().name) };
         let is_bundled = here.table().is_ok_and(|known| known == *self.table());
         let position = if is_bundled { here } else { on(FOR_ALL) };
         if position.table().is_ok() {
-            self.question = Some(Question::Title(TextField::new(LONGEST_TITLE), Box::new(position)));
+            self.question = Some(Question::Title(TextField::new(MAX_TITLE_BYTES), Box::new(position)));
         } else {
             let name = &self.table().name;
             let words = format!(

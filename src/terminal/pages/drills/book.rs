@@ -56,7 +56,7 @@ impl Book {
 
     fn score(&mut self, names: impl IntoIterator<Item = String>) {
         for name in names {
-            let scores = Record::apart(&self.sessions, |sessions| Record::of_exercise(sessions, &name));
+            let scores = Record::by_venue(&self.sessions, |sessions| Record::of_exercise(sessions, &name));
             self.scores.insert(name, scores);
         }
     }

@@ -9,7 +9,7 @@ use std::sync::{
 
 use crate::{
     coach::{
-        SpokenError,
+        StrokeTextError,
         words::{LengthUnit, no_jump_words},
     },
     drills::{Attempt, Exercise, ExerciseError, Goal, Session, Venue},
@@ -104,7 +104,7 @@ impl Turn {
             stroke: OwnStroke::new(aiming::first_stroke(Point::of(exercise.rule, &table, &layout), &layout)),
             what_if: None,
             is_warned: false,
-            cue_ball: session.cue_ball_now(),
+            cue_ball: session.next_cue_ball(),
             jumps: true,
             session,
             exercise,
@@ -139,7 +139,7 @@ impl Turn {
     }
 
     /// Sets the stroke from its description in words.
-    pub(super) fn set_stroke_in_words(&mut self, words: &str) -> Result<Vec<DrillTask>, SpokenError> {
+    pub(super) fn set_stroke_in_words(&mut self, words: &str) -> Result<Vec<DrillTask>, StrokeTextError> {
         self.stroke.say(words, &self.table, &self.layout, self.cue_ball)?;
         Ok(self.compare())
     }
@@ -341,7 +341,7 @@ impl Turn {
         let mut playback = Playback::default();
         let duration = outcome.shot.as_ref().map_or(0.0, |shot| shot.recording.duration());
         playback.toggle(duration);
-        let noted = outcome.session.attempts.last().and_then(|attempt| attempt.meant);
+        let noted = outcome.session.attempts.last().and_then(|attempt| attempt.intended);
         let meant = noted.unwrap_or(*self.stroke());
         let mut watched = Watched { outcome, meant, chance: None, playback, is_settled: false };
         watched.settle();
@@ -429,7 +429,7 @@ impl Turn {
             self.is_warned = false;
         }
         (self.exercise, self.table, self.layout) = (exercise, table, layout);
-        self.cue_ball = self.session.cue_ball_now();
+        self.cue_ball = self.session.next_cue_ball();
         self.stage = Stage::Aiming;
         // The coach's stroke is visible at its turn and hidden at the player's.
         self.shows_hint = self.is_coachs_turn() || self.shows_hint && !is_moved;

@@ -8,7 +8,7 @@ use ratatui::{
 use crate::{
     coach::{
         RailPoint, ShotWords,
-        words::{English, TIP, TipUnit, lengths_words, pace_word, short},
+        words::{English, TIP, TipUnit, format_trimmed, lengths_words, pace_word},
     },
     terminal::{
         Proposal,
@@ -76,7 +76,7 @@ type Row = (&'static str, String);
 
 /// Formats a position along a cushion before the first ball, in diamonds.
 fn to_tenths(diamonds: f64) -> String {
-    short(diamonds, 1)
+    format_trimmed(diamonds, 1)
 }
 
 /// The rows of a narrow card, at most 14 columns wide, the more important rows first.
@@ -102,7 +102,7 @@ fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
         }
     }
     rows.extend(tip_words(proposal, coach));
-    rows.push(format!("{} {}", pace_word(words.table_lengths), short(words.table_lengths, 1)));
+    rows.push(format!("{} {}", pace_word(words.table_lengths), format_trimmed(words.table_lengths, 1)));
     rows.push(match fixed(words.elevation_deg, 0) {
         _ if words.has_level_cue() => "level cue".to_owned(),
         degrees if words.is_level => format!("low cue {degrees}\u{b0}"),
@@ -183,7 +183,7 @@ fn offset_words(tips: f64, [middle, more, less]: [&str; 3], coach: &CoachPage) -
         return middle.to_owned();
     }
     let plural = if unit == "tip" && value > 1.0 { "s" } else { "" };
-    format!("{} {unit}{plural} {}", short(value, 1), if tips > 0.0 { more } else { less })
+    format!("{} {unit}{plural} {}", format_trimmed(value, 1), if tips > 0.0 { more } else { less })
 }
 
 /// The thickness of the hit as a fraction, rounded to a sixteenth.

@@ -100,7 +100,7 @@ pub fn draw_why(advised: &AdviceState, area: Rect, ui: &mut Ui) -> bool {
 
 /// The explanations of the first shot's rank that add to the list, from long to short; empty if not known.
 fn beside_the_list(advised: &AdviceState, ui: &Ui) -> impl Iterator<Item = String> + use<> {
-    let why = advised.why.as_ref().map(|why| why.beside_the_list(ui.theme.cue_ball).collect::<Vec<_>>());
+    let why = advised.why.as_ref().map(|why| why.facts_beyond_list(ui.theme.cue_ball).collect::<Vec<_>>());
     why.unwrap_or_default().into_iter()
 }
 

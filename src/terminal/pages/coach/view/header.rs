@@ -6,7 +6,7 @@ use ratatui::{
 };
 
 use crate::{
-    coach::FirstMet,
+    coach::FirstContact,
     terminal::{
         CoachAction, Mode,
         pages::coach::{CoachPage, keys::COACH},
@@ -36,7 +36,7 @@ pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     // Of the query terms the player's average is dropped first, then the plan. The wish for the first contact and the name of another
     // table stay.
     let is_named = coach.query.policy.is_some() || coach.table().name != "match";
-    let has_plan = coach.query.plan && coach.query.first == FirstMet::Any && !is_named;
+    let has_plan = coach.query.plan && coach.query.first == FirstContact::Any && !is_named;
     let taken = time + if is_named { NAME } else { 0 };
     let [whole, brief, least] =
         [(true, true), (true, false), (has_plan, false)].map(|(plan, average)| question(coach, plan, average, ui));
@@ -84,7 +84,7 @@ fn question(coach: &CoachPage, has_plan: bool, has_average: bool, ui: &Ui) -> Li
     ];
     let mut parts = parts[..if has_plan { 3 } else { 2 }].to_vec();
     let first = format!("{} first", query.first.word(coach.cue_ball().names()));
-    if query.first != FirstMet::Any {
+    if query.first != FirstContact::Any {
         parts.push((CoachAction::NextFirstMet, &first));
     }
     let mut line = Line::default();

@@ -9,8 +9,8 @@ use ratatui::{
 
 use crate::{
     coach::{
-        systems::{Applied, BEHIND, Guide, metres, number},
-        words::capital,
+        systems::{Applied, DIAMOND_SETBACK, Guide, metres, number},
+        words::capitalize,
     },
     table::Table,
     terminal::{
@@ -55,7 +55,7 @@ fn labels(guide: &Guide) -> Vec<(String, DVec2, bool)> {
             let labels = system.labels();
             let on_rails = labels.start.iter().chain(&labels.first).map(|label| (label, false));
             let all = on_rails.chain(labels.third.iter().map(|label| (label, true)));
-            all.map(|((value, place), inside)| (number(*system, *value), mirror.place(*place), inside)).collect()
+            all.map(|((value, place), inside)| (number(*system, *value), mirror.apply(*place), inside)).collect()
         }
         Guide::Shift(shift) => {
             let [first, third] = shift.ends();
@@ -77,9 +77,9 @@ fn write_at(
     let (bed, width) = (mapping.bed, columns(text) as u16);
     let inside = place.clamp(DVec2::ZERO, DVec2::new(8.0, 4.0));
     let (column, row) = mapping.to_cell(metres(table, inside));
-    let is_above = place.y > 4.0 - 0.5 * BEHIND;
-    let is_below = place.y < 0.5 * BEHIND;
-    let is_left = place.x < 0.5 * BEHIND;
+    let is_above = place.y > 4.0 - 0.5 * DIAMOND_SETBACK;
+    let is_below = place.y < 0.5 * DIAMOND_SETBACK;
+    let is_left = place.x < 0.5 * DIAMOND_SETBACK;
     let outer = mapping.outer();
     let (x, y) = if (is_above || is_below) && (0.0..=8.0).contains(&place.x) {
         let y = match (is_above, is_inside) {
@@ -131,7 +131,7 @@ pub fn draw_lesson(lesson: &Lesson, has_no_system: bool, area: Rect, ui: &mut Ui
         && rows(&sentences) > usize::from(inner.height)
     {
         sentences.retain(|(_, is_main)| !is_main);
-        sentences.insert(0, (capital(&shift.brief()), true));
+        sentences.insert(0, (capitalize(&shift.brief()), true));
     }
     let style = |is_main| if is_main { ui.theme.text() } else { ui.theme.faint() };
     let paragraphs: Vec<_> = sentences.into_iter().map(|(words, is_main)| (words, style(is_main))).collect();
@@ -144,8 +144,8 @@ fn sentences(guide: &Guide) -> Vec<(String, bool)> {
         Guide::System(applied) => applied,
         Guide::Shift(shift) => {
             return vec![
-                (capital(&shift.counted()), true),
-                (capital(&shift.correction().unwrap_or_default()), true),
+                (capitalize(&shift.description()), true),
+                (capitalize(&shift.correction().unwrap_or_default()), true),
                 ("The dots are the line to the diamond.".to_owned(), false),
                 (shift.rule().to_owned(), false),
                 ("On the rail: the diamond. On the cloth: where the dots reach the third cushion.".to_owned(), false),

@@ -61,7 +61,7 @@ enum Sign {
 /// position. The title shows the extent of the map in `unit`.
 pub fn draw_tip_map(map: &Map, cue: &CueInputs, table: &Table, unit: LengthUnit, area: Rect, ui: &mut Ui) {
     let reach = map.columns.last().copied().unwrap_or_default();
-    let (factor, symbol) = map.across.told_in(unit);
+    let (factor, symbol) = map.across.display_unit(unit);
     let decimals = usize::from(unit == LengthUnit::Feet);
     let title = format!("Tip {}{} {symbol}", ui.caps.pick("±", "+-"), fixed(factor * reach, decimals));
     let inner = draw_title(title, area, ui);
@@ -79,7 +79,7 @@ pub fn draw_tip_map(map: &Map, cue: &CueInputs, table: &Table, unit: LengthUnit,
 /// Draws the outcomes over direction (positive to the left, as the shooter sees it) and speed (upwards), with the outline of the
 /// player's errors around the stroke in the centre. Speeds are shown in `unit`. If `in_letters`, the axes have the thesis' letters.
 pub fn draw_aim_map(map: &Map, skill: Skill, (unit, in_letters): (LengthUnit, bool), area: Rect, ui: &mut Ui) {
-    let (factor, symbol) = map.up.told_in(unit);
+    let (factor, symbol) = map.up.display_unit(unit);
     let degree = ui.caps.pick("°", "");
     let [aim, speed] = if in_letters { [ui.caps.pick("φ", "ph"), "V"] } else { ["aim", "speed"] };
     let wide = area.width >= WIDE;

@@ -5,7 +5,7 @@ use ratatui::{layout::Rect, style::Style, text::Span};
 use crate::{
     coach::{
         Input, Margin, Skill,
-        words::{LengthUnit, lengths_words, short},
+        words::{LengthUnit, format_trimmed, lengths_words},
     },
     terminal::{
         Capabilities, Shot, ShotAnalysis,
@@ -38,7 +38,7 @@ pub fn draw_margins(
     let tall = area.height > TALL;
     let half = (area.width / 2).clamp(HALF.0, HALF.1);
     let has_yours = half == HALF.1;
-    let [small, speed] = [Input::Side, Input::Speed].map(|input| input.told_in(unit).1);
+    let [small, speed] = [Input::Side, Input::Speed].map(|input| input.display_unit(unit).1);
     let units = format!("{small} {} {speed}", ui.caps.pick("°", "deg"));
     let mut title = vec![Span::styled("Margins", ui.theme.text())];
     if studied.is_some() && !tall {
@@ -64,7 +64,7 @@ pub fn draw_margins(
         .enumerate()
         .map(|(n, margin)| {
             let is_tightest = Some(n) == tightest;
-            let (factor, unit) = margin.input.told_in(unit);
+            let (factor, unit) = margin.input.display_unit(unit);
             let yours = yours(factor * skill.error(margin.input));
             Row { margin, factor, unit, yours, is_tightest, in_letters }
         })
@@ -108,7 +108,7 @@ pub fn draw_margins(
 
 /// Formats a standard error without trailing zeros and as short as the room demands: 0.5, 0.125, 2.2.
 fn yours(error: f64) -> String {
-    short(error, if error < 0.2 { 3 } else { 2 })
+    format_trimmed(error, if error < 0.2 { 3 } else { 2 })
 }
 
 /// Index of the input whose smaller margin is the smallest multiple of the player's standard error; `None` if none is finite.

@@ -7,7 +7,7 @@ use ratatui::{
 };
 
 use crate::{
-    coach::words::PlaceUnit,
+    coach::words::PositionUnit,
     terminal::{
         Proposal,
         pages::coach::{
@@ -71,9 +71,9 @@ fn titles(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [Vec<Span<'static>
 
 /// Formats a position along a cushion in the player's unit; `format_diamonds` formats a number of diamonds.
 pub fn place_along(coach: &CoachPage, diamonds: f64, format_diamonds: impl FnOnce(f64) -> String) -> String {
-    match coach.units.place {
-        PlaceUnit::Diamonds => format_diamonds(diamonds),
-        PlaceUnit::Mm => format!("{} mm", fixed(1e3 * coach.table().diamond() * diamonds, 0)),
+    match coach.units.position {
+        PositionUnit::Diamonds => format_diamonds(diamonds),
+        PositionUnit::Mm => format!("{} mm", fixed(1e3 * coach.table().diamond() * diamonds, 0)),
     }
 }
 

@@ -183,7 +183,7 @@ fn about(drills: &DrillsPage, exercise: &Exercise, table: &Table, theme: &Theme)
         let words = format!("{place}: {} of {}, {rate}{}", score.made, score.tried, best_run(score));
         add(words, theme.good(), false);
     }
-    add(position_words(table, &exercise.layout, CueBall::White, drills.units.place), theme.faint(), true);
+    add(position_words(table, &exercise.layout, CueBall::White, drills.units.position), theme.faint(), true);
     if !exercise.tags.is_empty() {
         let tags: Vec<String> = exercise.tags.iter().map(|tag| format!("#{}", bare_tag(tag))).collect();
         add(tags.join(" "), theme.faint(), true);

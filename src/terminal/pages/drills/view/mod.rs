@@ -17,7 +17,7 @@ use ratatui::{
 };
 
 use crate::{
-    coach::words::{PlaceUnit, short},
+    coach::words::{PositionUnit, format_trimmed},
     drills::Record,
     table::{BALLS, CueBall, Layout, Table},
     terminal::{
@@ -96,17 +96,17 @@ fn best_run(record: &Record) -> String {
 
 /// The positions of the balls, the cue ball first, measured from the lower left corner of the noses: in diamonds, as users type them,
 /// or in millimetres.
-fn position_words(table: &Table, layout: &Layout, cue_ball: CueBall, unit: PlaceUnit) -> String {
+fn position_words(table: &Table, layout: &Layout, cue_ball: CueBall, unit: PositionUnit) -> String {
     let place = |ball: usize| {
         let at = in_diamonds(table, layout.balls[ball]);
         let along = |diamonds: f64| match unit {
-            PlaceUnit::Diamonds => short(diamonds, 2) + "d",
-            PlaceUnit::Mm => short(1e3 * table.diamond() * diamonds, 0),
+            PositionUnit::Diamonds => format_trimmed(diamonds, 2) + "d",
+            PositionUnit::Mm => format_trimmed(1e3 * table.diamond() * diamonds, 0),
         };
         format!("{} {},{}", cue_ball.names()[ball], along(at.x), along(at.y))
     };
     let places: Vec<String> = (0..BALLS).map(place).collect();
-    let what = if unit == PlaceUnit::Mm { "balls, mm from the lower left corner" } else { "balls" };
+    let what = if unit == PositionUnit::Mm { "balls, mm from the lower left corner" } else { "balls" };
     format!("{what}: {}", places.join("; "))
 }
 

@@ -68,7 +68,7 @@ fn advice_rows(
 /// The point on the cushion's nose at which the cue points.
 fn aim_words(turn: &Turn, cue: &CueInputs, units: Units) -> String {
     let [ahead, _] = line_of_aim(&turn.table, &turn.layout, cue.phi);
-    format!("{} {}", ahead.rail.name(), units.place.words(ahead.diamond, turn.table.diamond(), 2))
+    format!("{} {}", ahead.rail.name(), units.position.words(ahead.diamond, turn.table.diamond(), 2))
 }
 
 /// Draws the stroke's first contact and the lesson of the exercise; after the stroke, the comparison with the model shot. From row
@@ -127,7 +127,7 @@ pub fn draw_task(
         );
         // A hint needs the room of the positions.
         if turn.hint().is_none() {
-            let places = position_words(&turn.table, &turn.layout, turn.cue_ball, units.place);
+            let places = position_words(&turn.table, &turn.layout, turn.cue_ball, units.position);
             paragraphs.push((places, ui.theme.faint()));
         }
     }
@@ -203,7 +203,7 @@ fn aim_line_words(aim_line: &AimLine, cue_ball: CueBall, diamond: f64, units: Un
             format!("{} {:.0} % full{side}, {way}", cue_ball.names()[hit.ball], 100.0 * hit.fullness)
         }
         (_, Some(mark)) => {
-            format!("{} at {}, {way}", rail_name(mark.rail), units.place.exact(mark.diamond, diamond, 1))
+            format!("{} at {}, {way}", rail_name(mark.rail), units.position.exact(mark.diamond, diamond, 1))
         }
         (_, None) => format!("meets nothing, {way}"),
     }
@@ -298,7 +298,7 @@ mod tests {
     use crate::{
         coach::{
             RailPoint,
-            words::{LengthUnit, PlaceUnit, TipUnit},
+            words::{LengthUnit, PositionUnit, TipUnit},
         },
         simulation::Rail,
         table::Table,
@@ -312,7 +312,7 @@ mod tests {
         let mark = RailPoint { rail: Rail::Left, diamond: 2.04 };
         let places = vec![DVec2::ZERO, DVec2::new(0.5, 0.0)];
         let aim_line = AimLine { points: places, meeting: Meeting::Rail(mark.rail, None), cushion: Some(mark) };
-        let other = Units { tip: TipUnit::Mm, place: PlaceUnit::Mm, length: LengthUnit::Feet };
+        let other = Units { tip: TipUnit::Mm, position: PositionUnit::Mm, length: LengthUnit::Feet };
         let said = |units| aim_line_words(&aim_line, CueBall::White, table.diamond(), units);
         assert_eq!(said(Units::default()), "left rail at 2.0 diamonds, 50 cm");
         assert_eq!(said(other), "left rail at 724 mm, 20 in");

@@ -53,7 +53,7 @@ fn draw_marks(session: &Session, area: Rect, ui: &mut Ui) -> u16 {
             let done = session.attempts.iter().map(|attempt: &Attempt| sign(Some(attempt.made)));
             done.chain(std::iter::repeat(2)).take(session.exercises.len()).collect()
         }
-        Goal::Run(points) => (0..points.min(40)).map(|n| sign((n < session.run()).then_some(true))).collect(),
+        Goal::Run(points) => (0..points.min(40)).map(|n| sign((n < session.current_run()).then_some(true))).collect(),
         _ => return area.y,
     };
     let spans: Vec<Span> = marks.iter().map(|&mark| Span::styled(signs[mark], style[mark])).collect();
@@ -89,15 +89,15 @@ fn lines(session: &Session, exercise: &str) -> Vec<String> {
     let plural = |count: usize, one: &str| if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") };
     if session.is_match() {
         for cue_ball in [session.cue_ball, session.cue_ball.other()] {
-            let Record { made, high_run, .. } = session.side(cue_ball);
+            let Record { made, high_run, .. } = session.side_record(cue_ball);
             lines.push(format!("{}: {made}, best {high_run}", session.side_words(cue_ball)));
         }
     } else if session.is_game() {
         lines.push(format!("{} in {}{average}", plural(made, "point"), plural(record.innings, "inning")));
-        lines.push(format!("run {}, best {}", session.run(), record.high_run));
+        lines.push(format!("run {}, best {}", session.current_run(), record.high_run));
     } else {
         lines.push(format!("{made} of {tried} made, {}", chance_words(&record.rate)));
-        lines.push(format!("run {}, best {}{average}", session.run(), record.high_run));
+        lines.push(format!("run {}, best {}{average}", session.current_run(), record.high_run));
     }
     let own = session.attempts.iter().filter(|attempt| !attempt.by_coach);
     let (helped, unhelped): (Vec<_>, Vec<_>) = own.partition(|attempt| attempt.helped);

@@ -10,7 +10,7 @@ use crate::{
 
 /// What the cue ball must hit first.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum FirstMet {
+pub enum FirstContact {
     /// No preference.
     #[default]
     Any,
@@ -23,17 +23,17 @@ pub enum FirstMet {
 }
 
 /// Note on the reported stroke if no attempt begins as requested.
-pub const NO_ATTEMPT: &str = "no such attempt either; this is a plain stroke";
+pub const NO_MATCHING_ATTEMPT: &str = "no such attempt either; this is a plain stroke";
 
 /// Error: an unknown name of what is hit first.
 #[derive(Debug, thiserror::Error, PartialEq)]
-#[error("\"{word}\" cannot be hit first; use {}", FirstMet::ALL.map(|first| first.word(*names)).join(", "))]
-pub struct UnknownFirstMet {
+#[error("\"{word}\" cannot be hit first; use {}", FirstContact::ALL.map(|first| first.word(*names)).join(", "))]
+pub struct UnknownFirstContact {
     word: String,
     names: [&'static str; BALLS],
 }
 
-impl FirstMet {
+impl FirstContact {
     /// All variants.
     pub const ALL: [Self; 4] = [Self::Any, Self::OtherCueBall, Self::Red, Self::Cushion];
 
@@ -48,32 +48,32 @@ impl FirstMet {
     }
 
     /// Returns the suffix that describes how a shot begins; empty for [`Any`](Self::Any).
-    pub fn begins(self, names: [&'static str; BALLS]) -> String {
+    pub fn opening_words(self, names: [&'static str; BALLS]) -> String {
         if self == Self::Any { String::new() } else { format!(" with {} first", self.word(names)) }
     }
 
     /// Parses `word`, given the names of the balls, cue ball first.
     ///
     /// # Errors
-    /// [`UnknownFirstMet`], which lists the accepted names.
-    pub fn said(word: &str, names: [&'static str; BALLS]) -> Result<Self, UnknownFirstMet> {
-        let said = Self::ALL.into_iter().find(|first| first.word(names) == word);
-        said.ok_or_else(|| UnknownFirstMet { word: word.to_owned(), names })
+    /// [`UnknownFirstContact`], which lists the accepted names.
+    pub fn parse(word: &str, names: [&'static str; BALLS]) -> Result<Self, UnknownFirstContact> {
+        let found = Self::ALL.into_iter().find(|first| first.word(names) == word);
+        found.ok_or_else(|| UnknownFirstContact { word: word.to_owned(), names })
     }
 
     /// Whether a shot with this tally begins as chosen.
     pub fn allows(self, tally: &Tally) -> bool {
-        let met = if tally.cushions_before_first > 0 { Self::Cushion } else { Self::of_ball(tally.first_ball()) };
-        self == Self::Any || self == met
+        let first = if tally.cushions_before_first > 0 { Self::Cushion } else { Self::of_ball(tally.first_ball()) };
+        self == Self::Any || self == first
     }
 
     /// Whether a shot that is described by `words` begins as chosen.
-    pub fn allows_told(self, words: &ShotWords) -> bool {
-        let met = match words.first {
+    pub fn allows_words(self, words: &ShotWords) -> bool {
+        let first = match words.first {
             Some(_) if !words.before.is_empty() => Self::Cushion,
             first => Self::of_ball(first.map(|hit| hit.ball)),
         };
-        self == Self::Any || self == met
+        self == Self::Any || self == first
     }
 
     const fn of_ball(ball: Option<usize>) -> Self {
@@ -86,11 +86,11 @@ impl FirstMet {
 }
 
 /// Parses the names of the command line, where white is the cue ball.
-impl FromStr for FirstMet {
-    type Err = UnknownFirstMet;
+impl FromStr for FirstContact {
+    type Err = UnknownFirstContact;
 
-    fn from_str(text: &str) -> Result<Self, UnknownFirstMet> {
-        Self::said(text, BALL_NAMES)
+    fn from_str(text: &str) -> Result<Self, UnknownFirstContact> {
+        Self::parse(text, BALL_NAMES)
     }
 }
 
@@ -99,10 +99,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_shot_begins_with_a_cushion_or_a_ball() {
-        let allowed = |cushions_before_first, met: [bool; 2]| {
-            let tally = Tally { met, red_first: met[1], cushions_before_first, ..Tally::default() };
-            FirstMet::ALL.map(|first| first.allows(&tally))
+    fn tally_determines_the_allowed_first_contacts() {
+        let allowed = |cushions_before_first, hit: [bool; 2]| {
+            let tally = Tally { hit, red_first: hit[1], cushions_before_first, ..Tally::default() };
+            FirstContact::ALL.map(|first| first.allows(&tally))
         };
         assert_eq!(allowed(0, [true, false]), [true, true, false, false]);
         assert_eq!(allowed(0, [false, true]), [true, false, true, false]);
@@ -111,10 +111,10 @@ mod tests {
     }
 
     #[test]
-    fn names_are_those_of_the_balls() {
-        assert_eq!("yellow".parse(), Ok(FirstMet::OtherCueBall));
-        assert_eq!(FirstMet::said("white", ["yellow", "white", "red"]), Ok(FirstMet::OtherCueBall));
-        let unknown = "white".parse::<FirstMet>().unwrap_err().to_string();
+    fn choices_are_parsed_by_ball_names() {
+        assert_eq!("yellow".parse(), Ok(FirstContact::OtherCueBall));
+        assert_eq!(FirstContact::parse("white", ["yellow", "white", "red"]), Ok(FirstContact::OtherCueBall));
+        let unknown = "white".parse::<FirstContact>().unwrap_err().to_string();
         assert_eq!(unknown, "\"white\" cannot be hit first; use any, yellow, red, cushion");
     }
 }

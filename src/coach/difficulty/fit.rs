@@ -1,6 +1,6 @@
 //! Fits the weights: least squares over layouts whose miss rates are known.
 
-use super::{Ease, NUMBERS, numbers};
+use super::{FEATURES, LayoutDifficulty, features};
 use crate::{
     statistics::solve,
     table::{Layout, Table},
@@ -15,22 +15,22 @@ const POWERS: (f64, f64) = (1.0, 10.0);
 
 /// A layout and its miss rates with a good shot.
 #[derive(Clone, Copy, Debug)]
-pub struct Sample {
+pub struct DifficultySample {
     /// The layout.
     pub layout: Layout,
-    /// Share of attempts that [`Ease::WEAK`] misses.
+    /// Share of attempts that [`LayoutDifficulty::WEAK`] misses.
     pub missed: f64,
-    /// Share of attempts that [`Ease::STRONG`] misses.
+    /// Share of attempts that [`LayoutDifficulty::STRONG`] misses.
     pub missed_by_strong: f64,
 }
 
-impl Ease {
+impl LayoutDifficulty {
     /// Fits the weights to the miss rates by least squares, and the power so that the stronger player's total misses agree.
-    pub fn fit(table: &Table, samples: &[Sample]) -> Self {
-        let mut equations = vec![vec![0.0; NUMBERS]; NUMBERS];
-        let mut right = vec![0.0; NUMBERS];
+    pub fn fit(table: &Table, samples: &[DifficultySample]) -> Self {
+        let mut equations = vec![vec![0.0; FEATURES]; FEATURES];
+        let mut right = vec![0.0; FEATURES];
         for sample in samples {
-            let numbers = numbers(table, &sample.layout);
+            let numbers = features(table, &sample.layout);
             for (row, number) in numbers.iter().enumerate() {
                 right[row] += number * sample.missed;
                 for (entry, other) in equations[row].iter_mut().zip(&numbers) {
@@ -42,20 +42,20 @@ impl Ease {
             row[index] += RIDGE * (1.0 + samples.len() as f64);
         }
         let weights = solve(&equations, &right).and_then(|found| found.try_into().ok());
-        let mut ease = Self { weights: weights.unwrap_or([0.0; NUMBERS]), power: 1.0 };
-        let estimates: Vec<f64> = samples.iter().map(|sample| ease.missed(table, &sample.layout)).collect();
+        let mut difficulty = Self { weights: weights.unwrap_or([0.0; FEATURES]), power: 1.0 };
+        let estimates: Vec<f64> = samples.iter().map(|sample| difficulty.miss_rate(table, &sample.layout)).collect();
         let best: f64 = samples.iter().map(|sample| sample.missed_by_strong).sum();
         let (mut low, mut high) = POWERS;
         for _ in 0..40 {
-            ease.power = 0.5 * (low + high);
+            difficulty.power = 0.5 * (low + high);
             // A higher power means fewer misses.
-            if estimates.iter().map(|share| share.powf(ease.power)).sum::<f64>() > best {
-                low = ease.power;
+            if estimates.iter().map(|share| share.powf(difficulty.power)).sum::<f64>() > best {
+                low = difficulty.power;
             } else {
-                high = ease.power;
+                high = difficulty.power;
             }
         }
-        ease
+        difficulty
     }
 }
 
@@ -66,23 +66,23 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     #[test]
-    fn weights_that_made_the_shares_are_found_again() {
+    fn fit_recovers_known_weights() {
         let table = Table::default();
-        let ease = Ease { weights: [0.1, 0.3, 0.2, -0.08, -0.05, 0.02, -0.06, 0.07], power: 2.5 };
+        let difficulty = LayoutDifficulty { weights: [0.1, 0.3, 0.2, -0.08, -0.05, 0.02, -0.06, 0.07], power: 2.5 };
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
-        let samples: Vec<Sample> = (0..400)
+        let samples: Vec<DifficultySample> = (0..400)
             .map(|_| {
                 let layout = Layout::random(&table, &mut rng);
-                let missed = ease.missed(&table, &layout);
-                Sample { layout, missed, missed_by_strong: missed.powf(ease.power) }
+                let missed = difficulty.miss_rate(&table, &layout);
+                DifficultySample { layout, missed, missed_by_strong: missed.powf(difficulty.power) }
             })
             .collect();
-        let fit = Ease::fit(&table, &samples);
-        for (found, meant) in fit.weights.into_iter().zip(ease.weights) {
+        let fit = LayoutDifficulty::fit(&table, &samples);
+        for (found, meant) in fit.weights.into_iter().zip(difficulty.weights) {
             assert!((found - meant).abs() < 1e-3, "{found} {meant}");
         }
-        assert!((fit.power - ease.power).abs() < 0.01, "{}", fit.power);
-        let few = Ease::fit(&table, &samples[..2]);
+        assert!((fit.power - difficulty.power).abs() < 0.01, "{}", fit.power);
+        let few = LayoutDifficulty::fit(&table, &samples[..2]);
         assert!(few.weights.iter().all(|weight| weight.is_finite()) && few.power.is_finite());
     }
 }

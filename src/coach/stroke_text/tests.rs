@@ -10,13 +10,13 @@ fn layout(table: &Table) -> Layout {
     Layout::parse("2d,2d 6d,3d 6d,1d", table).unwrap()
 }
 
-fn stroke(text: &str, before: Option<&CueInputs>) -> Result<CueInputs, SpokenError> {
+fn stroke(text: &str, before: Option<&CueInputs>) -> Result<CueInputs, StrokeTextError> {
     let table = Table::default();
-    SpokenStroke::read(text)?.stroke(&table, &layout(&table), CueBall::White, before)
+    StrokeText::parse(text)?.stroke(&table, &layout(&table), CueBall::White, before)
 }
 
 #[test]
-fn a_ball_is_met_as_it_is_said_whatever_the_side_and_the_cue() {
+fn stated_fullness_is_hit_with_any_tip_and_cue() {
     let table = Table::default();
     for (text, ball, fullness, left) in [
         ("red 1/2 right, 3 lengths", 2, 0.5, false),
@@ -41,7 +41,7 @@ fn a_ball_is_met_as_it_is_said_whatever_the_side_and_the_cue() {
 }
 
 #[test]
-fn tips_lengths_degrees_and_lines_are_read() {
+fn tips_lengths_degrees_and_lines_are_parsed() {
     let table = Table::default();
     let read = |text: &str| stroke(&format!("to 2 right, {text}"), None).unwrap();
     let near = |value: f64, wanted: f64| assert!((value - wanted).abs() < 1e-9, "{value}, not {wanted}");
@@ -78,7 +78,7 @@ fn tips_lengths_degrees_and_lines_are_read() {
 }
 
 #[test]
-fn what_is_not_said_stays_as_it_was() {
+fn omitted_properties_keep_their_previous_values() {
     let table = Table::default();
     let before = stroke("red 1/2 right, 1 left, 2 up, 3 lengths", None).unwrap();
     let softer = stroke("soft", Some(&before)).unwrap();
@@ -90,7 +90,7 @@ fn what_is_not_said_stays_as_it_was() {
 }
 
 #[test]
-fn what_cannot_be_read_or_played_is_named() {
+fn errors_name_the_unreadable_or_unplayable_part() {
     for (text, named) in [
         ("red somehow", "\"red somehow\" is not understood"),
         ("to 3.2", "\"to 3.2\" is not understood"),
@@ -115,9 +115,9 @@ fn what_cannot_be_read_or_played_is_named() {
     }
     let table = Table::default();
     let behind = Layout::parse("1d,2d 4d,2d 7d,2d", &table).unwrap();
-    let hidden = SpokenStroke::read("red full, hard").unwrap();
+    let hidden = StrokeText::parse("red full, hard").unwrap();
     let error = hidden.stroke(&table, &behind, CueBall::White, None).unwrap_err();
-    assert_eq!(error, SpokenError::NotMet("red"));
+    assert_eq!(error, StrokeTextError::Unreachable("red"));
 }
 
 /// Words of stroke texts, and some that are invalid.
@@ -166,7 +166,7 @@ const WORDS: [&str; 40] = [
 
 proptest! {
     #[test]
-    fn whatever_is_said_is_a_stroke_that_can_be_played_or_a_sentence(
+    fn any_text_gives_a_playable_stroke_or_an_error(
         words in prop::collection::vec(prop::sample::select(&WORDS[..]), 0..14), played_before: bool,
     ) {
         let table = Table::default();

@@ -1,13 +1,13 @@
 //! Strokes in players' words: "red 1/2 right, 1.5 left, 2 up, 3.5 lengths". Parses such a text and computes the stroke
 //! that it means in a layout.
 
-mod read;
+mod parse;
 #[cfg(test)]
 mod tests;
 
 use super::{
     RailPoint, aim,
-    systems::BEHIND,
+    systems::DIAMOND_SETBACK,
     words::{TIP, table_lengths},
 };
 use crate::{
@@ -17,44 +17,44 @@ use crate::{
 };
 
 /// Minimum fullness of a graze: with less the cue ball may miss.
-const GRAZE: f64 = 0.02;
+const MIN_FULLNESS: f64 = 0.02;
 
 /// Tolerance of the fullness, ball diameters.
-const ACCURACY: f64 = 1e-4;
+const FULLNESS_TOLERANCE: f64 = 1e-4;
 
 /// Maximum steps of the secant method that finds the aim; a few are enough if the ball is hit at all. Also the number
 /// of directions to each side that are tried off a cushion.
-const STEPS: i32 = 40;
+const MAX_STEPS: i32 = 40;
 
 /// Maximum shift of the tip by rounding to half tips, radii: a quarter of a tip to the side and in height.
-const ROUNDED: f64 = 0.25 * TIP * std::f64::consts::SQRT_2;
+const MAX_TIP_ROUNDING: f64 = 0.25 * TIP * std::f64::consts::SQRT_2;
 
-/// Step of the search for a direction that hits the ball if the straight one misses, ball diameters. The [`STEPS`]
+/// Step of the search for a direction that hits the ball if the straight one misses, ball diameters. The [`MAX_STEPS`]
 /// trials alternate between the sides.
-const SWERVE: f64 = 0.1;
+const SEARCH_STEP: f64 = 0.1;
 
 /// Maximum deviation of the fullness if the requested one is not possible, ball diameters: the precision in which
 /// players state it.
-const NEARLY: f64 = 0.0625;
+const MAX_FULLNESS_DEVIATION: f64 = 0.0625;
 
 /// Precision of a stated position on a cushion before the first ball, diamonds.
-const SAID_TO: f64 = 0.06;
+const CUSHION_PRECISION: f64 = 0.06;
 
 /// Why a text is not a stroke, or not a playable one.
 #[derive(Debug, PartialEq, thiserror::Error)]
-pub enum SpokenError {
+pub enum StrokeTextError {
     /// A part of the text is not understood.
     #[error(
         "\"{0}\" is not understood; accepted are \"red 1/2 right\" or \"to 3.2 bottom\", \"1.5 left\", \"2 up\", \"3.5 lengths\" or \
          \"soft\", \"raised 20\" or \"level\", with commas between them"
     )]
-    Part(String),
+    UnknownPart(String),
     /// A property is stated twice.
     #[error("{0} is given twice, last as \"{1}\"; give it once")]
-    Twice(&'static str, String),
+    Duplicate(&'static str, String),
     /// The text states nothing.
     #[error("the text has no stroke; accepted is a text like \"red 1/2 right, 1.5 left, 2 up, 3.5 lengths\"")]
-    Nothing,
+    Empty,
     /// The named ball is the player's cue ball.
     #[error("{0} is the cue ball; aim at one of the others")]
     CueBall(CueBall),
@@ -76,7 +76,7 @@ pub enum SpokenError {
     Lengths(f64),
     /// The ball cannot be hit like this from the cue ball's position.
     #[error("{0} cannot be hit like this: something is in the way, or it is too far to the side")]
-    NotMet(&'static str),
+    Unreachable(&'static str),
     /// An input of the stroke is outside its range.
     #[error(transparent)]
     Cue(#[from] CueError),
@@ -104,7 +104,7 @@ struct Mark {
 
 /// The content of a text. Omitted properties are `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SpokenStroke {
+pub struct StrokeText {
     /// The first object ball, as an index into white, yellow and red.
     colour: Option<usize>,
     /// Fullness of the hit, 0 to 1.
@@ -127,14 +127,14 @@ pub struct SpokenStroke {
     elevation: Option<f64>,
 }
 
-impl SpokenStroke {
+impl StrokeText {
     /// Parses `text`. Also reads the coach's own words in tips and diamonds; skips its course of the cue ball after the
     /// first ball, which follows from the stroke.
     ///
     /// # Errors
     /// Fails if a part is not understood.
-    pub fn read(text: &str) -> Result<Self, SpokenError> {
-        read::read(text)
+    pub fn parse(text: &str) -> Result<Self, StrokeTextError> {
+        parse::parse(text)
     }
 
     /// Computes the stroke, for a player with `cue_ball`. Omitted properties are taken from `before`; without it the cue is
@@ -149,15 +149,15 @@ impl SpokenStroke {
         layout: &Layout,
         cue_ball: CueBall,
         before: Option<&CueInputs>,
-    ) -> Result<CueInputs, SpokenError> {
+    ) -> Result<CueInputs, StrokeTextError> {
         let speed = match self.speed.or(self.pace.map(Speed::Lengths)) {
             Some(Speed::Cue(speed)) => speed,
-            Some(Speed::Lengths(lengths)) => speed_of(table, lengths).ok_or(SpokenError::Lengths(lengths))?,
-            None => before.ok_or(SpokenError::NoSpeed)?.speed,
+            Some(Speed::Lengths(lengths)) => speed_of(table, lengths).ok_or(StrokeTextError::Lengths(lengths))?,
+            None => before.ok_or(StrokeTextError::NoSpeed)?.speed,
         };
         let level = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed };
         let cue = before.copied().unwrap_or(level);
-        let [a, b] = on_ball([self.side.unwrap_or(cue.a), self.height.unwrap_or(cue.b)], table.miscue_limit);
+        let [a, b] = clamped_tip([self.side.unwrap_or(cue.a), self.height.unwrap_or(cue.b)], table.miscue_limit);
         let cue = CueInputs { a, b, theta: self.elevation.unwrap_or(cue.theta), speed, ..cue };
         cue.validate()?;
         cue.validate_tip(table.miscue_limit)?;
@@ -166,41 +166,41 @@ impl SpokenStroke {
             raise_to_clear(table, layout, &cue).unwrap_or(cue)
         };
         let from = layout.balls[0];
-        let (to, behind) = (self.to.map(|mark| mark.place(table)), self.from.map(|mark| mark.place(table)));
+        let (to, behind) = (self.to.map(|mark| mark.position(table)), self.from.map(|mark| mark.position(table)));
         let ways = [to.map(|to| to - from), behind.map(|behind| from - behind)];
         if let Some(way) = ways.into_iter().flatten().max_by(|one, other| one.length().total_cmp(&other.length())) {
             return Ok(at(way.to_angle()));
         }
         let ball = self.colour.map(|colour| cue_ball.to_ball_order([0, 1, 2])[colour]);
         if ball == Some(0) {
-            return Err(SpokenError::CueBall(cue_ball));
+            return Err(StrokeTextError::CueBall(cue_ball));
         }
         if let Some(point) = self.rail {
-            let way = point.place(table) + table.radius * point.rail.normal() - from;
+            let way = point.position(table) + table.radius * point.rail.normal() - from;
             let phi = way.to_angle() - squirt(table, cue.a);
             let hit = ball.zip(self.offset().ok());
             // Seen from the cue ball, a diamond appears shortened on a flat path.
-            let half =
-                SAID_TO * table.diamond() * way.normalize_or_zero().dot(point.rail.normal()).abs() / way.length();
+            let half = CUSHION_PRECISION * table.diamond() * way.normalize_or_zero().dot(point.rail.normal()).abs()
+                / way.length();
             return Ok(hit.and_then(|hit| nearest(table, layout, hit, phi, half, at)).unwrap_or_else(|| at(phi)));
         }
         if ball.is_none() && self.fullness.is_none() {
-            return before.map(|before| at(before.phi)).ok_or(SpokenError::NoAim);
+            return before.map(|before| at(before.phi)).ok_or(StrokeTextError::NoAim);
         }
         let known = before.and_then(|before| aim(table, layout, before).ok()?.hit);
-        let ball = ball.or(known.map(|hit| hit.ball)).ok_or(SpokenError::NoAim)?;
+        let ball = ball.or(known.map(|hit| hit.ball)).ok_or(StrokeTextError::NoAim)?;
         let found = aim_at(table, layout, (ball, self.offset()?), cue.a, at)?;
-        found.ok_or(SpokenError::NotMet(cue_ball.names()[ball]))
+        found.ok_or(StrokeTextError::Unreachable(cue_ball.names()[ball]))
     }
 
     /// Returns the signed distance between the cue ball's line and the ball's centre, in ball diameters, positive to
     /// the left.
-    fn offset(&self) -> Result<f64, SpokenError> {
-        let fullness = self.fullness.ok_or(SpokenError::NoAim)?.clamp(GRAZE, 1.0);
+    fn offset(&self) -> Result<f64, StrokeTextError> {
+        let fullness = self.fullness.ok_or(StrokeTextError::NoAim)?.clamp(MIN_FULLNESS, 1.0);
         match self.left {
             Some(true) => Ok(1.0 - fullness),
             Some(false) => Ok(fullness - 1.0),
-            None if fullness < 1.0 => Err(SpokenError::NoSide),
+            None if fullness < 1.0 => Err(StrokeTextError::NoSide),
             None => Ok(0.0),
         }
     }
@@ -208,15 +208,15 @@ impl SpokenStroke {
 
 impl Mark {
     /// Returns the position of the mark on the table, m.
-    fn place(self, table: &Table) -> glam::DVec2 {
-        let behind = if self.on_wood { BEHIND * table.diamond() } else { 0.0 };
-        self.point.place(table) - behind * self.point.rail.normal()
+    fn position(self, table: &Table) -> glam::DVec2 {
+        let behind = if self.on_wood { DIAMOND_SETBACK * table.diamond() } else { 0.0 };
+        self.point.position(table) - behind * self.point.rail.normal()
     }
 }
 
 /// Returns the signed distance between the cue ball's line and the centre of `ball` at impact, in ball diameters,
 /// positive to the left. `None` if the cue ball hits another ball first, or none.
-fn passed(table: &Table, layout: &Layout, ball: usize, cue: &CueInputs) -> Result<Option<f64>, ShotError> {
+fn offset_at_impact(table: &Table, layout: &Layout, ball: usize, cue: &CueInputs) -> Result<Option<f64>, ShotError> {
     let hit = aim(table, layout, cue)?.hit.filter(|hit| hit.ball == ball);
     Ok(hit.map(|hit| if hit.left { 1.0 - hit.fullness } else { hit.fullness - 1.0 }))
 }
@@ -230,8 +230,8 @@ fn nearest(
     half: f64,
     at: impl Fn(f64) -> CueInputs,
 ) -> Option<CueInputs> {
-    let strokes = (-STEPS..=STEPS).map(|step| at(phi + half * f64::from(step) / f64::from(STEPS)));
-    let off = |cue: &CueInputs| Some((passed(table, layout, ball, cue).ok()?? - wanted).abs());
+    let strokes = (-MAX_STEPS..=MAX_STEPS).map(|step| at(phi + half * f64::from(step) / f64::from(MAX_STEPS)));
+    let off = |cue: &CueInputs| Some((offset_at_impact(table, layout, ball, cue).ok()?? - wanted).abs());
     let known = strokes.filter_map(|cue| Some((off(&cue)?, cue)));
     known.min_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, cue)| cue)
 }
@@ -249,16 +249,16 @@ fn aim_at(
     let lever = way.length() / (2.0 * table.radius);
     let straight = way.to_angle() + (wanted / lever).clamp(-1.0, 1.0).asin() - squirt(table, side);
     // The swerve is not known beforehand: if the straight direction misses, a neighbouring one hits the ball.
-    let beside = |step: i32| straight + SWERVE * f64::from(if step % 2 == 0 { step } else { -step }) / lever;
+    let beside = |step: i32| straight + SEARCH_STEP * f64::from(if step % 2 == 0 { step } else { -step }) / lever;
     let Some(mut met) =
-        (0..STEPS).map(beside).find(|phi| matches!(passed(table, layout, ball, &at(*phi)), Ok(Some(_))))
+        (0..MAX_STEPS).map(beside).find(|phi| matches!(offset_at_impact(table, layout, ball, &at(*phi)), Ok(Some(_))))
     else {
         return Ok(None);
     };
     let mut phi = met;
-    for _ in 0..STEPS {
-        match passed(table, layout, ball, &at(phi))? {
-            Some(passed) if (passed - wanted).abs() < ACCURACY => return Ok(Some(at(phi))),
+    for _ in 0..MAX_STEPS {
+        match offset_at_impact(table, layout, ball, &at(phi))? {
+            Some(passed) if (passed - wanted).abs() < FULLNESS_TOLERANCE => return Ok(Some(at(phi))),
             Some(passed) => {
                 met = phi;
                 phi += (wanted - passed) / lever;
@@ -267,9 +267,9 @@ fn aim_at(
         }
     }
     // The other ball may block exactly this hit: take the nearest possible one.
-    let near = nearest(table, layout, (ball, wanted), met, NEARLY / lever, at);
+    let near = nearest(table, layout, (ball, wanted), met, MAX_FULLNESS_DEVIATION / lever, at);
     Ok(near.filter(
-        |cue| matches!(passed(table, layout, ball, cue), Ok(Some(passed)) if (passed - wanted).abs() <= NEARLY),
+        |cue| matches!(offset_at_impact(table, layout, ball, cue), Ok(Some(passed)) if (passed - wanted).abs() <= MAX_FULLNESS_DEVIATION),
     ))
 }
 
@@ -288,9 +288,13 @@ fn speed_of(table: &Table, lengths: f64) -> Option<f64> {
 
 /// Returns the tip position, radii. A position in half tips, as the coach reports it, may be rounded to slightly beyond the
 /// miscue limit; it is moved back to the limit.
-fn on_ball([a, b]: [f64; 2], limit: f64) -> [f64; 2] {
+fn clamped_tip([a, b]: [f64; 2], limit: f64) -> [f64; 2] {
     let (said, most) = (libm::hypot(a, b), limit.sqrt());
     let is_beyond = a * a + b * b > limit;
     // Slightly inside, so that rounding of the square does not exceed the limit.
-    if is_beyond && said <= most + ROUNDED { [a, b].map(|part| part * (1.0 - 1e-12) * most / said) } else { [a, b] }
+    if is_beyond && said <= most + MAX_TIP_ROUNDING {
+        [a, b].map(|part| part * (1.0 - 1e-12) * most / said)
+    } else {
+        [a, b]
+    }
 }

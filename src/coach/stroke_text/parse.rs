@@ -1,6 +1,6 @@
 //! Parser for the parts of a stroke text.
 
-use super::{Mark, Speed, SpokenError, SpokenStroke};
+use super::{Mark, Speed, StrokeText, StrokeTextError};
 use crate::{
     coach::{
         RailPoint,
@@ -15,8 +15,8 @@ use crate::{
 const FULLNESS: [(&str, f64); 2] = [("thin", 0.25), ("thick", 0.75)];
 
 /// Parses a stroke text.
-pub fn read(text: &str) -> Result<SpokenStroke, SpokenError> {
-    let mut said = SpokenStroke::default();
+pub fn parse(text: &str) -> Result<StrokeText, StrokeTextError> {
+    let mut stroke = StrokeText::default();
     for line in text.lines() {
         // Skips the coach's lines that follow from the stroke: the course, the pattern and the reason.
         let line = line.trim().to_lowercase();
@@ -24,11 +24,11 @@ pub fn read(text: &str) -> Result<SpokenStroke, SpokenError> {
             continue;
         }
         for part in parts(&line) {
-            let twice = |what| SpokenError::Twice(what, part.clone());
-            read_part(&part, &mut said, twice)?;
+            let twice = |what| StrokeTextError::Duplicate(what, part.clone());
+            parse_part(&part, &mut stroke, twice)?;
         }
     }
-    if said == SpokenStroke::default() { Err(SpokenError::Nothing) } else { Ok(said) }
+    if stroke == StrokeText::default() { Err(StrokeTextError::Empty) } else { Ok(stroke) }
 }
 
 /// Splits a line at commas, semicolons, brackets and full stops, except at those inside numbers.
@@ -45,13 +45,13 @@ fn parts(line: &str) -> Vec<String> {
     divided.collect::<String>().lines().map(words).filter(|part| !part.is_empty()).collect()
 }
 
-/// Parses one part into `said`.
-fn read_part(
+/// Parses one part into `stroke`.
+fn parse_part(
     part: &str,
-    said: &mut SpokenStroke,
-    twice: impl Fn(&'static str) -> SpokenError + Copy,
-) -> Result<(), SpokenError> {
-    let not_understood = || SpokenError::Part(part.to_owned());
+    stroke: &mut StrokeText,
+    twice: impl Fn(&'static str) -> StrokeTextError + Copy,
+) -> Result<(), StrokeTextError> {
+    let not_understood = || StrokeTextError::UnknownPart(part.to_owned());
     // "Bottom long rail first at 3, then red": the cushions between the balls follow from the stroke.
     let part = match part.strip_prefix("then ") {
         Some(rail) if rail_named(rail).is_some() => return Ok(()),
@@ -60,39 +60,39 @@ fn read_part(
     };
     if let Some((from, to)) = line_of_cue(part) {
         if let Some(from) = from {
-            set(&mut said.from, Some(mark(from).ok_or_else(not_understood)?), twice("where the cue comes from"))?;
+            set(&mut stroke.from, Some(mark(from).ok_or_else(not_understood)?), twice("where the cue comes from"))?;
         }
-        return set(&mut said.to, Some(mark(to).ok_or_else(not_understood)?), twice("where the cue points"));
+        return set(&mut stroke.to, Some(mark(to).ok_or_else(not_understood)?), twice("where the cue points"));
     }
     if let Some((rail, diamond)) = part.split_once(" first at ") {
         let point = rail_named(rail).zip(diamond.parse().ok()).and_then(|(rail, diamond)| rail_point(rail, diamond));
-        return set(&mut said.rail, Some(point.ok_or_else(not_understood)?), twice("the first cushion"));
+        return set(&mut stroke.rail, Some(point.ok_or_else(not_understood)?), twice("the first cushion"));
     }
     if let Some(speed) = speed(part) {
-        return set(&mut said.speed, Some(speed), twice("the speed"));
+        return set(&mut stroke.speed, Some(speed), twice("the speed"));
     }
     if let Some(place) = PACES.iter().position(|word| part == *word) {
-        return set(&mut said.pace, Some(place as f64 + 1.0), twice("the speed"));
+        return set(&mut stroke.pace, Some(place as f64 + 1.0), twice("the speed"));
     }
     if let Some(degrees) = elevation(part) {
-        return set(&mut said.elevation, Some(f64::to_radians(degrees)), twice("the cue's elevation"));
+        return set(&mut stroke.elevation, Some(f64::to_radians(degrees)), twice("the cue's elevation"));
     }
     let (colour, rest) = colour(part);
-    set(&mut said.colour, colour, twice("the ball"))?;
+    set(&mut stroke.colour, colour, twice("the ball"))?;
     if rest.is_empty() {
         return Ok(());
     }
     if let Some((fullness, left)) = fullness(&rest) {
-        set(&mut said.fullness, Some(fullness), twice("how full"))?;
-        return set(&mut said.left, left, twice("the side of the ball"));
+        set(&mut stroke.fullness, Some(fullness), twice("how full"))?;
+        return set(&mut stroke.left, left, twice("the side of the ball"));
     }
     let (side, height) = tip(part).filter(|_| colour.is_none()).ok_or_else(not_understood)?;
-    set(&mut said.side, side, twice("side"))?;
-    set(&mut said.height, height, twice("height"))
+    set(&mut stroke.side, side, twice("side"))?;
+    set(&mut stroke.height, height, twice("height"))
 }
 
 /// Sets a property that has not been set yet.
-fn set<T>(place: &mut Option<T>, value: Option<T>, twice: SpokenError) -> Result<(), SpokenError> {
+fn set<T>(place: &mut Option<T>, value: Option<T>, twice: StrokeTextError) -> Result<(), StrokeTextError> {
     match (place.is_some(), value) {
         (true, Some(_)) => Err(twice),
         (_, Some(value)) => {
@@ -208,7 +208,7 @@ fn bare(text: &str) -> String {
 }
 
 /// Words next to a number of tips that add no information.
-const PASSED_OVER: [&str; 9] = ["of", "running", "reverse", "english", "side", "centre", "center", "tip", "tips"];
+const IGNORED_WORDS: [&str; 9] = ["of", "running", "reverse", "english", "side", "centre", "center", "tip", "tips"];
 
 /// Parses the tip position, to the left and up, radii: "1.5 left", "two tips of running right at 2 o'clock", "a little
 /// above centre", "no side", "2 tips at 1:30".
@@ -230,7 +230,7 @@ fn tip(part: &str) -> Option<(Option<f64>, Option<f64>)> {
         "down" | "below" | "low" | "draw" => Some((0.0, -1.0)),
         _ => None,
     };
-    let words: Vec<&str> = part.split_whitespace().filter(|word| !PASSED_OVER.contains(word)).collect();
+    let words: Vec<&str> = part.split_whitespace().filter(|word| !IGNORED_WORDS.contains(word)).collect();
     let mut ways = words.iter().filter_map(|word| way(word));
     let (left, up) = match (ways.next(), hour) {
         (Some(way), _) => way,

@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use crate::{printing::VERSION, storage::describe_json_error};
 
 /// Newest version of all these formats that can be read, and the one that is written.
-pub const NEWEST: u32 = 1;
+pub const NEWEST_VERSION: u32 = 1;
 
 /// Why a file's text cannot be read.
 #[derive(Debug, thiserror::Error)]
-pub enum MarkError {
+pub enum HeaderError {
     /// The text is not JSON, or has the wrong structure.
     #[error("it is damaged: {}", describe_json_error(_0))]
     Syntax(#[from] serde_json::Error),
@@ -22,7 +22,7 @@ pub enum MarkError {
         accepted: &'static str,
     },
     /// The version is not supported, most likely because a newer program wrote the file.
-    #[error("it has version {0}; versions 1 to {NEWEST} can be read, a newer carom may have written it")]
+    #[error("it has version {0}; versions 1 to {NEWEST_VERSION} can be read, a newer carom may have written it")]
     Version(u32),
 }
 
@@ -47,7 +47,7 @@ struct Header {
 /// # Errors
 /// Fails if a value has no JSON form.
 pub fn write<T: Serialize>(format: &'static str, content: &T) -> Result<Vec<u8>, serde_json::Error> {
-    let mut bytes = serde_json::to_vec(&WithHeader { format, version: NEWEST, carom: VERSION, content })?;
+    let mut bytes = serde_json::to_vec(&WithHeader { format, version: NEWEST_VERSION, carom: VERSION, content })?;
     bytes.push(b'\n');
     Ok(bytes)
 }
@@ -55,14 +55,14 @@ pub fn write<T: Serialize>(format: &'static str, content: &T) -> Result<Vec<u8>,
 /// Checks that a text has this format and a supported version, whatever else it contains.
 ///
 /// # Errors
-/// [`MarkError`].
-pub fn check(format: &'static str, text: &[u8]) -> Result<(), MarkError> {
+/// [`HeaderError`].
+pub fn check(format: &'static str, text: &[u8]) -> Result<(), HeaderError> {
     let header: Header = serde_json::from_slice(text)?;
     if header.format != format {
-        return Err(MarkError::Format { found: header.format, accepted: format });
+        return Err(HeaderError::Format { found: header.format, accepted: format });
     }
-    if !(1..=NEWEST).contains(&header.version) {
-        return Err(MarkError::Version(header.version));
+    if !(1..=NEWEST_VERSION).contains(&header.version) {
+        return Err(HeaderError::Version(header.version));
     }
     Ok(())
 }
@@ -70,8 +70,8 @@ pub fn check(format: &'static str, text: &[u8]) -> Result<(), MarkError> {
 /// Parses the content of a text without its header.
 ///
 /// # Errors
-/// [`MarkError`].
-pub fn read<T: DeserializeOwned>(format: &'static str, text: &[u8]) -> Result<T, MarkError> {
+/// [`HeaderError`].
+pub fn read<T: DeserializeOwned>(format: &'static str, text: &[u8]) -> Result<T, HeaderError> {
     check(format, text)?;
     Ok(serde_json::from_slice(text)?)
 }
