@@ -152,7 +152,7 @@ fn a_game_continues_from_end_positions_until_its_last_inning() {
     assert_eq!([&result["made"], &result["innings"]], [points, 2]);
     assert_eq!(result["average"].as_f64().unwrap(), points as f64 / 2.0);
     let games = drill(folder.path(), &["history", "--games", "three-cushion", "--json"]).json();
-    assert!(games.is_empty(), "what the coach plays is none of the player's games");
+    assert!(games.is_empty(), "games of the coach are not in the player's history");
 }
 
 #[test]
@@ -240,7 +240,7 @@ fn exercises_accept_a_users_table_of_the_same_size() {
     let on = |table: &[&str]| drill(folder.path(), &[&["try", "mine"], &shot[..], table].concat()).json();
     let (own, bundled) = (on(&["--table", file]), on(&[]));
     assert_eq!([&own[0]["table"], &bundled[0]["table"]], ["cellar", "match"]);
-    assert_ne!(own[1]["end"], bundled[1]["end"], "the cloth is another");
+    assert_ne!(own[1]["end"], bundled[1]["end"], "the cloth has another friction");
     let refused = |args: &[&str]| {
         let outcome = drill(folder.path(), args);
         assert_eq!(outcome.code, Some(2));

@@ -94,7 +94,7 @@ proptest! {
         }
         let store = Store::new(&Places::under(folder.path()));
         let found = store.sessions();
-        prop_assert_eq!(found.items.len() + found.notes.len(), 1, "it is read or told of");
+        prop_assert_eq!(found.items.len() + found.notes.len(), 1, "the file is either read or reported");
         for session in &found.items {
             let _ = (session.record(), session.position());
         }

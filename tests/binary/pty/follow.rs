@@ -63,7 +63,7 @@ fn start_showing_player(home: &Path, name: &str) -> Session {
 fn a_table_is_followed_live_while_its_player_allows_it() {
     let home = tempfile::tempdir().unwrap();
     let home = home.path();
-    assert_eq!(run(&mut piped_carom(home, &["follow", "anna"])).0, Some(1), "before there is an anna");
+    assert_eq!(run(&mut piped_carom(home, &["follow", "anna"])).0, Some(1), "the player anna does not exist yet");
     let mut anna = Session::start_at(home, guest("Anna"), 80, 24);
     anna.wait_for(START_TEXT);
     assert!(!shown_folder(home, "anna").exists(), "nothing is shown by itself");
@@ -99,7 +99,7 @@ fn a_table_is_followed_live_while_its_player_allows_it() {
     assert!(ben.screen().contents().contains("following anna") && !shown_folder(home, "ben").exists());
     anna.send("F");
     ben.wait_for("anna shows no table at the moment");
-    assert_eq!(fs::read_dir(shown_folder(home, "anna")).unwrap().count(), 1, "the lock alone");
+    assert_eq!(fs::read_dir(shown_folder(home, "anna")).unwrap().count(), 1, "only the lock remains");
     anna.send("F");
     ben.wait_for("following anna: match");
     anna.send("q");
@@ -229,7 +229,7 @@ fn forged_table_files_do_no_harm() {
     ben.wait_for("mallory shows no table at the moment");
     plain.wait().unwrap();
     assert!(!text().contains(['\u{1b}', '\u{9b}']), "{:?}", text());
-    assert!(ben.child.try_wait().unwrap().is_none(), "it looks on still");
+    assert!(ben.child.try_wait().unwrap().is_none(), "the spectator's program still runs");
 }
 
 #[test]

@@ -34,7 +34,7 @@ fn a_damaged_checkpoint_is_reported_and_the_previous_one_used() {
     fs::write(&previous, b"").unwrap();
     let state = fs::read(run.join("state.json")).unwrap();
     let lost = carom(here, "train --resume run");
-    assert_eq!(fs::read(run.join("state.json")).unwrap(), state, "what is refused changes nothing");
+    assert_eq!(fs::read(run.join("state.json")).unwrap(), state, "a refused resume changes nothing");
     assert_eq!(lost.code, Some(1));
     for named in ["checkpoint.safetensors", "checkpoint-previous.safetensors", "damaged"] {
         assert!(lost.err.contains(named), "{}", lost.err);

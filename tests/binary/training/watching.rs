@@ -97,7 +97,7 @@ fn a_resumed_run_can_be_watched() {
         assert_eq!(run["state"], state, "{list}");
         run["last_reward"].as_f64().unwrap()
     };
-    assert!(list("stopped") >= 0.0, "what it earned when it was stopped is known");
+    assert!(list("stopped") >= 0.0, "the reward at the stop is known");
     let mut training = start(here, "train --resume run");
     let watcher = outcome(watch(here, "watch run"));
     assert!(training.wait().unwrap().success());

@@ -99,7 +99,7 @@ fn changing_rule_player_or_plan_hides_the_shot() {
     let cancelled = player.analysis_job.clone().unwrap().cancel;
     assert!(cancelled.load(Ordering::Relaxed), "nobody looks at that shot any more");
     let player = player.press("R R S S S S");
-    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap(), "the first question again");
+    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap(), "the first request again");
     let again = player.press("Enter").advice_job.unwrap();
     assert_eq!(
         again.former,
@@ -121,7 +121,7 @@ fn an_analysis_is_stored_with_the_shot_it_belongs_to() {
     other.app.coach.take_changes(&now, &before).unwrap();
     let player = other.tell(study.id, CoachNews::Next(None));
     let is_studied = |player: &Player| player.app.coach.advised().map(|advised| advised.choice().is_studied);
-    assert_eq!(is_studied(&player), Some(false), "this was found out of another answer");
+    assert_eq!(is_studied(&player), Some(false), "the analysis belongs to another answer");
     let mut player = player;
     player.app.coach.take_changes(&before, &now).unwrap();
     assert_eq!(is_studied(&player), Some(true));

@@ -356,7 +356,7 @@ fn partly_typed_strokes_are_restored_at_the_next_start() {
     later.app = later.app.with_draft(next.app.draft());
     later.warns_nothing();
     let next = next.press("F7");
-    assert!(!next.text(80, 24).contains("typed in part"), "the sentence would lie on the form");
+    assert!(!next.text(80, 24).contains("typed in part"), "the notice would cover the form");
     assert_eq!(next.app.place(), KeyContext::Calibration(CalibrationContext::Marks));
     assert_eq!(next.app.calibration.draft(), draft);
     let next = next.type_in(".4").press("Enter").type_in("725 mm").press("Enter Enter");

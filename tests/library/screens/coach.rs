@@ -26,7 +26,7 @@ fn skill_and_rule_are_explained_until_a_shot_is_shown() {
         assert!(player.text(80, 24).contains(part), "{part}");
     }
     let player = player.press("R R S");
-    assert!(player.text(80, 24).contains("S: how well you play; R: the rule."), "the longest names leave it room");
+    assert!(player.text(80, 24).contains("S: how well you play; R: the rule."), "it fits next to the longest names");
     assert!(player.text(80, 24).contains("Its shots are for a world-class"));
     player.shows(&["three-cushion."]);
     player.press("Enter").answer().does_not_show("Its shots are for");
@@ -386,10 +386,10 @@ fn keys_are_ignored_while_the_terminal_is_too_small() {
     assert_eq!((*player.app.coach.layout(), player.app.screen), (before, PageId::Coach));
     assert!(player.advice_job.is_none());
     player.event(&key("q"));
-    assert!(matches!(player.effects.pop(), Some(Effect::Quit)), "but one can leave");
+    assert!(matches!(player.effects.pop(), Some(Effect::Quit)), "quitting still works");
     player.app.paste("2d,0.5d");
     player.app.resize(Size::new(80, 24));
-    assert_eq!(*player.app.coach.layout(), before, "nor a paste");
+    assert_eq!(*player.app.coach.layout(), before, "a paste is ignored, too");
     assert_ne!(*player.press("Right").app.coach.layout(), before);
 }
 

@@ -26,13 +26,13 @@ fn typing_filters_commands_and_enter_runs_the_selected_one() {
     assert_eq!(player.app.command_palette.as_ref().map(|_| ()), None);
     let player = player.press("C-p r e c o m m Esc u");
     player.warns("there is nothing to take back");
-    assert!(player.press("C-p C-p").app.command_palette.is_none(), "what opens it closes it");
+    assert!(player.press("C-p C-p").app.command_palette.is_none(), "the same key closes the palette");
 }
 
 #[test]
 fn an_unavailable_command_explains_why_and_keeps_the_palette_open() {
     let player = opened(TRUE_COLOUR);
-    assert!(player.text(80, 24).contains("▸ Enter            ask the coach"), "what may be used comes first");
+    assert!(player.text(80, 24).contains("▸ Enter            ask the coach"), "available commands come first");
     let player = player.press("p l a y Space p a u s e Enter");
     player.warns("there is no shot yet; Enter asks the coach");
     assert!(player.app.command_palette.is_some() && player.app.coach.shot().is_none());

@@ -17,7 +17,7 @@ fn an_unchanged_stroke_needs_a_second_press() {
     assert_eq!(asked.attempt_count(), 0);
     let played = asked.press("Space").wait(60.0);
     assert_eq!(played.attempt_count(), 1);
-    assert_eq!(played.press("Enter Space").attempt_count(), 2, "who wants it so is asked once");
+    assert_eq!(played.press("Enter Space").attempt_count(), 2, "the question is asked only once");
     assert_eq!(Player::practising(TRUE_COLOUR).press("Left Space").attempt_count(), 1);
 }
 

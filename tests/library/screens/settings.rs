@@ -139,7 +139,7 @@ fn external_changes_of_the_file_are_kept() {
     fs::write(player.path("config.toml"), "theme = \"dark\"\nspeed = 4.0\n").unwrap();
     let player = player.press("Right");
     assert_eq!(player.settings_text(), "theme = \"light\"\nspeed = 4.0\n");
-    assert_eq!(player.app.coach.playback.speed(), 1.0, "what holds here is not changed by others");
+    assert_eq!(player.app.coach.playback.speed(), 1.0, "external changes do not alter values in use");
     player.shows(&["2 changed", "theme       •◂ light ▸", "speed       •  1.0"]);
     let player = with(TRUE_COLOUR, "theme = \"dark\"\n");
     fs::write(player.path("config.toml"), "theme = \n").unwrap();
@@ -152,7 +152,7 @@ fn external_changes_of_the_file_are_kept() {
     assert_eq!(player.app.settings.settings.theme.name(), "light");
     fs::remove_file(player.path("config.toml")).unwrap();
     let player = player.press("Right");
-    assert_eq!(Settings::load(&player.path("config.toml")).0.theme.name(), "high-contrast", "made anew");
+    assert_eq!(Settings::load(&player.path("config.toml")).0.theme.name(), "high-contrast", "created again");
 }
 
 #[test]

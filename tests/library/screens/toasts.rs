@@ -57,7 +57,7 @@ fn background_failures_are_shown_and_stay_in_the_messages() {
     let failure = TrainerFailure { process: None, sentence: "the disk is full".to_owned() };
     player.app.receive_training(TrainingReport::TrainerFailed(Path::new(RUNS).join(RUN), failure));
     player.warns("the disk is full");
-    assert_eq!(player.app.toasts.take_unwritten().len(), 1, "it goes to the log, once");
+    assert_eq!(player.app.toasts.take_unwritten().len(), 1, "the failure is logged once");
     assert!(player.app.toasts.take_unwritten().is_empty());
     let player = player.wait(60.0).press("F6");
     let text = player.text(120, 40);

@@ -125,7 +125,7 @@ fn the_view_of_a_training_run() {
     scrolled.shows(&["q Ctrl-c              quit", "Ctrl-z                back to the shell; fg continues"]);
     let end = scrolled.text(80, 24);
     let back = scrolled.press("Up");
-    assert_ne!(back.text(80, 24), end, "what is beyond the end is not counted");
+    assert_ne!(back.text(80, 24), end, "scrolling stops at the end");
 }
 
 #[test]
@@ -256,9 +256,9 @@ fn a_held_key_starts_a_run_only_once() {
     player.says("the run is being started");
     let listed = Listing { runs: vec![summary(RUN, 9, None, Condition::Is(Phase::Stopped))], ..Listing::default() };
     let player = player.press("Esc").report(TrainingReport::Runs(Ok(listed)));
-    assert_eq!(player.press("r r").effects.len(), 1, "nor from the list");
+    assert_eq!(player.press("r r").effects.len(), 1, "also from the list, only once");
     let again = died().press("r").condition(Condition::Is(Phase::Training), None).condition(Condition::Died, None);
-    assert_eq!(again.press("r").effects.len(), 2, "it has come and gone");
+    assert_eq!(again.press("r").effects.len(), 2, "the run has trained and died again");
     let folder = Path::new(RUNS).join(RUN);
     let failed = died().press("r").report(TrainingReport::TrainerFailed(folder, failure(Some(7), "the disk is full")));
     failed.says("the disk is full");
@@ -359,7 +359,7 @@ fn abandoning_needs_confirmation_and_states_the_loss() {
     player.shows(&["delete its folder?", "1,200,000 shots are lost", "held-out reward of 0.874", "y yes   n no"]);
     assert_eq!(player.app.place(), KeyContext::Question { is_typed: false });
     let player = player.press("x q");
-    assert!(player.effects.is_empty(), "q is no here, and leaves nothing");
+    assert!(player.effects.is_empty(), "q answers no and does not leave the page");
     assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Watch));
 }
 

@@ -98,7 +98,7 @@ fn shots_are_remembered_for_several_players() {
     let other = cue(&others);
     assert_eq!(other, Some(CueInputs::parse(OTHER_SHOTS[0]).unwrap()));
     let back = others.press("u");
-    assert_eq!(cue(&back), Some(CueInputs::parse(SHOT).unwrap()), "the answer for another player has replaced nothing");
+    assert_eq!(cue(&back), Some(CueInputs::parse(SHOT).unwrap()), "the answer for another player replaces nothing");
     let again = back.press("U");
     assert_eq!(cue(&again), other);
     let round = again.press("S S S S S");

@@ -78,7 +78,11 @@ fn without_advice_a_stroke_starts_full_at_a_ball() {
     let undone = back.press("w n n u");
     assert_ne!(*undone.app.coach.layout(), placed);
     let undone = undone.press("z u");
-    assert_eq!((undone.app.place(), *undone.app.coach.layout()), (KeyContext::OwnStroke, placed), "no further back");
+    assert_eq!(
+        (undone.app.place(), *undone.app.coach.layout()),
+        (KeyContext::OwnStroke, placed),
+        "nothing more to undo"
+    );
     undone.warns("the stroke is unchanged");
     let asked = undone.press("Esc Enter").answer();
     assert!(asked.app.coach.what_if().is_none() && asked.app.coach.shot().is_some());
@@ -151,14 +155,14 @@ fn the_success_rate_of_a_stroke_comes_from_the_coach() {
     let player = player.press("Up").tell(job.id, CoachNews::Judged(made));
     player.shows(&["You … % · coach 94 %"]);
     let perfect = Player::new().press("S S S S S Enter").answer().press("w");
-    assert!(perfect.success_rate_job.is_none(), "who makes no errors makes what makes the point");
+    assert!(perfect.success_rate_job.is_none(), "no rate is needed without errors");
 }
 
 #[test]
 fn copying_the_model_shot_marks_the_attempt_helped() {
     let player = Player::practising(TRUE_COLOUR).press("w");
     player.shows(&["You: as the model shot", "model shot", "Esc model shot off"]);
-    assert!(player.text(120, 40).contains("You "), "how often it is made is told");
+    assert!(player.text(120, 40).contains("You "), "the success rate is displayed");
     let player = player.press("S-Left Up");
     player.shows(&["You: ", "harder by "]);
     let back = player.press("z z");
@@ -200,7 +204,7 @@ fn a_stroke_in_words_changes_only_the_stated_values() {
     player.warns("\"softly\" is not understood; accepted are");
     player.shows(&["softly", "Enter take it"]);
     let player = player.press("Esc u");
-    assert_eq!(player.app.coach.watched().unwrap().cue, softer, "what was said at once is taken back at once");
+    assert_eq!(player.app.coach.watched().unwrap().cue, softer, "one undo takes back all values of one text");
     let drill = Player::practising(TRUE_COLOUR).press("t").type_in("yellow 1/2 left, 2 up, soft").press("Enter");
     assert!((drill.app.drills.turn.as_ref().unwrap().stroke().b - 0.2).abs() < 1e-9);
     drill.shows(&["50 % full"]);

@@ -119,8 +119,8 @@ fn no_folders_import_each_other_in_a_cycle() {
             None => new.push(format!("{}\n    {}", cycle.name, cycle.imports.join("\n    "))),
         }
     }
-    assert!(new.is_empty(), "these are no circles that are known:\n{}", new.join("\n"));
-    assert!(known.is_empty(), "these circles are no more; take them out of KNOWN: {known:#?}");
+    assert!(new.is_empty(), "these cycles are new:\n{}", new.join("\n"));
+    assert!(known.is_empty(), "these cycles no longer exist; remove them from KNOWN_CYCLES: {known:#?}");
 }
 
 #[test]

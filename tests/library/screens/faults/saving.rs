@@ -16,7 +16,7 @@ fn the_title_prompt_opens_over_the_coachs_page() {
     check("save", &asked);
     asked.says("save the balls as (a title, and #tags if you like):").does_not_show("no position");
     let rows = |text: &str| text.lines().skip(1).take(30).map(str::to_owned).collect::<Vec<_>>();
-    assert_eq!(rows(&asked.text(120, 40)), rows(&table), "the balls are seen while one thinks of a title");
+    assert_eq!(rows(&asked.text(120, 40)), rows(&table), "the balls stay visible behind the prompt");
     let saved = asked.type_in("My corner #draw").press("Enter");
     saved.says("saved as my-corner").says("My positions");
     assert_eq!((saved.app.screen, saved.app.place()), (PageId::Coach, KeyContext::Coach));

@@ -26,7 +26,7 @@ fn practice_is_saved_while_its_page_is_open() {
     assert_eq!(saved.practice.as_ref().map(|session| session.attempts.len()), Some(1));
     let noted = player.press("n");
     assert_ne!(noted.app.saved_session(), Some(saved.clone()));
-    assert!(noted.press("F2").app.saved_session().is_none(), "the coach's table is as at the start");
+    assert!(noted.press("F2").app.saved_session().is_none(), "the coach's table is unchanged");
 }
 
 /// Returns the next start after `player` has left, with this text in the settings file.

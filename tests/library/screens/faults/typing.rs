@@ -71,7 +71,7 @@ fn a_run_longer_than_a_day_asks_for_confirmation() {
     assert_eq!(started_option(&yes, "--steps").as_deref(), Some("9000000000"));
     assert_eq!(yes.app.place(), KeyContext::Training(TrainingContext::Watch));
     let usual = at_number_of_shots().press("Enter");
-    assert_eq!(started_option(&usual, "--steps").as_deref(), Some("5000000"), "what is usual starts at once");
+    assert_eq!(started_option(&usual, "--steps").as_deref(), Some("5000000"), "a usual number starts immediately");
 }
 
 #[test]
