@@ -111,7 +111,9 @@ impl<'a> Sensitivity<'a> {
     /// makes it. `None` if the intended stroke makes it in none.
     pub fn margins(&self, cue: &CueInputs) -> Option<[Margin; 5]> {
         let required = self.required(cue)?;
-        parallel::map(platform::thread_count(), &Input::ALL, |input| self.margin_with(*input, cue, required)).try_into().ok()
+        parallel::map(platform::thread_count(), &Input::ALL, |input| self.margin_with(*input, cue, required))
+            .try_into()
+            .ok()
     }
 
     /// Returns the margin of a single input.

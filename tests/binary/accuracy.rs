@@ -4,10 +4,10 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::program::asked;
+use crate::program::carom_command;
 
 fn carom(arguments: &[&str]) -> std::process::Output {
-    asked(arguments).output().unwrap()
+    carom_command(arguments).output().unwrap()
 }
 
 fn lines(output: &std::process::Output) -> Vec<Value> {
@@ -26,7 +26,7 @@ fn quick(folder: &Path) -> Vec<Value> {
 }
 
 #[test]
-fn the_study_finds_what_it_must() {
+fn the_quick_study_meets_the_expected_accuracy() {
     let folder = tempfile::tempdir().unwrap();
     let rows = quick(folder.path());
     // The values themselves are checked by a test of the library.
@@ -68,7 +68,7 @@ fn the_study_finds_what_it_must() {
 }
 
 #[test]
-fn the_table_that_a_player_stands_at_is_judged_too() {
+fn the_study_can_judge_a_named_table() {
     let output = carom(&["accuracy", "--quick", "--shots", "48", "--table", "match", "--json"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let rows = lines(&output);
@@ -95,7 +95,7 @@ fn the_same_seed_gives_the_same_errors() {
 }
 
 #[test]
-fn wrong_input_ends_with_two_and_says_what_would_do() {
+fn invalid_input_exits_with_two_and_names_accepted_values() {
     for (arguments, words) in [
         (vec!["accuracy", "--shots", "0"], "from 1 to 1000000000"),
         (vec!["simulate", "--shot", "0,0,0,0,3", "--dt", "0.1"], "--method steps"),
@@ -110,7 +110,7 @@ fn wrong_input_ends_with_two_and_says_what_would_do() {
 }
 
 #[test]
-fn a_folder_that_cannot_be_made_is_named() {
+fn a_folder_that_cannot_be_created_is_named() {
     let file = tempfile::NamedTempFile::new().unwrap();
     let folder = file.path().join("inside");
     let output =
@@ -121,7 +121,7 @@ fn a_folder_that_cannot_be_made_is_named() {
 
 /// Regression test: the problem was reported only after all measurements, after three minutes or an hour.
 #[test]
-fn a_place_that_cannot_be_written_is_named_before_anything_is_measured() {
+fn an_unwritable_output_folder_is_reported_before_measuring() {
     let file = tempfile::NamedTempFile::new().unwrap();
     let out = file.path().to_str().unwrap();
     for arguments in [
@@ -130,26 +130,27 @@ fn a_place_that_cannot_be_written_is_named_before_anything_is_measured() {
         &["accuracy", "--filmed"],
         &["reproduce", "--figure", "29", "--episodes", "100000000"],
     ] {
-        let mut command = asked(&[arguments, &["--out", out]].concat());
+        let mut command = carom_command(&[arguments, &["--out", out]].concat());
         let output = command.timeout(std::time::Duration::from_secs(20)).output().unwrap();
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert_eq!((output.status.code(), said.lines().count()), (Some(1), 1), "{arguments:?}: {said}");
-        assert!(said.contains(out) && said.contains("is not a folder") && output.stdout.is_empty(), "{said}");
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!((output.status.code(), message.lines().count()), (Some(1), 1), "{arguments:?}: {message}");
+        assert!(message.contains(out) && message.contains("is not a folder") && output.stdout.is_empty(), "{message}");
     }
 }
 
 #[test]
-fn a_fit_that_would_be_left_out_is_refused() {
+fn fit_is_refused_with_options_that_would_skip_it() {
     for more in [&["--quick"][..], &["--stability", "--quick"], &["--shots", "1"], &["--filmed", "--out", "here"]] {
-        let output =
-            asked(&[&["accuracy", "--fit"], more].concat()).timeout(std::time::Duration::from_secs(20)).output();
+        let output = carom_command(&[&["accuracy", "--fit"], more].concat())
+            .timeout(std::time::Duration::from_secs(20))
+            .output();
         let output = output.unwrap();
         assert!(output.status.code() == Some(2) && output.stdout.is_empty(), "{more:?}");
     }
 }
 
 #[test]
-fn anyone_can_see_what_fixed_steps_do_to_a_shot() {
+fn simulate_shows_the_errors_of_fixed_time_steps() {
     let shot = ["simulate", "--shot", "0,0.2,5,12.5,3", "--json"];
     let play = |more: &[&str]| lines(&carom(&[&shot[..], more].concat())).remove(0);
     let (exact, coarse) = (play(&[]), play(&["--method", "steps", "--dt", "0.01"]));

@@ -4,17 +4,17 @@ use std::{fs, path::PathBuf, process::Output, time::Duration};
 
 use carom::table::Table;
 
-use crate::program::asked;
+use crate::program::carom_command;
 
 fn carom(arguments: &[&str]) -> Output {
-    asked(arguments).timeout(Duration::from_secs(60)).output().unwrap()
+    carom_command(arguments).timeout(Duration::from_secs(60)).output().unwrap()
 }
 
-fn said(output: &Output) -> String {
+fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
-fn told(output: &Output) -> String {
+fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).unwrap()
 }
 
@@ -32,40 +32,44 @@ fn own_table(file: &str, exchanged: &[(&str, &str)]) -> (tempfile::TempDir, Path
 }
 
 #[test]
-fn a_study_of_one_table_or_of_some_shots_ends_with_it() {
+fn a_partial_study_skips_the_verdict() {
     let output = carom(&["accuracy", "--table", "textbook", "--shots", "1"]);
-    assert!(output.status.success(), "{}", said(&output));
-    assert!(told(&output).contains("steps, dt 1e-6 s") && !told(&output).contains("verdict"), "{}", told(&output));
-    assert!(said(&output).contains("--stability"), "{}", said(&output));
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(
+        stdout(&output).contains("steps, dt 1e-6 s") && !stdout(&output).contains("verdict"),
+        "{}",
+        stdout(&output)
+    );
+    assert!(stderr(&output).contains("--stability"), "{}", stderr(&output));
 }
 
 #[test]
-fn the_time_step_that_a_refusal_names_is_accepted() {
+fn the_time_step_named_in_a_refusal_is_accepted() {
     let step = |shot: &str, dt: &str| carom(&["simulate", "--shot", shot, "--method", "steps", "--dt", dt]);
-    let said_of = |dt: &str| said(&step("0,0,0,0,3", dt));
-    let refused = said_of("0.00003");
+    let stderr_of = |dt: &str| stderr(&step("0,0,0,0,3", dt));
+    let refused = stderr_of("0.00003");
     let named = refused.split("accepted is ").nth(1).and_then(|rest| rest.split(" s or more").next()).expect(&refused);
     // This takes seconds in a build without optimisation; only acceptance matters here.
-    assert!(!said_of(named).contains("steps; accepted"), "{named}: {}", said_of(named));
-    let least = said_of("1e-320");
+    assert!(!stderr_of(named).contains("steps; accepted"), "{named}: {}", stderr_of(named));
+    let least = stderr_of("1e-320");
     assert!(least.contains("dt = 1e-320 s") && least.contains("accepted is 3e-7 to 1 s"), "{least}");
-    assert!(step("0,0,0,0,0.001", "3e-7").status.success(), "{}", said(&step("0,0,0,0,0.001", "3e-7")));
+    assert!(step("0,0,0,0,0.001", "3e-7").status.success(), "{}", stderr(&step("0,0,0,0,0.001", "3e-7")));
 }
 
 #[test]
-fn a_table_that_is_not_the_films_is_refused() {
+fn a_table_of_another_size_than_the_films_is_refused() {
     let (_folder, small) = own_table("small.toml", &[("L = 2.84", "L = 2.54")]);
     for more in [&["--table", "thesis"][..], &["--table", "thesis", "--fit"], &["--table", small.to_str().unwrap()]] {
         let output = carom(&[&["accuracy", "--filmed"], more].concat());
         assert!(output.status.code() == Some(2) && output.stdout.is_empty(), "{more:?}");
-        let said = said(&output);
-        assert!(said.contains("L = 2.54 m") && said.contains("2.84 m"), "{said}");
-        assert_eq!(said.lines().count(), 1, "{said}");
+        let stderr = stderr(&output);
+        assert!(stderr.contains("L = 2.54 m") && stderr.contains("2.84 m"), "{stderr}");
+        assert_eq!(stderr.lines().count(), 1, "{stderr}");
     }
 }
 
 #[test]
-fn a_table_that_the_truth_cannot_judge_ends_with_the_reason() {
+fn an_unsupported_table_ends_the_study_with_the_reason() {
     for (exchanged, reason) in [
         (("name = \"match\"", "name = \"leaning\"\ntilt = [0.001, 0.0]"), "is not level"),
         (("model = \"smooth\"", "model = \"mathavan\""), "integrated"),
@@ -74,25 +78,29 @@ fn a_table_that_the_truth_cannot_judge_ends_with_the_reason() {
         let out = folder.path().join("report");
         let at = [path.to_str().unwrap(), out.to_str().unwrap()];
         let output = carom(&["accuracy", "--quick", "--shots", "3", "--table", at[0], "--out", at[1]]);
-        assert!(output.status.code() == Some(1) && output.stdout.is_empty(), "{}", told(&output));
-        assert!(said(&output).contains(reason) && said(&output).contains("none of the 3 shots"), "{}", said(&output));
+        assert!(output.status.code() == Some(1) && output.stdout.is_empty(), "{}", stdout(&output));
+        assert!(
+            stderr(&output).contains(reason) && stderr(&output).contains("none of the 3 shots"),
+            "{}",
+            stderr(&output)
+        );
         assert!(!out.join("accuracy.csv").exists());
     }
 }
 
 #[test]
-fn a_table_with_a_comma_in_its_name_stays_one_name() {
+fn a_table_name_with_a_comma_stays_one_csv_field() {
     let (folder, path) = own_table("a table.toml", &[("name = \"match\"", "name = \"my \\\"big\\\", table\"")]);
     let out = folder.path().join("report");
     let at = [path.to_str().unwrap(), out.to_str().unwrap()];
     let output = carom(&["accuracy", "--quick", "--shots", "3", "--table", at[0], "--out", at[1]]);
-    assert!(output.status.success(), "{}", said(&output));
+    assert!(output.status.success(), "{}", stderr(&output));
     let csv = fs::read_to_string(out.join("accuracy.csv")).unwrap();
     let mut columns: Vec<usize> = csv.lines().map(columns_of).collect();
     columns.dedup();
     assert_eq!(columns.len(), 1, "{csv}");
     assert!(csv.contains("\"my \"\"big\"\", table\","), "{csv}");
-    let text = told(&output);
+    let text = stdout(&output);
     let again = text.lines().find(|line| line.starts_with("carom simulate")).unwrap();
     assert!(again.starts_with(&format!("carom simulate --table '{}' --layout=", at[0])), "{again}");
 }
@@ -103,11 +111,11 @@ fn columns_of(line: &str) -> usize {
 }
 
 #[test]
-fn no_number_is_a_line_of_digits() {
+fn extreme_numbers_are_printed_in_scientific_notation() {
     let late = carom(&["simulate", "--shot", "0,0,0,0,3", "--at", "1e308"]);
-    assert!(late.status.success() && told(&late).contains("after 1e308 s:"), "{}", told(&late));
+    assert!(late.status.success() && stdout(&late).contains("after 1e308 s:"), "{}", stdout(&late));
     let line =
         r#"{"preset":"textbook","layout":[[0,0],[0.5,0],[0,0.4]],"impulse":{"velocity":[1,0,1e-320],"spin":[0,0,0]}}"#;
-    let output = asked(&["simulate", "--batch", "-"]).write_stdin(line).output().unwrap();
-    assert!(told(&output).contains("impulse.velocity has 1e-320 m/s upwards"), "{}", told(&output));
+    let output = carom_command(&["simulate", "--batch", "-"]).write_stdin(line).output().unwrap();
+    assert!(stdout(&output).contains("impulse.velocity has 1e-320 m/s upwards"), "{}", stdout(&output));
 }

@@ -3,14 +3,14 @@
 use assert_cmd::Command;
 use serde_json::Value;
 
-use crate::program::asked;
+use crate::program::carom_command;
 
 fn bench(args: &[&str]) -> Command {
-    asked(&[&["bench"], args].concat())
+    carom_command(&[&["bench"], args].concat())
 }
 
 #[test]
-fn bench_gives_every_rate_as_one_json_object() {
+fn bench_prints_every_rate_in_one_json_object() {
     let output = bench(&["--seconds", "0.05", "--json"]).assert().success().get_output().stdout.clone();
     let text = String::from_utf8(output).unwrap();
     assert_eq!(text.lines().count(), 1, "one object, one line");
@@ -34,18 +34,18 @@ fn bench_gives_every_rate_as_one_json_object() {
 }
 
 #[test]
-fn bench_tells_people_a_line_for_every_rate() {
+fn bench_prints_one_line_of_text_per_rate() {
     let output = bench(&["--seconds", "0.01"]).assert().success().get_output().stdout.clone();
     let text = String::from_utf8(output).unwrap();
     assert!(text.lines().count() == 20 && text.lines().skip(1).all(|line| line.contains(" /s")), "{text}");
 }
 
 #[test]
-fn no_time_to_measure_is_refused_and_named() {
+fn an_invalid_measuring_time_is_refused_and_named() {
     for wrong in ["0", "-1", "NaN", "inf"] {
         let output = bench(&["--seconds", wrong]).output().unwrap();
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert_eq!((output.status.code(), said.lines().count()), (Some(2), 1), "{said}");
-        assert!(output.stdout.is_empty() && said.contains(wrong), "{said}");
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!((output.status.code(), message.lines().count()), (Some(2), 1), "{message}");
+        assert!(output.stdout.is_empty() && message.contains(wrong), "{message}");
     }
 }

@@ -5,7 +5,7 @@ use std::{fs, io::Write, path::Path, process::Stdio};
 use assert_cmd::Command;
 use serde_json::Value;
 
-use crate::program::{asked as carom, command, tried};
+use crate::program::{carom_command as carom, command, count_attempts};
 
 /// Returns the program with its own home folder.
 fn at_home(home: &Path, args: &[&str]) -> Command {
@@ -18,14 +18,14 @@ const ENTRIES: &str = "name = \"ours\"\n[[trial]]\ntest = \"slow-roll\"\ntime = 
                        [[trial]]\ntest = \"lag\"\nlap = 4.4\nrest = 8.0\nstop = 3.5\n";
 
 #[test]
-fn a_file_of_entries_becomes_a_table_that_every_command_plays_on() {
+fn an_entries_file_becomes_a_table_that_commands_accept() {
     let home = tempfile::tempdir().unwrap();
     let run = |args: &[&str]| at_home(home.path(), args);
     fs::write(home.path().join("entries.toml"), ENTRIES).unwrap();
-    let said = run(&["calibrate", "entries.toml", "--out", "mine.toml"]).assert().success();
-    let said = String::from_utf8_lossy(&said.get_output().stdout).into_owned();
+    let printed = run(&["calibrate", "entries.toml", "--out", "mine.toml"]).assert().success();
+    let printed = String::from_utf8_lossy(&printed.get_output().stdout).into_owned();
     for part in ["mu_r", "well", "all marks agree", "not entered yet: slow-roll (1), slow-back (1)", "helps most"] {
-        assert!(said.contains(part), "{part}: {said}");
+        assert!(printed.contains(part), "{part}: {printed}");
     }
     run(&["table", "check", "mine.toml"]).assert().success();
     run(&["simulate", "--table", "mine.toml", "--shot", "0,0.3,0,1,2"]).assert().success();
@@ -52,43 +52,47 @@ fn a_file_of_entries_becomes_a_table_that_every_command_plays_on() {
 }
 
 #[test]
-fn a_session_without_an_entry_writes_no_table_and_says_so() {
+fn a_session_without_entries_writes_no_table() {
     let home = tempfile::tempdir().unwrap();
-    let told = at_home(home.path(), &["calibrate", "--out", "mine.toml"]).write_stdin("").assert().code(2);
-    let told = String::from_utf8_lossy(&told.get_output().stderr).into_owned();
-    assert!(told.contains("there is no mark that can be used") && !home.path().join("mine.toml").exists(), "{told}");
+    let message = at_home(home.path(), &["calibrate", "--out", "mine.toml"]).write_stdin("").assert().code(2);
+    let message = String::from_utf8_lossy(&message.get_output().stderr).into_owned();
+    assert!(
+        message.contains("there is no mark that can be used") && !home.path().join("mine.toml").exists(),
+        "{message}"
+    );
 }
 
 #[test]
-fn strokes_that_contradict_each_other_are_named_and_no_table_is_written() {
+fn contradictory_strokes_are_named_and_no_table_is_written() {
     let home = tempfile::tempdir().unwrap();
     let strokes = ["5", "9", "16"].map(|time| format!("[[trial]]\ntest = \"slow-roll\"\ntime = {time}\nstop = 5\n"));
     fs::write(home.path().join("entries.toml"), strokes.concat()).unwrap();
-    let told = at_home(home.path(), &["calibrate", "entries.toml"]).assert().code(2);
-    assert!(!String::from_utf8_lossy(&told.get_output().stderr).contains("no table is written"));
-    let told = String::from_utf8_lossy(&told.get_output().stdout).into_owned();
-    assert!(told.contains("contradict the others") && told.contains("trial 1 (slow-roll)"), "{told}");
-    assert!(told.contains("unsure") && !told.contains(" better") && !told.contains(" well"), "{told}");
+    let output = at_home(home.path(), &["calibrate", "entries.toml"]).assert().code(2);
+    assert!(!String::from_utf8_lossy(&output.get_output().stderr).contains("no table is written"));
+    let output = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
+    assert!(output.contains("contradict the others") && output.contains("trial 1 (slow-roll)"), "{output}");
+    assert!(output.contains("unsure") && !output.contains(" better") && !output.contains(" well"), "{output}");
     let refused = at_home(home.path(), &["calibrate", "entries.toml", "--out", "mine.toml"]).assert().code(2);
     assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("no table is written"));
     assert!(!home.path().join("mine.toml").exists());
 }
 
 #[test]
-fn a_table_that_is_not_found_by_its_name_is_named_instead_of_listed() {
+fn a_table_shadowed_by_a_bundled_name_is_reported() {
     let home = tempfile::tempdir().unwrap();
     let tables = home.path().join("data/carom/tables");
     fs::create_dir_all(&tables).unwrap();
     let shown = at_home(home.path(), &["table", "show", "match"]).assert().success();
     fs::write(tables.join("match.toml"), &shown.get_output().stdout).unwrap();
     let listed = at_home(home.path(), &["table"]).assert().success();
-    let (out, said) = (&listed.get_output().stdout, String::from_utf8_lossy(&listed.get_output().stderr).into_owned());
+    let (out, message) =
+        (&listed.get_output().stdout, String::from_utf8_lossy(&listed.get_output().stderr).into_owned());
     assert_eq!(String::from_utf8_lossy(out).matches("match:").count(), 1);
-    assert!(said.contains("match.toml is not found by its name"), "{said}");
+    assert!(message.contains("match.toml is not found by its name"), "{message}");
 }
 
 #[test]
-fn odd_entries_are_named_and_nothing_is_overwritten() {
+fn invalid_entries_are_named_and_nothing_is_overwritten() {
     let home = tempfile::tempdir().unwrap();
     let refused = |args: &[&str], code: i32| {
         let output = at_home(home.path(), args).output().unwrap();
@@ -97,15 +101,15 @@ fn odd_entries_are_named_and_nothing_is_overwritten() {
     };
     let write = |name: &str, text: &str| fs::write(home.path().join(name), text).unwrap();
     write("odd.toml", &format!("{ENTRIES}[[trial]]\ntest = \"lag\"\nrest = 240\n"));
-    let said = refused(&["calibrate", "odd.toml", "--out", "new.toml"], 2);
-    assert!(said.contains("trial 3 (lag): rest = 240") && said.contains("no table is written"), "{said}");
+    let message = refused(&["calibrate", "odd.toml", "--out", "new.toml"], 2);
+    assert!(message.contains("trial 3 (lag): rest = 240") && message.contains("no table is written"), "{message}");
     assert!(!home.path().join("new.toml").exists());
     write("notes.txt", "my notes");
     write("entries.toml", ENTRIES);
     for own in ["notes.txt", "entries.toml"] {
         let before = fs::read(home.path().join(own)).unwrap();
-        let said = refused(&["calibrate", "entries.toml", "--out", own], 1);
-        assert!(said.contains("is no table, so it stays as it is"), "{said}");
+        let message = refused(&["calibrate", "entries.toml", "--out", own], 1);
+        assert!(message.contains("is no table, so it stays as it is"), "{message}");
         assert_eq!(fs::read(home.path().join(own)).unwrap(), before);
     }
     write("broken.toml", "[[trial]\n");
@@ -122,7 +126,7 @@ fn odd_entries_are_named_and_nothing_is_overwritten() {
 }
 
 #[test]
-fn a_reader_that_goes_away_takes_no_table_and_no_note_with_it() {
+fn tables_and_attempts_are_saved_when_stdout_is_closed() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("entries.toml"), ENTRIES).unwrap();
     let unread = |args: &[&str]| {
@@ -135,23 +139,23 @@ fn a_reader_that_goes_away_takes_no_table_and_no_note_with_it() {
     unread(&["calibrate", "entries.toml", "--out", "new.toml"]);
     assert!(home.path().join("new.toml").exists());
     unread(&["drill", "log", "half-ball"]);
-    assert_eq!(tried(home.path()), 3);
+    assert_eq!(count_attempts(home.path()), 3);
 }
 
 #[test]
-fn a_session_says_what_it_has_kept_of_a_stroke_what_is_missing_and_what_each_mark_is() {
+fn a_session_reports_saved_marks_missing_marks_and_their_meaning() {
     let home = tempfile::tempdir().unwrap();
     let output = at_home(home.path(), &["calibrate"]).write_stdin("9.1\n9.2 5.3 2\ndone\n").assert().success();
-    let said = String::from_utf8_lossy(&output.get_output().stderr).into_owned();
-    assert!(said.contains("on one line"), "{said}");
-    assert!(said.contains("mark    rails: how many short rails it has met, if not 0"), "{said}");
+    let message = String::from_utf8_lossy(&output.get_output().stderr).into_owned();
+    assert!(message.contains("on one line"), "{message}");
+    assert!(message.contains("mark    rails: how many short rails it has met, if not 0"), "{message}");
     let first = "kept: slow-roll, stroke 1: time 9.1; without stop, drift (undo takes it back)\n";
-    assert!(said.contains(first), "{said}");
-    assert!(said.contains("kept: slow-roll, stroke 2: time 9.2, stop 5.3, drift 2\n"), "{said}");
+    assert!(message.contains(first), "{message}");
+    assert!(message.contains("kept: slow-roll, stroke 2: time 9.2, stop 5.3, drift 2\n"), "{message}");
 }
 
 #[test]
-fn a_session_keeps_every_entry_and_goes_on_where_it_ended() {
+fn a_session_saves_every_entry_and_can_be_resumed() {
     let home = tempfile::tempdir().unwrap();
     let file = home.path().join("data/carom/calibration.toml");
     let play = |lines: &str, code: i32| {
@@ -159,16 +163,19 @@ fn a_session_keeps_every_entry_and_goes_on_where_it_ended() {
         let output = output.get_output();
         String::from_utf8_lossy(&[&output.stderr[..], &output.stdout].concat()).into_owned()
     };
-    let said = play("", 0);
-    assert!(said.contains("nothing is entered yet") && said.contains("slow-roll") && !file.exists(), "{said}");
+    let printed = play("", 0);
+    assert!(printed.contains("nothing is entered yet") && printed.contains("slow-roll") && !file.exists(), "{printed}");
     // An impossible mark is refused, and a program that pipes it in learns that from the exit code at the end.
-    let said = play("9.6 5.4 2\n9 99 2\n9.4 5.3\nskip\nlap 4.4 rest 8 stop 3.5\nundo\n4.4 8 3.5 2\n", 2);
-    assert!(said.contains("slow-roll: stop = 99: no ball can be there") && said.contains("nothing was kept"), "{said}");
-    assert!(said.contains("the last entry (lag) is taken back") && said.contains("mu_r"), "{said}");
+    let printed = play("9.6 5.4 2\n9 99 2\n9.4 5.3\nskip\nlap 4.4 rest 8 stop 3.5\nundo\n4.4 8 3.5 2\n", 2);
+    assert!(
+        printed.contains("slow-roll: stop = 99: no ball can be there") && printed.contains("nothing was kept"),
+        "{printed}"
+    );
+    assert!(printed.contains("the last entry (lag) is taken back") && printed.contains("mu_r"), "{printed}");
     let kept = fs::read_to_string(&file).unwrap();
     assert_eq!(kept.matches("[[trial]]").count(), 3, "{kept}");
-    let said = play("again\n9.9 - 2\ndone\n", 0);
-    assert!(said.contains("slow-back (1"), "it goes on with what is missing: {said}");
+    let printed = play("again\n9.9 - 2\ndone\n", 0);
+    assert!(printed.contains("slow-back (1"), "it goes on with what is missing: {printed}");
     assert_eq!(fs::read_to_string(&file).unwrap().matches("test = \"lag\"").count(), 2);
     // An unreadable file is not overwritten.
     fs::write(&file, "broken").unwrap();
@@ -178,7 +185,7 @@ fn a_session_keeps_every_entry_and_goes_on_where_it_ended() {
 }
 
 #[test]
-fn the_tests_are_listed_for_people_and_programs_and_the_template_is_a_file_of_entries() {
+fn tests_are_listed_and_the_template_is_an_entries_file() {
     let home = tempfile::tempdir().unwrap();
     let output = |args: &[&str]| String::from_utf8(at_home(home.path(), args).output().unwrap().stdout).unwrap();
     let text = output(&["calibrate", "--tests"]);
@@ -190,8 +197,8 @@ fn the_tests_are_listed_for_people_and_programs_and_the_template_is_a_file_of_en
     assert!(tests.iter().any(|test| test["rails"]["words"].is_string() && test["rails"]["usual"].is_null()));
     assert!(tests.iter().any(|test| test["rails"].is_null()), "{tests:?}");
     fs::write(home.path().join("entries.toml"), output(&["calibrate", "--template"])).unwrap();
-    let said = at_home(home.path(), &["calibrate", "entries.toml"]).output().unwrap();
-    assert!(String::from_utf8_lossy(&said.stderr).contains("no mark that can be used"));
+    let refused = at_home(home.path(), &["calibrate", "entries.toml"]).output().unwrap();
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("no mark that can be used"));
     let measured = output(&["calibrate", "--simulate", "2", "--seed", "5", "--json"]);
     let measured: Value = serde_json::from_str(&measured).unwrap();
     assert_eq!((measured["tables"].as_u64(), measured["strokes"].as_u64()), (Some(2), Some(20)));

@@ -16,21 +16,21 @@ use assert_cmd::cargo::cargo_bin;
 use portable_pty::CommandBuilder;
 
 use crate::{
-    program::Kept,
-    terminal::{OPENING, PATIENCE, REST, Session},
+    program::KillOnDrop,
+    terminal::{QUIET_TIME, START_TEXT, Session, TIMEOUT},
 };
 
 /// Number of players at the same time.
 const PLAYERS: usize = 20;
 
 /// Memory limit per player after a recommendation, bytes; shared memory counts in proportion.
-const MEMORY: u64 = 25 << 20;
+const MEMORY_LIMIT: u64 = 25 << 20;
 
 /// An sshd with the script and the configuration of the page, in its own folder.
 struct Club {
     folder: tempfile::TempDir,
     port: u16,
-    _sshd: Kept,
+    _sshd: KillOnDrop,
 }
 
 impl Club {
@@ -69,10 +69,10 @@ impl Club {
         fs::write(path("sshd_config"), config).unwrap();
         let log = fs::File::create(path("log")).unwrap();
         let sshd = Command::new("/usr/sbin/sshd").args(["-D", "-e", "-f"]).arg(path("sshd_config")).stderr(log).spawn();
-        let sshd = Kept(sshd.unwrap());
+        let sshd = KillOnDrop(sshd.unwrap());
         let start = Instant::now();
         while TcpStream::connect(("127.0.0.1", port)).is_err() {
-            assert!(start.elapsed() < PATIENCE, "{}", fs::read_to_string(path("log")).unwrap());
+            assert!(start.elapsed() < TIMEOUT, "{}", fs::read_to_string(path("log")).unwrap());
             thread::sleep(Duration::from_millis(50));
         }
         Self { folder, port, _sshd: sshd }
@@ -112,7 +112,7 @@ fn script(keys: &Path) -> String {
 }
 
 #[test]
-fn every_key_of_a_player_is_answered_with_a_line_whether_or_not_its_file_ends_in_one() {
+fn the_key_script_prints_one_line_per_valid_key() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
     write("anna", "ssh-ed25519 AAAA anna\n\n# old\nssh-ed25519 BBBB anna");
@@ -152,14 +152,14 @@ fn ticks(process: u32) -> u64 {
 }
 
 #[test]
-#[ignore = "needs root and sshd; its command stands above"]
+#[ignore = "needs root and sshd; see the command at the top of this file"]
 fn twenty_players_share_a_machine_over_ssh() {
     let names: Vec<String> = (1..=PLAYERS).map(|number| format!("player-{number}")).collect();
     let club = Club::open(&names);
     // Whatever other command they request, they get the coach.
     let mut sessions: Vec<Session> = names.iter().map(|name| club.player(name, "cat /etc/passwd")).collect();
     for session in &mut sessions {
-        session.wait_for(OPENING);
+        session.wait_for(START_TEXT);
         assert!(!session.screen().contents().contains("root:"));
     }
     // All coaches think at the same time.
@@ -178,7 +178,7 @@ fn twenty_players_share_a_machine_over_ssh() {
         waited[PLAYERS - 1]
     );
     for session in &mut sessions {
-        session.settle(Duration::from_secs(2));
+        session.wait_until_quiet(Duration::from_secs(2));
     }
     let processes: Vec<u32> = names.iter().map(|name| process(name).unwrap()).collect();
     let shares: Vec<u64> = processes.iter().map(|id| memory(*id, "Pss:")).collect();
@@ -190,7 +190,7 @@ fn twenty_players_share_a_machine_over_ssh() {
     let used: u64 = processes.iter().map(|id| ticks(*id)).sum::<u64>() - before.iter().sum::<u64>();
     eprintln!("at rest: {used} ticks of the processor in 3 s for all together");
     assert_eq!(used, 0);
-    assert!(shares.iter().all(|bytes| *bytes <= MEMORY), "{shares:?}");
+    assert!(shares.iter().all(|bytes| *bytes <= MEMORY_LIMIT), "{shares:?}");
 
     // One session crashes and one is flooded with input: the others continue.
     assert!(Command::new("kill").args(["-KILL", &processes[0].to_string()]).status().unwrap().success());
@@ -200,7 +200,7 @@ fn twenty_players_share_a_machine_over_ssh() {
     eprintln!("a key of another player is answered after {} ms meanwhile", start.elapsed().as_millis());
     assert!(start.elapsed() < Duration::from_secs(2));
     sessions[2].send("q");
-    assert_eq!(sessions[2].ends_within(PATIENCE).exit_code(), 0);
+    assert_eq!(sessions[2].wait_for_exit(TIMEOUT).exit_code(), 0);
 
     // Each player has a folder, and nobody else does.
     let folders = fs::read_dir(club.players_folder()).unwrap().map(|entry| entry.unwrap().file_name());
@@ -213,8 +213,8 @@ fn twenty_players_share_a_machine_over_ssh() {
 }
 
 #[test]
-#[ignore = "needs root and sshd; its command stands above"]
-fn keys_without_a_player_get_nothing_and_players_get_no_more_than_the_coach() {
+#[ignore = "needs root and sshd; see the command at the top of this file"]
+fn unknown_keys_are_refused_and_players_get_only_the_coach() {
     let club = Club::open(&["anna".to_owned()]);
     let ssh = |key: &str, more: &[&str]| {
         let mut command = Command::new("ssh");
@@ -228,26 +228,26 @@ fn keys_without_a_player_get_nothing_and_players_get_no_more_than_the_coach() {
     assert!(String::from_utf8_lossy(&blind.stderr).contains("this is not a terminal"), "{blind:?}");
     assert!(!String::from_utf8_lossy(&ssh("anna", &["-s", "sftp"]).stdout).contains("sftp"));
     let mut session = club.player("anna", "");
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     session.send("\x1a");
     session.wait_for("guests have no shell");
-    session.settle(REST);
+    session.wait_until_quiet(QUIET_TIME);
     session.send("q");
-    assert_eq!(session.ends_within(PATIENCE).exit_code(), 0);
+    assert_eq!(session.wait_for_exit(TIMEOUT).exit_code(), 0);
     assert!(is_below(&club.players_folder().join("anna"), &club.folder.path().join("home")));
 }
 
 #[test]
-#[ignore = "needs root and sshd; its command stands above"]
-fn a_player_looks_on_over_ssh_while_another_plays() {
+#[ignore = "needs root and sshd; see the command at the top of this file"]
+fn a_player_watches_another_over_ssh() {
     let club = Club::open(&["anna".to_owned(), "ben".to_owned()]);
     let mut anna = club.player("anna", "");
-    anna.wait_for(OPENING);
+    anna.wait_for(START_TEXT);
     let mut ben = club.player("ben", "follow anna");
-    assert_ne!(ben.ends_within(PATIENCE).exit_code(), 0, "she has not allowed it yet");
+    assert_ne!(ben.wait_for_exit(TIMEOUT).exit_code(), 0, "she has not allowed it yet");
     anna.send("F");
     anna.wait_for("carom follow anna shows this table");
-    anna.settle(Duration::from_secs(1));
+    anna.wait_until_quiet(Duration::from_secs(1));
     let mut ben = club.player("ben", "follow anna");
     ben.wait_for("anna places the balls");
     anna.send("\r");
@@ -255,10 +255,10 @@ fn a_player_looks_on_over_ssh_while_another_plays() {
     anna.send(" ");
     ben.wait_for("next: ");
     // A broken connection ends the display.
-    anna.cut();
+    anna.disconnect();
     ben.wait_for("anna shows no table at the moment");
     ben.send("q");
-    assert_eq!(ben.ends_within(PATIENCE).exit_code(), 0);
+    assert_eq!(ben.wait_for_exit(TIMEOUT).exit_code(), 0);
 }
 
 /// Whether all files below `home` are below `folder`.

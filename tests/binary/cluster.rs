@@ -13,7 +13,7 @@ use std::{
 use assert_cmd::cargo::cargo_bin;
 
 /// Time limit for an array of jobs.
-const PATIENCE: Duration = Duration::from_secs(600);
+const TIMEOUT: Duration = Duration::from_secs(600);
 
 /// Returns a folder with the script `name` of the page.
 fn folder_with(name: &str) -> tempfile::TempDir {
@@ -40,7 +40,7 @@ fn run_array(folder: &Path, script: &str) {
 
 #[test]
 #[ignore = "needs Slurm"]
-fn an_array_of_seeds_ends_in_their_results() {
+fn a_job_array_trains_every_seed() {
     let folder = folder_with("train.sbatch");
     run_array(folder.path(), "train.sbatch");
     let begin = Instant::now();
@@ -48,7 +48,7 @@ fn an_array_of_seeds_ends_in_their_results() {
         // A stopped task is queued again.
         let result = folder.path().join(format!("runs/seed-{seed}/result.json"));
         while !result.exists() {
-            assert!(begin.elapsed() < PATIENCE, "{}", result.display());
+            assert!(begin.elapsed() < TIMEOUT, "{}", result.display());
             sleep(Duration::from_secs(1));
         }
         assert!(fs::read_to_string(result).unwrap().contains(&format!("\"seed\": {seed}")));
@@ -57,7 +57,7 @@ fn an_array_of_seeds_ends_in_their_results() {
 
 #[test]
 #[ignore = "needs Slurm"]
-fn parts_that_an_array_measures_are_merged() {
+fn parts_measured_by_a_job_array_are_merged() {
     let folder = folder_with("evaluate.sbatch");
     run_array(folder.path(), "evaluate.sbatch");
     let parts = ["part-1.json", "part-2.json", "part-3.json", "part-4.json"];
@@ -67,7 +67,7 @@ fn parts_that_an_array_measures_are_merged() {
 
 #[test]
 #[ignore = "needs Python with Optuna"]
-fn a_study_finds_the_best_of_its_trials() {
+fn an_optuna_study_finds_the_best_trial() {
     let folder = folder_with("study.py");
     let best = output(folder.path(), "python3", &["study.py"]);
     assert!(best.contains("learning_rate") && best.starts_with("0."), "{best}");

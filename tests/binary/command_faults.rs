@@ -2,15 +2,15 @@
 
 use serde_json::{Value, json};
 
-use crate::program::{asked as carom, carom as carom_of, folder};
+use crate::program::{carom as carom_of, carom_command as carom, folder};
 
 /// Returns the standard output of a successful command.
-fn said(args: &[&str]) -> String {
+fn stdout(args: &[&str]) -> String {
     String::from_utf8(carom(args).assert().success().get_output().stdout.clone()).unwrap()
 }
 
-fn answer(args: &[&str]) -> Value {
-    serde_json::from_str(&said(args)).unwrap()
+fn json_output(args: &[&str]) -> Value {
+    serde_json::from_str(&stdout(args)).unwrap()
 }
 
 /// Returns the error message of a refused command.
@@ -31,41 +31,41 @@ fn simulate<'a>(shot: &'a str, more: &[&'a str]) -> Vec<&'a str> {
 }
 
 #[test]
-fn a_simulated_shot_is_judged_by_the_rule_that_is_asked_for() {
-    let straight = said(&simulate(ONE_CUSHION, &[]));
+fn a_simulated_shot_is_judged_by_the_requested_rule() {
+    let straight = stdout(&simulate(ONE_CUSHION, &[]));
     assert!(straight.contains("Point: yellow, one cushion, red (straight)"), "{straight}");
-    let three = said(&simulate(ONE_CUSHION, &["--rule", "three-cushion"]));
+    let three = stdout(&simulate(ONE_CUSHION, &["--rule", "three-cushion"]));
     assert!(three.contains("No point: one cushion before red, three needed (three-cushion)"), "{three}");
-    let missed = said(&simulate("0,0,0,90,0.5", &["--rule", "one-cushion"]));
+    let missed = stdout(&simulate("0,0,0,90,0.5", &["--rule", "one-cushion"]));
     assert!(missed.contains("No point: no ball was hit (one-cushion)"), "{missed}");
     assert!(refusal(&simulate(ONE_CUSHION, &["--rule", "snooker"])).contains("three-cushion"));
 }
 
 #[test]
-fn the_judgement_stands_in_json_beside_what_stood_there_before() {
-    let straight = answer(&simulate(ONE_CUSHION, &["--json"]));
+fn json_output_contains_the_verdict_in_addition_to_events() {
+    let straight = json_output(&simulate(ONE_CUSHION, &["--json"]));
     let judged = |answer: &Value| json!([answer["rule"], answer["point"], answer["cushions_before_second"]]);
     assert_eq!(judged(&straight), json!(["straight", true, 1]));
     assert!(straight["events"].is_array() && straight["final"].is_array() && straight["duration"].is_number());
-    let three = answer(&simulate(ONE_CUSHION, &["--json", "--rule", "three-cushion"]));
+    let three = json_output(&simulate(ONE_CUSHION, &["--json", "--rule", "three-cushion"]));
     assert_eq!(judged(&three), json!(["three-cushion", false, 1]));
-    let missed = answer(&simulate("0,0,0,90,0.5", &["--json"]));
+    let missed = json_output(&simulate("0,0,0,90,0.5", &["--json"]));
     assert_eq!((&missed["point"], missed.get("cushions_before_second")), (&json!(false), None));
 }
 
 /// The rules forbid a stroke at a ball that touches the cue ball.
 #[test]
-fn a_stroke_at_a_touching_ball_is_played_and_called_a_foul_wherever_it_is_tried() {
+fn a_stroke_onto_a_touching_ball_is_a_foul() {
     let home = tempfile::tempdir().unwrap();
     // Two radii of "match" are 0.0615 m.
     let frozen = ["--layout", "0,0 0.0615,0 -0.3,0.02"];
     let foul = "the stroke pushes yellow, which touches the cue ball";
     let shot = |shot: &'static str, more: &[&'static str]| [&["simulate", "--shot", shot], &frozen[..], more].concat();
-    assert!(said(&shot("0,-0.4,5,0,3", &[])).contains(&format!("Foul: {foul} (straight)")));
-    let at_it = answer(&shot("0,-0.4,5,0,3", &["--json"]));
+    assert!(stdout(&shot("0,-0.4,5,0,3", &[])).contains(&format!("Foul: {foul} (straight)")));
+    let at_it = json_output(&shot("0,-0.4,5,0,3", &["--json"]));
     assert_eq!((&at_it["point"], &at_it["foul"]), (&json!(false), &json!(foul)));
     assert_eq!((&at_it["cushions_before_second"], at_it["events"].is_array()), (&json!(0), true));
-    let away = answer(&shot("0,0,5,180,3", &["--json"]));
+    let away = json_output(&shot("0,0,5,180,3", &["--json"]));
     assert_eq!((&away["point"], away.get("foul")), (&json!(true), None));
     let batch = json!({"preset": "match", "layout": [[0, 0], [0.0615, 0], [-0.3, 0.02]], "impulse": at_it["impulse"]});
     let output = carom(&["simulate", "--batch", "-"]).write_stdin(batch.to_string()).assert().success();
@@ -82,8 +82,8 @@ fn a_stroke_at_a_touching_ball_is_played_and_called_a_foul_wherever_it_is_tried(
 
 /// The printed impulse of the stroke, used as input, plays the same shot; the motion of the balls is reported at any time.
 #[test]
-fn the_impulse_and_the_balls_at_any_moment_are_told() {
-    let stroke = answer(&simulate("0,0.4,0,0,2", &["--json", "--at", "0,0.5,100"]));
+fn the_impulse_can_be_replayed_and_states_listed_at_times() {
+    let stroke = json_output(&simulate("0,0.4,0,0,2", &["--json", "--at", "0,0.5,100"]));
     let line = json!({"preset": "match", "layout": [[-0.5, 0], [0, 0], [0.5, 0.03]], "impulse": stroke["impulse"]});
     let output = carom(&["simulate", "--batch", "-", "--at", "0.5"]).write_stdin(line.to_string()).assert().success();
     let replayed: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
@@ -92,17 +92,17 @@ fn the_impulse_and_the_balls_at_any_moment_are_told() {
     let speed = |moment: usize| white(moment)["velocity"][0].as_f64().unwrap();
     assert_eq!(white(0)["velocity"][0], stroke["impulse"]["velocity"][0]);
     assert!(speed(0) > speed(1) && speed(2) == 0.0, "{stroke}");
-    assert!(said(&simulate("0,0.4,0,0,2", &["--at", "0.5"])).contains("after 0.5 s:\n  white at ("));
+    assert!(stdout(&simulate("0,0.4,0,0,2", &["--at", "0.5"])).contains("after 0.5 s:\n  white at ("));
     assert!(refusal(&simulate("0,0.4,0,0,2", &["--at", "-1"])).contains("0 or more"));
 }
 
 /// Only text uses the units of the settings: JSON stays in metres and millimetres.
 #[test]
-fn a_simulated_shot_and_a_tried_one_are_told_in_the_units_of_the_settings() {
+fn text_output_uses_the_units_of_the_settings() {
     let home = folder();
     let settings = home.path().join("config/carom");
     std::fs::create_dir_all(&settings).unwrap();
-    let told = |args: &[&str]| {
+    let outputs = |args: &[&str]| {
         let [default, json] =
             [args.to_vec(), [args, &["--json"]].concat()].map(|args| carom_of(home.path(), &args).out);
         std::fs::write(settings.join("config.toml"), "length_unit = \"feet\"\ntip_unit = \"mm\"\n").unwrap();
@@ -114,15 +114,15 @@ fn a_simulated_shot_and_a_tried_one_are_told_in_the_units_of_the_settings() {
         assert_eq!(nameless(&json), nameless(&other[1]));
         (default, other[0].clone())
     };
-    let (metres, feet) = told(&simulate(ONE_CUSHION, &["--at", "0.5"]));
+    let (metres, feet) = outputs(&simulate(ONE_CUSHION, &["--at", "0.5"]));
     assert!(metres.contains(" m/s") && !metres.contains("ft/s"), "{metres}");
     assert!(feet.contains("ft/s, spin") && feet.contains(" ft/s\n") && !feet.contains("m/s"), "{feet}");
-    let (tips, mm) = told(&["drill", "try", "mine", "--shot", "0,-0.2,3,1,2", "--skill", "perfect", "--seed", "1"]);
+    let (tips, mm) = outputs(&["drill", "try", "mine", "--shot", "0,-0.2,3,1,2", "--skill", "perfect", "--seed", "1"]);
     assert!(tips.contains("tips up, harder 2.0 m/s") && mm.contains("tip up 15.4 mm, harder 6.6 ft/s"), "{tips}{mm}");
 }
 
 #[test]
-fn a_line_of_a_batch_may_name_its_own_rule() {
+fn a_batch_line_may_name_its_own_rule() {
     let line = |rule: &str| {
         let cue = r#"{"a":0,"b":0.4,"theta_deg":0,"phi_deg":0.3,"speed":3}"#;
         format!(r#"{{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"cue":{cue}{rule}}}"#)
@@ -139,7 +139,7 @@ fn a_line_of_a_batch_may_name_its_own_rule() {
 
 /// Regression test: the messages used the jargon of the JSON library: `invalid type: string "4", expected f64, column 113`.
 #[test]
-fn a_refused_line_names_the_field_with_its_value_and_what_is_accepted() {
+fn a_refused_line_names_field_value_and_accepted_values() {
     let line = |name: &str, value: Value| {
         let cue = json!({"a": 0, "b": 0, "theta_deg": 0, "phi_deg": 1, "speed": 4});
         let mut line = json!({"preset": "match", "layout": [[-0.5, 0], [0, 0], [0.5, 0.03]], "cue": cue});
@@ -174,25 +174,25 @@ fn a_refused_line_names_the_field_with_its_value_and_what_is_accepted() {
 }
 
 #[test]
-fn balls_have_their_colours_wherever_people_read() {
-    let simulated = said(&simulate(CUSHIONS, &[]));
+fn text_output_names_balls_by_colour() {
+    let simulated = stdout(&simulate(CUSHIONS, &[]));
     assert!(simulated.contains("white at (") && simulated.contains("red at ("), "{simulated}");
     let recommended =
-        said(&["recommend", "--layout", LAYOUT, "--budget-ms", "5000", "--simulations", "2000", "--margins"]);
+        stdout(&["recommend", "--layout", LAYOUT, "--budget-ms", "5000", "--simulations", "2000", "--margins"]);
     for text in [&simulated, &recommended] {
         assert!(!text.contains("ball 0") && !text.contains("ball 1") && !text.contains("ball 2"), "{text}");
     }
     assert!(recommended.contains("hits yellow") || recommended.contains("hits red"), "{recommended}");
-    assert!(said(&["simulate", "--help"]).contains("white is the cue ball"));
+    assert!(stdout(&["simulate", "--help"]).contains("white is the cue ball"));
 }
 
 #[test]
-fn directions_are_from_zero_to_below_360_degrees() {
+fn directions_are_printed_from_0_to_below_360_degrees() {
     // The only course to both balls leads down to the right.
     let layout = "-0.5,0.3 0,0 0.3,-0.2";
     let common =
         ["recommend", "--layout", layout, "--budget-ms", "5000", "--simulations", "2000", "--skill", "perfect"];
-    let text = said(&common);
+    let text = stdout(&common);
     let phi = |line: &str| -> f64 { line.split_whitespace().nth(1).unwrap().parse().unwrap() };
     let shot = text.lines().find(|line| line.starts_with("phi")).map(phi).unwrap();
     assert!((0.0..360.0).contains(&shot), "{text}");
@@ -210,9 +210,9 @@ fn directions_are_from_zero_to_below_360_degrees() {
 }
 
 #[test]
-fn minutes_of_self_play_may_be_a_fraction() {
+fn self_play_minutes_may_be_fractional() {
     let args = ["evaluate", "--self-play", "--layouts", "2", "--budget-ms", "20", "--most-points", "1", "--minutes"];
-    let report = answer(&[&args[..], &["0.3", "--json"]].concat());
+    let report = json_output(&[&args[..], &["0.3", "--json"]].concat());
     assert_eq!(report["innings"], 2);
     for wrong in ["0", "-1", "NaN"] {
         let minutes = format!("--minutes={wrong}");
@@ -222,14 +222,14 @@ fn minutes_of_self_play_may_be_a_fraction() {
 }
 
 #[test]
-fn an_exercise_may_be_called_by_its_title_or_the_beginning_of_it() {
-    let list = said(&["drill", "list", "--json"]);
+fn an_exercise_is_found_by_its_title_or_a_prefix() {
+    let list = stdout(&["drill", "list", "--json"]);
     let exercises: Vec<Value> = list.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     let text = |exercise: &Value, key: &str| exercise[key].as_str().unwrap().to_owned();
     let (name, title) = (text(&exercises[3], "name"), text(&exercises[3], "title"));
-    let by_name = said(&["drill", "show", &name]);
+    let by_name = stdout(&["drill", "show", &name]);
     for called in [name.to_uppercase(), title.clone(), title.to_lowercase()] {
-        assert_eq!(said(&["drill", "show", &called]), by_name, "{called}");
+        assert_eq!(stdout(&["drill", "show", &called]), by_name, "{called}");
     }
     let refused = refusal(&["drill", "show", "a"]);
     assert!(refused.contains("\"a\"") && refused.contains(" and ") && refused.lines().count() == 1, "{refused}");

@@ -5,7 +5,7 @@ use std::path::Path;
 use assert_cmd::Command;
 use serde_json::Value;
 
-use crate::program::asked as carom;
+use crate::program::carom_command as carom;
 
 fn json(args: &[&str]) -> Value {
     let output = carom(args).assert().success().get_output().stdout.clone();
@@ -27,7 +27,7 @@ const LAYOUT: &str = "-0.5,0 0,0 0.5,0.03";
 const SHOT: &str = "0,0.3,0,1,4";
 
 #[test]
-fn simulate_tells_the_events_to_people_and_to_programs() {
+fn simulate_prints_events_as_text_and_json() {
     let text = carom(&["simulate", "--layout", LAYOUT, "--shot", SHOT]).assert().success();
     let text = String::from_utf8_lossy(&text.get_output().stdout).into_owned();
     assert!(text.contains("impulse: V0 = (4.9") && text.contains("ball-ball") && text.contains("all still after"));
@@ -39,14 +39,14 @@ fn simulate_tells_the_events_to_people_and_to_programs() {
 }
 
 #[test]
-fn layouts_may_be_written_in_diamonds() {
+fn layouts_may_be_given_in_diamonds() {
     let metres = json(&["simulate", "--layout", "-0.71,0 0.71,0 -0.71,0.355", "--shot", SHOT, "--json"]);
     let diamonds = json(&["simulate", "--layout", "2d,2d 6d,2d 2d,3d", "--shot", SHOT, "--json"]);
     assert_eq!(metres["events"], diamonds["events"]);
 }
 
 #[test]
-fn a_batch_answers_every_line_in_order_and_goes_on_after_a_bad_one() {
+fn a_batch_answers_every_line_and_continues_after_errors() {
     let shots = include_str!("../data/shots.jsonl");
     let mut input: Vec<&str> = shots.lines().take(3).collect();
     input.insert(1, r#"{"preset": "match", "layout": [[0,0],[0,0.01],[1,0]], "cue": {"a":0,"b":0,"theta_deg":0,"phi_deg":0,"speed":1}}"#);
@@ -64,7 +64,7 @@ fn a_batch_answers_every_line_in_order_and_goes_on_after_a_bad_one() {
 }
 
 #[test]
-fn recommend_gives_a_shot_that_simulates_to_a_point() {
+fn the_recommended_shot_makes_the_point_when_simulated() {
     let answer = json(&["recommend", "--layout", LAYOUT, "--json"]);
     assert_eq!(answer["solved"], true);
     let cue = &answer["cue"];
@@ -84,7 +84,7 @@ fn recommend_gives_a_shot_that_simulates_to_a_point() {
 }
 
 #[test]
-fn a_recommendation_is_told_as_a_player_says_it() {
+fn a_recommendation_is_described_in_players_words() {
     let args =
         [&["recommend", "--layout", LAYOUT, "--skill", "club", "--margins"][..], &["--simulations", "4000"]].concat();
     let answer = json(&[&args[..], &["--json"]].concat());
@@ -100,34 +100,34 @@ fn a_recommendation_is_told_as_a_player_says_it() {
     let text = |settings: &str| {
         std::fs::create_dir_all(home.path().join("carom")).unwrap();
         std::fs::write(home.path().join("carom/config.toml"), settings).unwrap();
-        let told = carom(&args).env("XDG_CONFIG_HOME", home.path()).env("HOME", home.path()).output().unwrap();
-        String::from_utf8(told.stdout).unwrap()
+        let printed = carom(&args).env("XDG_CONFIG_HOME", home.path()).env("HOME", home.path()).output().unwrap();
+        String::from_utf8(printed.stdout).unwrap()
     };
-    let told = text("");
-    assert_eq!(told.lines().next(), Some(sentence), "{told}");
-    assert!(told.contains("\nPattern: ") && told.contains("\nWhy: "), "{told}");
+    let printed = text("");
+    assert_eq!(printed.lines().next(), Some(sentence), "{printed}");
+    assert!(printed.contains("\nPattern: ") && printed.contains("\nWhy: "), "{printed}");
     assert!(
-        told.contains("\nFor a player of skill \"club\" under the rule straight; --skill and --rule choose"),
-        "{told}"
+        printed.contains("\nFor a player of skill \"club\" under the rule straight; --skill and --rule choose"),
+        "{printed}"
     );
-    let others: Vec<&str> = told.lines().filter(|line| line.starts_with("or ")).collect();
+    let others: Vec<&str> = printed.lines().filter(|line| line.starts_with("or ")).collect();
     assert!(
         !others.is_empty() && others.iter().all(|line| line.contains("; first ") || line.contains("; cushion first"))
     );
-    assert!(others.iter().all(|line| line.contains(" % of the time (")), "{told}");
-    let told = text("tip_unit = \"mm\"\nplace_unit = \"mm\"\n");
-    assert!(told.lines().nth(2).unwrap().contains(" mm on the "), "{told}");
-    let told = text("length_unit = \"feet\"\n");
-    assert!(told.contains(" more, ft/s") && told.contains(" more, in\n"), "{told}");
-    let mut sorts = told.lines().filter(|line| line.starts_with("or ") || line.starts_with("a point "));
-    assert!(sorts.all(|line| line.contains("8.2 ft/s") && !line.contains("m/s")), "{told}");
+    assert!(others.iter().all(|line| line.contains(" % of the time (")), "{printed}");
+    let printed = text("tip_unit = \"mm\"\nplace_unit = \"mm\"\n");
+    assert!(printed.lines().nth(2).unwrap().contains(" mm on the "), "{printed}");
+    let printed = text("length_unit = \"feet\"\n");
+    assert!(printed.contains(" more, ft/s") && printed.contains(" more, in\n"), "{printed}");
+    let mut sorts = printed.lines().filter(|line| line.starts_with("or ") || line.starts_with("a point "));
+    assert!(sorts.all(|line| line.contains("8.2 ft/s") && !line.contains("m/s")), "{printed}");
     let speed = answer["cue"]["speed"].as_f64().unwrap();
     let row = format!("V      {:>8.3} ft/s ({speed:.3} m/s where a shot is typed)", speed / 0.3048);
-    assert!(told.contains(&row) && told.contains(") ft/s, w0 = "), "{told}");
+    assert!(printed.contains(&row) && printed.contains(") ft/s, w0 = "), "{printed}");
 }
 
 #[test]
-fn where_balls_roll_is_listed_where_it_is_asked_for() {
+fn transitions_to_rolling_are_listed_on_request() {
     let text = |more: &[&str]| {
         let args = [&["simulate", "--layout", LAYOUT, "--shot", SHOT], more].concat();
         String::from_utf8(carom(&args).output().unwrap().stdout).unwrap()
@@ -136,7 +136,7 @@ fn where_balls_roll_is_listed_where_it_is_asked_for() {
 }
 
 #[test]
-fn a_recommendation_says_how_sure_it_is_how_far_off_one_may_be_and_what_else_there_is() {
+fn a_recommendation_has_interval_margins_maps_and_alternatives() {
     let own = "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1";
     let time = ["--budget-ms", "5000", "--simulations", "20000"];
     let args =
@@ -151,8 +151,8 @@ fn a_recommendation_says_how_sure_it_is_how_far_off_one_may_be_and_what_else_the
     assert_eq!(answer["margins"].as_array().unwrap().len(), 5);
     assert_eq!(answer["maps"][0]["outcomes"][20][20], "point", "the shot is in the middle");
     assert!(answer["aim"]["hit"]["fullness"].is_number());
-    let (code, said) = refusal(&mut carom(&["recommend", "--skill", "a=0.7,b=0.7,theta=0.2,phi=-1,V=0.1"]));
-    assert!(code == 2 && said.contains("phi = -1") && said.contains("0 to 45 degrees"), "{said}");
+    let (code, message) = refusal(&mut carom(&["recommend", "--skill", "a=0.7,b=0.7,theta=0.2,phi=-1,V=0.1"]));
+    assert!(code == 2 && message.contains("phi = -1") && message.contains("0 to 45 degrees"), "{message}");
 }
 
 #[test]
@@ -169,13 +169,13 @@ fn self_play_counts_points_and_misses() {
 }
 
 #[test]
-fn the_networks_alone_answer_without_a_simulation() {
+fn policy_only_recommends_without_simulations() {
     let answer = json(&["recommend", "--policy-only", "--json"]);
     assert_eq!((&answer["source"], &answer["simulations"]), (&"policy".into(), &0.into()));
 }
 
 #[test]
-fn networks_that_never_saw_anybody_err_say_nothing_of_players_who_do() {
+fn make_probability_is_omitted_for_networks_trained_without_errors() {
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
     let is_told = |model: &str, skill| {
         let policy = models.join(model).with_extension("safetensors");
@@ -187,7 +187,7 @@ fn networks_that_never_saw_anybody_err_say_nothing_of_players_who_do() {
 }
 
 #[test]
-fn a_batch_of_layouts_takes_rules_and_tables_line_by_line() {
+fn each_recommend_batch_line_has_its_own_rule_and_table() {
     let input = r#"{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"rule":"3c"}
 {"preset":"thesis","layout":[[-0.5,0],[0,0],[0.5,0.03]]}
 {"preset":"snooker","layout":[[-0.5,0],[0,0],[0.5,0.03]]}
@@ -205,7 +205,7 @@ fn a_batch_of_layouts_takes_rules_and_tables_line_by_line() {
 }
 
 #[test]
-fn where_the_time_runs_out_the_best_attempt_is_shown_and_said_to_be_one() {
+fn at_timeout_the_best_attempt_is_reported_as_such() {
     // The balls are in three corners and there is time for one batch of simulated shots at most, which finds no three-cushion shot.
     let layout = "-1.38,-0.67 1.38,0.67 1.38,-0.67";
     let args = ["recommend", "--table", "thesis", "--layout", "-1.2,-0.6 1.2,0.6 1.2,-0.6", "--rule", "three-cushion"];
@@ -219,24 +219,27 @@ fn where_the_time_runs_out_the_best_attempt_is_shown_and_said_to_be_one() {
 }
 
 #[test]
-fn a_wish_that_no_attempt_keeps_is_said_to_be_broken_and_a_miss_has_no_pattern() {
-    let asked = |seed: &str| {
+fn an_unmet_first_contact_wish_is_reported() {
+    let recommend = |seed: &str| {
         let args = ["recommend", "--first", "cushion", "--simulations", "100", "--seed", seed];
         let output = carom(&args).output().unwrap();
         assert_eq!(output.status.code(), Some(1));
-        let told = String::from_utf8(output.stdout).unwrap();
-        assert!(!told.contains("Pattern: "), "{told}");
-        (told.starts_with("Bottom long rail first"), String::from_utf8(output.stderr).unwrap())
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(!text.contains("Pattern: "), "{text}");
+        (text.starts_with("Bottom long rail first"), String::from_utf8(output.stderr).unwrap())
     };
-    let (keeps_wish, said) = asked("0");
-    assert!(!keeps_wish && said.contains("with cushion first in "), "{said}");
-    assert!(said.contains("; no such attempt either; this is a plain stroke, a larger --simulations may do"), "{said}");
-    let (keeps_wish, said) = asked("4");
-    assert!(keeps_wish && said.contains("; this is the best attempt"), "{said}");
+    let (keeps_wish, message) = recommend("0");
+    assert!(!keeps_wish && message.contains("with cushion first in "), "{message}");
+    assert!(
+        message.contains("; no such attempt either; this is a plain stroke, a larger --simulations may do"),
+        "{message}"
+    );
+    let (keeps_wish, message) = recommend("4");
+    assert!(keeps_wish && message.contains("; this is the best attempt"), "{message}");
 }
 
 #[test]
-fn bad_input_gets_one_sentence_that_names_it_and_exit_code_two() {
+fn invalid_input_gets_one_sentence_and_exit_code_two() {
     let folder = tempfile::tempdir().unwrap();
     let cellar = folder.path().join("cellar.toml");
     let table = include_str!("../../src/table/thesis.toml").replace("name = \"thesis\"", "name = \"cellar\"");
@@ -254,16 +257,16 @@ fn bad_input_gets_one_sentence_that_names_it_and_exit_code_two() {
         (&["recommend", "--table", cellar, "--policy-only"], &["cellar", "--policy"]),
     ];
     for (args, words) in cases {
-        let (code, said) = refusal(&mut carom(args));
-        assert_eq!((code, said.lines().count()), (2, 1), "{args:?}: {said}");
+        let (code, message) = refusal(&mut carom(args));
+        assert_eq!((code, message.lines().count()), (2, 1), "{args:?}: {message}");
         for word in words {
-            assert!(said.contains(word), "{args:?} says {said}");
+            assert!(message.contains(word), "{args:?} says {message}");
         }
     }
 }
 
 #[test]
-fn a_negative_number_is_refused_by_the_range_and_not_as_an_option() {
+fn negative_numbers_are_refused_by_range_not_as_options() {
     for (args, words) in [
         (&["recommend", "--budget-ms", "-5"][..], &["from 0 to 3600000", "--budget-ms"][..]),
         (&["recommend", "--seed", "-1"], &["from 0 to 18446744073709551615", "--seed"]),
@@ -272,21 +275,24 @@ fn a_negative_number_is_refused_by_the_range_and_not_as_an_option() {
         (&["bench", "--seconds", "-1"], &["-1"]),
         (&["evaluate", "--layouts", "-2"], &["from 1 to 10000000", "--layouts"]),
     ] {
-        let (code, said) = refusal(&mut carom(args));
-        assert_eq!(code, 2, "{args:?}: {said}");
-        assert!(words.iter().all(|word| said.contains(word)) && !said.contains("unexpected"), "{args:?}: {said}");
+        let (code, message) = refusal(&mut carom(args));
+        assert_eq!(code, 2, "{args:?}: {message}");
+        assert!(
+            words.iter().all(|word| message.contains(word)) && !message.contains("unexpected"),
+            "{args:?}: {message}"
+        );
     }
 }
 
 #[test]
-fn without_a_terminal_one_sentence_names_the_command_line() {
-    let (code, said) = refusal(&mut carom(&[]));
+fn without_a_terminal_the_message_names_a_command() {
+    let (code, message) = refusal(&mut carom(&[]));
     assert_eq!(code, 2);
-    assert!(said.contains("carom recommend"), "{said}");
+    assert!(message.contains("carom recommend"), "{message}");
 }
 
 #[test]
-fn a_table_of_ones_own_is_read_from_toml() {
+fn a_users_table_is_read_from_toml() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("club.toml");
     let text = include_str!("../../src/table/match.toml").replace("\"match\"", "\"club\"");
@@ -295,8 +301,8 @@ fn a_table_of_ones_own_is_read_from_toml() {
     let own = json(&["simulate", "--table", table, "--layout", LAYOUT, "--shot", SHOT, "--json"]);
     assert_eq!(own, json(&["simulate", "--layout", LAYOUT, "--shot", SHOT, "--json"]));
     std::fs::write(&path, text.replace("mu_s = 0.2", "mu_s = -1")).unwrap();
-    let (code, said) = refusal(&mut carom(&["simulate", "--table", table, "--shot", SHOT]));
-    assert!(code == 2 && said.contains("mu_s = -1"), "{said}");
+    let (code, message) = refusal(&mut carom(&["simulate", "--table", table, "--shot", SHOT]));
+    assert!(code == 2 && message.contains("mu_s = -1"), "{message}");
 }
 
 #[test]
@@ -307,31 +313,31 @@ fn the_recommender_finds_a_point_on_all_of_two_thousand_layouts() {
 
 #[test]
 fn a_table_before_the_subcommand_is_not_silently_ignored() {
-    let (code, said) = refusal(&mut carom(&["--table", "thesis", "recommend"]));
-    assert!(code == 2 && said.contains("--table"), "{said}");
+    let (code, message) = refusal(&mut carom(&["--table", "thesis", "recommend"]));
+    assert!(code == 2 && message.contains("--table"), "{message}");
 }
 
 #[test]
-fn a_batch_line_is_named_by_its_place_in_the_file() {
+fn batch_errors_name_the_line_number_in_the_file() {
     let output =
         carom(&["simulate", "--batch", "-"]).write_stdin(b"\n\n{\"preset\": 3}\n\xff\n".to_vec()).assert().code(2);
     let answers = lines(&output.get_output().stdout);
-    let said = |index: usize| answers[index]["error"].as_str().unwrap().to_owned();
-    assert!(said(0).contains("line 3") && !said(0).contains("line 1"), "{}", said(0));
-    assert!(said(1).contains("line 4"), "{}", said(1));
+    let error = |index: usize| answers[index]["error"].as_str().unwrap().to_owned();
+    assert!(error(0).contains("line 3") && !error(0).contains("line 1"), "{}", error(0));
+    assert!(error(1).contains("line 4"), "{}", error(1));
 }
 
 #[test]
-fn a_table_that_only_has_the_name_of_a_bundled_one_gets_no_bundled_policy() {
+fn a_modified_table_with_a_bundled_name_has_no_policy() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("match.toml");
     std::fs::write(&path, include_str!("../../src/table/match.toml").replace("L = 2.84", "L = 4.0")).unwrap();
-    let (code, said) = refusal(&mut carom(&["recommend", "--policy-only", "--table", path.to_str().unwrap()]));
-    assert!(code == 2 && said.contains("no policy is bundled"), "{said}");
+    let (code, message) = refusal(&mut carom(&["recommend", "--policy-only", "--table", path.to_str().unwrap()]));
+    assert!(code == 2 && message.contains("no policy is bundled"), "{message}");
 }
 
 #[test]
-fn a_recommendation_counts_on_the_diamonds_where_a_system_describes_it() {
+fn a_recommendation_includes_the_matching_diamond_system() {
     // Two balls are in the path of a bank from the corner: 50 - 30 = 20.
     let layout = "0.84,-0.32 -0.27,-0.55 -0.18,-0.63";
     let args = ["recommend", "--rule", "three-cushion", "--budget-ms", "60000", "--simulations", "20000"];
@@ -365,7 +371,7 @@ fn flying_table(folder: &std::path::Path) -> String {
 }
 
 #[test]
-fn simulate_tells_how_high_and_far_a_jump_is_and_who_left_the_table() {
+fn simulate_reports_jumps_and_balls_off_the_table() {
     let folder = tempfile::tempdir().unwrap();
     let table = flying_table(folder.path());
     let jump = ["simulate", "--table", &table, "--layout", "-0.5,0 -0.2,0.3 0.9,0.5", "--shot", "0,0,45,0,3"];
@@ -388,7 +394,7 @@ fn simulate_tells_how_high_and_far_a_jump_is_and_who_left_the_table() {
 }
 
 #[test]
-fn a_batch_takes_upward_velocities_where_balls_may_fly_and_says_elsewhere_which_section_lets_them() {
+fn upward_velocities_need_a_table_with_a_flight_section() {
     let folder = tempfile::tempdir().unwrap();
     let table = flying_table(folder.path());
     let line = |table: &str, up: f64| {
@@ -407,7 +413,7 @@ fn a_batch_takes_upward_velocities_where_balls_may_fly_and_says_elsewhere_which_
 }
 
 #[test]
-fn a_stroke_at_which_the_tip_slips_off_is_played_and_called_a_miscue() {
+fn a_stroke_beyond_the_miscue_limit_is_reported() {
     let miscue = |shot: &str| json(&["simulate", "--layout", LAYOUT, "--shot", shot, "--json"])["miscue"].clone();
     assert_eq!((miscue("0.6,0,0,0,3"), miscue(SHOT)), (Value::Bool(true), Value::Null));
     let line = format!(

@@ -4,7 +4,7 @@ use std::{fs, path::PathBuf};
 
 use serde_json::Value;
 
-use crate::program::asked as carom;
+use crate::program::carom_command as carom;
 
 const TABLE: &str = "name = \"railed\"\nL = 2.84\nl = 1.42\nR = 0.03075\nm = 0.21\nM = 0.54\nmu_s = 0.2\nmu_r = 0.01\n\
                      mu_sp = 0.0124\ne_ball = 0.95\nmu_b = 0.06\ne_rail = 0.85\nmu_rail = 0.2\ng = 9.81\n\
@@ -21,7 +21,7 @@ fn table(name: &str, end: &str) -> PathBuf {
 }
 
 #[test]
-fn a_stroke_through_the_rail_is_noted_and_computed_all_the_same() {
+fn a_stroke_through_the_rail_is_simulated_with_a_note() {
     let path = table("railed", "[room]\n");
     let path = path.to_str().unwrap();
     let simulate = |shot: &str, more: &[&str]| {
@@ -47,7 +47,7 @@ fn a_stroke_through_the_rail_is_noted_and_computed_all_the_same() {
 }
 
 #[test]
-fn a_table_without_limits_says_nothing_of_room() {
+fn a_table_without_a_room_section_omits_cue_room() {
     let path = table("free", "");
     let args = ["simulate", "--table", path.to_str().unwrap(), "--layout", FROZEN, "--shot", "0,0.1,0,90,2", "--json"];
     let output = carom(&args).assert().success().stderr("").get_output().stdout.clone();
@@ -55,7 +55,7 @@ fn a_table_without_limits_says_nothing_of_room() {
 }
 
 #[test]
-fn what_is_recommended_has_room_in_a_batch_too_and_wrong_sizes_are_named() {
+fn recommended_strokes_have_room_for_the_cue() {
     let path = table("batch", "[room]\n");
     let question = serde_json::json!({
         "preset": path, "layout": [[0.0, -0.67925], [-0.5, 0.3], [0.6, 0.1]], "rule": "straight"
@@ -80,6 +80,6 @@ fn what_is_recommended_has_room_in_a_batch_too_and_wrong_sizes_are_named() {
 
     let wrong = table("wrong", "[room]\nnose = 0.5\n");
     let refused = carom(&["table", "check", wrong.to_str().unwrap()]).assert().code(2).get_output().clone();
-    let said = [refused.stdout, refused.stderr].concat();
-    assert!(String::from_utf8_lossy(&said).contains("room.nose = 0.5"), "{}", String::from_utf8_lossy(&said));
+    let printed = [refused.stdout, refused.stderr].concat();
+    assert!(String::from_utf8_lossy(&printed).contains("room.nose = 0.5"), "{}", String::from_utf8_lossy(&printed));
 }

@@ -2,23 +2,23 @@
 
 use std::fs;
 
-use crate::program::{asked, carom};
+use crate::program::{carom, carom_command};
 
 #[test]
-fn the_version_names_the_commit_or_says_that_it_is_not_known() {
-    let output = asked(&["--version"]).assert().success().get_output().stdout.clone();
-    let said = String::from_utf8(output).unwrap();
-    assert!(said.starts_with(&format!("carom {} (commit ", env!("CARGO_PKG_VERSION"))), "{said}");
-    assert!(said.contains(&format!(", {}-", std::env::consts::ARCH)) && said.trim_end().ends_with(')'), "{said}");
+fn the_version_contains_the_commit_and_architecture() {
+    let output = carom_command(&["--version"]).assert().success().get_output().stdout.clone();
+    let text = String::from_utf8(output).unwrap();
+    assert!(text.starts_with(&format!("carom {} (commit ", env!("CARGO_PKG_VERSION"))), "{text}");
+    assert!(text.contains(&format!(", {}-", std::env::consts::ARCH)) && text.trim_end().ends_with(')'), "{text}");
 }
 
 #[test]
-fn a_new_user_has_nothing_wrong_and_nothing_is_made() {
+fn doctor_finds_no_problem_for_new_users_and_creates_nothing() {
     let home = tempfile::tempdir().unwrap();
-    let said = carom(home.path(), &["doctor", "--json"]);
-    assert_eq!(said.code, Some(0), "{}{}", said.out, said.err);
-    let report = &said.json()[0];
-    assert_eq!(said.json().len(), 1);
+    let output = carom(home.path(), &["doctor", "--json"]);
+    assert_eq!(output.code, Some(0), "{}{}", output.out, output.err);
+    let report = &output.json()[0];
+    assert_eq!(output.json().len(), 1);
     assert_eq!(report["problems"].as_array().unwrap().len(), 0);
     assert_eq!(report["program"]["version"], env!("CARGO_PKG_VERSION"));
     let test = &report["self_test"];
@@ -36,19 +36,19 @@ fn a_new_user_has_nothing_wrong_and_nothing_is_made() {
 /// Regression test: only half of the JSON object was written, and the error blamed the output.
 #[cfg(unix)]
 #[test]
-fn folders_whose_names_are_no_text_are_told_as_far_as_they_can_be() {
+fn folder_names_that_are_not_utf8_are_printed_lossily() {
     use std::os::unix::ffi::OsStrExt;
     let folder = tempfile::tempdir().unwrap();
     let home = folder.path().join(std::ffi::OsStr::from_bytes(b"z\xff"));
     fs::create_dir_all(&home).unwrap();
-    let said = carom(&home, &["doctor", "--json"]);
-    assert_eq!(said.code, Some(0), "{}{}", said.out, said.err);
-    let path = said.json()[0]["places"][1]["path"].as_str().unwrap().to_owned();
+    let output = carom(&home, &["doctor", "--json"]);
+    assert_eq!(output.code, Some(0), "{}{}", output.out, output.err);
+    let path = output.json()[0]["places"][1]["path"].as_str().unwrap().to_owned();
     assert!(path.contains("z\u{fffd}"), "{path}");
 }
 
 #[test]
-fn what_is_wrong_is_named_and_the_exit_code_says_so() {
+fn doctor_names_every_problem_and_exits_with_one() {
     let home = tempfile::tempdir().unwrap();
     let put = |path: &str, text: &str| {
         let path = home.path().join(path);
@@ -63,37 +63,37 @@ fn what_is_wrong_is_named_and_the_exit_code_says_so() {
     put("carom/positions/broken.json", "{");
     put("carom/player.json", "{");
     put("state", "a file in the way");
-    let said = carom(home.path(), &["doctor"]);
-    assert_eq!(said.code, Some(1), "{}", said.out);
-    assert!(said.err.contains("things are wrong"), "{}", said.err);
-    let wrong: Vec<&str> = said.out.lines().filter_map(|line| line.strip_prefix("wrong: ")).collect();
+    let output = carom(home.path(), &["doctor"]);
+    assert_eq!(output.code, Some(1), "{}", output.out);
+    assert!(output.err.contains("things are wrong"), "{}", output.err);
+    let wrong: Vec<&str> = output.out.lines().filter_map(|line| line.strip_prefix("wrong: ")).collect();
     for part in ["speed = 80", "bad.toml", "long.toml", "sessions/broken", "positions/broken", "player.json", "state"] {
         assert!(wrong.iter().any(|line| line.contains(part)), "{part}: {wrong:#?}");
     }
-    assert!(said.out.contains("2000 shots, hash") && said.out.contains("as on other machines"), "{}", said.out);
+    assert!(output.out.contains("2000 shots, hash") && output.out.contains("as on other machines"), "{}", output.out);
 }
 
 #[test]
-fn strokes_of_a_calibration_and_a_last_session_that_cannot_be_read_are_named() {
+fn doctor_names_unreadable_calibration_and_session_files() {
     let home = tempfile::tempdir().unwrap();
     for file in ["carom/calibration.toml", "carom/calibration-daily.toml", "state/carom/last.json"] {
         let path = home.path().join(file);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         fs::write(path, "{").unwrap();
-        let said = carom(home.path(), &["doctor"]);
-        assert_eq!(said.code, Some(1), "{file}: {}", said.out);
+        let output = carom(home.path(), &["doctor"]);
+        assert_eq!(output.code, Some(1), "{file}: {}", output.out);
         assert!(
-            said.out.lines().any(|line| line.starts_with("wrong: ") && line.contains(file)),
+            output.out.lines().any(|line| line.starts_with("wrong: ") && line.contains(file)),
             "{file}: {}",
-            said.out
+            output.out
         );
     }
 }
 
 #[test]
-fn nobodys_control_characters_reach_the_terminal() {
+fn doctor_escapes_control_characters_of_environment_variables() {
     let home = tempfile::tempdir().unwrap();
     let mut command = crate::program::command(home.path(), &["doctor"]);
-    let said = crate::program::outcome(command.env("LANG", "\u{1b}]0;title\u{7}").spawn().unwrap());
-    assert!(!said.out.contains('\u{1b}') && said.out.contains("\\u{1b}"), "{}", said.out);
+    let output = crate::program::outcome(command.env("LANG", "\u{1b}]0;title\u{7}").spawn().unwrap());
+    assert!(!output.out.contains('\u{1b}') && output.out.contains("\\u{1b}"), "{}", output.out);
 }

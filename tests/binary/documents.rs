@@ -15,50 +15,50 @@ use ratatui::{
     style::{Color, Style},
 };
 
-use crate::program::asked as carom;
+use crate::program::carom_command as carom;
 
-fn text(args: &[&str]) -> String {
+fn stdout(args: &[&str]) -> String {
     String::from_utf8(carom(args).assert().success().get_output().stdout.clone()).unwrap()
 }
 
-fn said(args: &[&str], code: i32) -> String {
+fn stderr(args: &[&str], code: i32) -> String {
     String::from_utf8(carom(args).assert().code(code).get_output().stderr.clone()).unwrap()
 }
 
 #[test]
-fn a_table_that_is_shown_can_be_changed_checked_and_played_on() {
-    assert_eq!(text(&["table"]), text(&["table", "list"]));
-    assert_eq!(text(&["table", "list", "--json"]).lines().count(), 3);
+fn the_output_of_table_show_is_a_valid_table_file() {
+    assert_eq!(stdout(&["table"]), stdout(&["table", "list"]));
+    assert_eq!(stdout(&["table", "list", "--json"]).lines().count(), 3);
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("mine.toml");
     let file = file.to_str().unwrap();
-    let shown = text(&["table", "show", "match"]);
+    let shown = stdout(&["table", "show", "match"]);
     std::fs::write(file, shown.replace("name = \"match\"", "name = \"mine\"")).unwrap();
-    assert!(text(&["table", "check", file]).contains("mine: 2.84 x 1.42 m"));
-    assert!(text(&["simulate", "--table", file, "--shot", "0,0,0,0,2"]).contains("all still after"));
+    assert!(stdout(&["table", "check", file]).contains("mine: 2.84 x 1.42 m"));
+    assert!(stdout(&["simulate", "--table", file, "--shot", "0,0,0,0,2"]).contains("all still after"));
 }
 
 #[test]
-fn what_is_wrong_with_a_table_is_said() {
+fn table_check_names_the_invalid_value() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("bad.toml");
     let name = file.to_str().unwrap();
-    assert!(said(&["table", "check", name], 1).contains("bad.toml"));
-    std::fs::write(&file, text(&["table", "show", "textbook"]).replace("e_rail = 0.85", "e_rail = 1.5")).unwrap();
-    let message = said(&["table", "check", name], 2);
+    assert!(stderr(&["table", "check", name], 1).contains("bad.toml"));
+    std::fs::write(&file, stdout(&["table", "show", "textbook"]).replace("e_rail = 0.85", "e_rail = 1.5")).unwrap();
+    let message = stderr(&["table", "check", name], 2);
     assert!(
         message.contains("e_rail = 1.5") && message.contains("0 to 1") && message.contains("bad.toml"),
         "{message}"
     );
-    assert!(said(&["table", "show", "snooker"], 1).contains("snooker"));
+    assert!(stderr(&["table", "show", "snooker"], 1).contains("snooker"));
 }
 
 #[test]
-fn a_table_of_ones_own_is_listed_and_found_by_its_name() {
+fn a_users_table_is_listed_and_found_by_name() {
     let home = tempfile::tempdir().unwrap();
     let tables = home.path().join("carom/tables");
     std::fs::create_dir_all(&tables).unwrap();
-    let shown = text(&["table", "show", "match"]);
+    let shown = stdout(&["table", "show", "match"]);
     std::fs::write(tables.join("mine.toml"), &shown).unwrap();
     std::fs::write(tables.join("bad.toml"), "L = 0").unwrap();
     let at_home = |args: &[&str]| {
@@ -67,28 +67,30 @@ fn a_table_of_ones_own_is_listed_and_found_by_its_name() {
         let done = command.assert().success();
         [&done.get_output().stdout, &done.get_output().stderr].map(|bytes| String::from_utf8(bytes.clone()).unwrap())
     };
-    let [listed, told] = at_home(&["table", "list"]);
+    let [listed, notes] = at_home(&["table", "list"]);
     assert!(listed.contains("mine: 2.84 x 1.42 m") && listed.lines().count() == 4, "{listed}");
-    assert!(told.starts_with("note: ") && told.contains("bad.toml"), "{told}");
+    assert!(notes.starts_with("note: ") && notes.contains("bad.toml"), "{notes}");
     at_home(&["simulate", "--table", "mine", "--shot", "0,0,0,0,2"]);
-    assert!(said(&["simulate", "--table", "yours", "--shot", "0,0,0,0,2"], 1).contains("one of your own by its name"));
+    assert!(
+        stderr(&["simulate", "--table", "yours", "--shot", "0,0,0,0,2"], 1).contains("one of your own by its name")
+    );
 }
 
 #[test]
-fn every_shell_has_its_completions() {
+fn every_shell_has_completions() {
     for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
-        let script = text(&["completions", shell]);
+        let script = stdout(&["completions", shell]);
         assert!(script.contains("recommend") && script.contains("budget-ms"), "{shell}");
     }
-    assert!(said(&["completions", "tcsh"], 2).contains("bash"));
+    assert!(stderr(&["completions", "tcsh"], 2).contains("bash"));
 }
 
 #[test]
 fn there_is_a_manual_page_for_the_program_and_every_subcommand() {
-    assert!(text(&["man"]).contains("carom\\-recommend(1)"), "{}", text(&["man"]));
-    assert!(text(&["man", "recommend"]).contains("budget\\-ms"));
-    assert!(text(&["man", "table", "check"]).contains("TOML"));
-    let message = said(&["man", "snooker"], 2);
+    assert!(stdout(&["man"]).contains("carom\\-recommend(1)"), "{}", stdout(&["man"]));
+    assert!(stdout(&["man", "recommend"]).contains("budget\\-ms"));
+    assert!(stdout(&["man", "table", "check"]).contains("TOML"));
+    let message = stderr(&["man", "snooker"], 2);
     assert!(message.contains("snooker") && message.contains("recommend"), "{message}");
 }
 
@@ -98,7 +100,7 @@ fn packages_get_a_manual_page_for_every_subcommand_and_the_completions() {
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/.github/scripts/documents.sh");
     let (program, out) = (assert_cmd::cargo::cargo_bin!("carom"), folder.path().join("documents"));
     assert!(std::process::Command::new("bash").arg(script).arg(program).arg(&out).status().unwrap().success());
-    let help = text(&["--help"]);
+    let help = stdout(&["--help"]);
     let pages = subcommands(&help).into_iter().map(|(name, _)| format!("man/carom-{name}.1"));
     let others = ["man/carom.1", "completions/carom.bash", "completions/_carom", "completions/carom.fish"];
     for file in pages.chain(others.map(str::to_owned)) {
@@ -108,7 +110,7 @@ fn packages_get_a_manual_page_for_every_subcommand_and_the_completions() {
 }
 
 #[test]
-fn the_settings_that_are_shown_are_a_file_that_can_be_used_and_mistakes_are_named() {
+fn the_output_of_config_is_a_valid_settings_file() {
     let home = tempfile::tempdir().unwrap();
     let config = |args: &[&str]| {
         let mut command = carom(args);
@@ -125,14 +127,14 @@ fn the_settings_that_are_shown_are_a_file_that_can_be_used_and_mistakes_are_name
     assert_eq!(config(&["config"]).stdout, shown);
     std::fs::write(path, "theme = \"light\"\nspeed = 80\n").unwrap();
     let checked = config(&["config", "--check"]);
-    let said = String::from_utf8(checked.stderr).unwrap();
+    let message = String::from_utf8(checked.stderr).unwrap();
     assert_eq!(checked.status.code(), Some(2));
-    assert!(said.contains("line 2: speed = 80; accepted is 0.1, 0.25"), "{said}");
+    assert!(message.contains("line 2: speed = 80; accepted is 0.1, 0.25"), "{message}");
     assert!(String::from_utf8(config(&["config"]).stdout).unwrap().contains("theme = \"light\""));
 }
 
 #[test]
-fn the_page_of_the_settings_has_the_table_that_the_program_prints() {
+fn the_settings_page_matches_the_output_of_config() {
     let home = tempfile::tempdir().unwrap();
     let mut command = carom(&["config"]);
     command.env("HOME", home.path()).env("XDG_CONFIG_HOME", home.path());
@@ -143,8 +145,8 @@ fn the_page_of_the_settings_has_the_table_that_the_program_prints() {
         if let Some(words) = line.strip_prefix("# ") {
             note.push(words);
         } else if let Some((key, _)) = line.split_once(" = ") {
-            let said = note.join(" ");
-            let (meaning, values) = said.split_once(" Accepted: ").unwrap();
+            let comment = note.join(" ");
+            let (meaning, values) = comment.split_once(" Accepted: ").unwrap();
             let (accepted, default) = values.trim_end_matches('.').split_once(". Default: ").unwrap();
             rows.push(format!("| `{key}` | {meaning} | {accepted} | `{default}` |"));
             note.clear();
@@ -182,9 +184,9 @@ fn options(words: &str) -> BTreeSet<&str> {
 }
 
 #[test]
-fn the_page_of_the_command_line_has_every_command_and_option_and_no_other() {
+fn the_command_line_page_lists_exactly_the_existing_options() {
     let page = include_str!("../../docs/command-line.md");
-    let help = text(&["--help"]);
+    let help = stdout(&["--help"]);
     let commands = subcommands(&help);
     let rows: Vec<String> = commands.iter().map(|(name, about)| format!("| `carom {name}` | {about} |")).collect();
     let table = rows.join("\n") + "\n";
@@ -193,9 +195,9 @@ fn the_page_of_the_command_line_has_every_command_and_option_and_no_other() {
         let (_, section) =
             page.split_once(&format!("\n## carom {name}\n")).unwrap_or_else(|| panic!("{name} has no section"));
         let section = section.split("\n## ").next().unwrap();
-        let mut help = text(&["help", name]);
+        let mut help = stdout(&["help", name]);
         if name == "drill" {
-            let all: Vec<String> = subcommands(&help).iter().map(|(drill, _)| text(&["help", name, drill])).collect();
+            let all: Vec<String> = subcommands(&help).iter().map(|(drill, _)| stdout(&["help", name, drill])).collect();
             help = all.concat();
         }
         let names = |line: &str| {
@@ -209,7 +211,7 @@ fn the_page_of_the_command_line_has_every_command_and_option_and_no_other() {
 }
 
 #[test]
-fn the_page_of_the_command_line_names_every_top_level_field_of_an_answer() {
+fn the_command_line_page_names_every_json_field() {
     let home = tempfile::tempdir().unwrap();
     let page = include_str!("../../docs/command-line.md");
     for line in [
@@ -231,17 +233,17 @@ fn the_page_of_the_command_line_names_every_top_level_field_of_an_answer() {
             page.split_once(&format!("\n## carom {}\n", if name == "play" { "drill" } else { name })).unwrap().1;
         let section = section.split("\n## ").next().unwrap();
         let mut command = carom(&line.split(' ').chain(["--json"]).collect::<Vec<_>>());
-        let said =
+        let output =
             command.env("HOME", home.path()).env("XDG_DATA_HOME", home.path()).write_stdin("").assert().success();
-        let said = String::from_utf8(said.get_output().stdout.clone()).unwrap();
-        for answer in said.lines() {
+        let output = String::from_utf8(output.get_output().stdout.clone()).unwrap();
+        for answer in output.lines() {
             let answer: serde_json::Value = serde_json::from_str(answer).unwrap();
             for field in answer.as_object().unwrap().keys().filter(|field| name != "drill" || !is_of_an_exercise(field))
             {
                 assert!(section.contains(&format!("`{field}`")), "carom {line}: {field}");
             }
         }
-        assert!(!said.is_empty(), "carom {line}");
+        assert!(!output.is_empty(), "carom {line}");
     }
 }
 
@@ -251,7 +253,7 @@ fn is_of_an_exercise(field: &str) -> bool {
 }
 
 #[test]
-fn the_examples_of_the_pages_work() {
+fn the_examples_in_the_docs_work() {
     let pages = [
         include_str!("../../README.md"),
         include_str!("../../docs/practice.md"),
@@ -305,7 +307,7 @@ fn screen(rows: [&str; 2]) -> Buffer {
 }
 
 #[test]
-fn a_moving_picture_paints_what_changes_when_it_changes() {
+fn the_animation_repaints_only_changed_cells() {
     let frame = |rows, seconds| Frame { screen: screen(rows), seconds };
     let frames =
         [frame(["ab", "table"], 1.0), frame(["ab", "tab<e"], 0.5), frame(["ab", "tab<e"], 0.5), frame(["x", ""], 2.0)];
@@ -333,7 +335,7 @@ fn a_moving_picture_paints_what_changes_when_it_changes() {
 }
 
 #[test]
-fn the_moving_picture_of_the_readme_is_small_and_needs_no_script() {
+fn the_readme_animation_is_small_and_self_contained() {
     let picture = include_str!("../../docs/coach-moving.svg");
     check_elements(picture);
     assert!(picture.len() < 250_000, "{} bytes", picture.len());
@@ -349,7 +351,7 @@ fn the_moving_picture_of_the_readme_is_small_and_needs_no_script() {
 }
 
 #[test]
-fn the_still_pictures_are_whole_documents() {
+fn the_still_pictures_are_well_formed() {
     for picture in [
         include_str!("../../docs/coach.svg"),
         include_str!("../../docs/coach-80x24.svg"),

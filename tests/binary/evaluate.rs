@@ -4,7 +4,7 @@ use std::{fs, path::Path, time::Duration};
 
 use serde_json::Value;
 
-use crate::program::{asked, command, outcome};
+use crate::program::{carom_command, command, outcome};
 
 const WHOLE: &str = "evaluate --rule three-cushion --layouts 7 --simulations 800";
 
@@ -13,20 +13,21 @@ fn words(line: &str) -> Vec<&str> {
 }
 
 fn json(line: &str) -> Value {
-    let output = asked(&words(&format!("{line} --json"))).assert().success().get_output().stdout.clone();
+    let output = carom_command(&words(&format!("{line} --json"))).assert().success().get_output().stdout.clone();
     serde_json::from_slice(&output).unwrap()
 }
 
 /// Measures a part into a file and returns the path.
 fn part(folder: &Path, line: &str, shard: &str) -> String {
-    let output = asked(&words(&format!("{line} --shard {shard}"))).assert().success().get_output().stdout.clone();
+    let output =
+        carom_command(&words(&format!("{line} --shard {shard}"))).assert().success().get_output().stdout.clone();
     let path = folder.join(format!("{}.json", shard.replace('/', "-of-")));
     fs::write(&path, output).unwrap();
     path.display().to_string()
 }
 
 /// Removes the values that depend on the speed of the machine.
-fn timeless(mut report: Value) -> Value {
+fn without_timings(mut report: Value) -> Value {
     for name in ["layouts_per_second", "slowest_ms", "mean_ms"] {
         report.as_object_mut().unwrap().remove(name);
     }
@@ -34,7 +35,7 @@ fn timeless(mut report: Value) -> Value {
 }
 
 #[test]
-fn merged_parts_are_the_whole() {
+fn merged_parts_equal_a_single_evaluation() {
     let folder = tempfile::tempdir().unwrap();
     let kinds = [" --skill club", " --self-play --skill expert --most-points 2", " --random-search 20"];
     for kind in kinds {
@@ -45,12 +46,12 @@ fn merged_parts_are_the_whole() {
         // The order of the files does not matter.
         let parts = ["3/3", "1/3", "2/3"].map(|shard| part(folder.path(), &line, shard));
         let merged = json(&format!("evaluate --merge {}", parts.join(" ")));
-        assert_eq!(timeless(merged), timeless(json(&line)), "{kind}");
+        assert_eq!(without_timings(merged), without_timings(json(&line)), "{kind}");
     }
 }
 
 #[test]
-fn two_measurements_on_the_same_layouts_are_compared_layout_by_layout() {
+fn evaluations_on_the_same_layouts_are_compared_pairwise() {
     let [folder, other] = [(); 2].map(|()| tempfile::tempdir().unwrap());
     let line = "evaluate --policy-only --rule three-cushion --layouts 40 --skill club";
     let context = part(folder.path(), line, "1/1");
@@ -61,20 +62,20 @@ fn two_measurements_on_the_same_layouts_are_compared_layout_by_layout() {
     let chance = |policy: &str| json(&format!("{line}{policy}"))["robustness"]["make_probability"].as_f64().unwrap();
     let apart = chance("") - chance(" --policy match-three-cushion");
     assert!((compared["difference"].as_f64().unwrap() - apart).abs() < 1e-9, "{compared}");
-    let text = asked(&["evaluate", "--merge", &context, "--against", &flawless]).output().unwrap().stdout;
+    let text = carom_command(&["evaluate", "--merge", &context, "--against", &flawless]).output().unwrap().stdout;
     assert!(String::from_utf8(text).unwrap().starts_with("difference of make probability on the same 40 layouts: +"));
     let elsewhere = part(other.path(), &line.replace("40", "41"), "1/1");
-    let refused = asked(&["evaluate", "--merge", &context, "--against", &elsewhere]).output().unwrap();
-    let said = String::from_utf8(refused.stderr).unwrap();
+    let refused = carom_command(&["evaluate", "--merge", &context, "--against", &elsewhere]).output().unwrap();
+    let message = String::from_utf8(refused.stderr).unwrap();
     assert!(
-        refused.status.code() == Some(2) && said.contains("the same layouts are compared: layouts 40 and 41"),
-        "{said}"
+        refused.status.code() == Some(2) && message.contains("the same layouts are compared: layouts 40 and 41"),
+        "{message}"
     );
 }
 
 /// The name of a policy does not identify it: the networks behind it may have changed between two parts.
 #[test]
-fn parts_by_other_networks_or_another_version_are_not_put_together() {
+fn parts_of_different_networks_or_versions_are_not_merged() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
@@ -108,7 +109,7 @@ fn parts_by_other_networks_or_another_version_are_not_put_together() {
 }
 
 #[test]
-fn innings_that_were_not_begun_are_told() {
+fn innings_not_started_in_time_are_counted() {
     let folder = tempfile::tempdir().unwrap();
     let line = "evaluate --self-play --layouts 5 --simulations 1 --most-points 1";
     let short = format!("{line} --minutes 0.000000000001");
@@ -116,22 +117,22 @@ fn innings_that_were_not_begun_are_told() {
     for line in [short, format!("evaluate --merge {parts}")] {
         let report = json(&line);
         assert_eq!((&report["layouts"], &report["innings"]), (&5.into(), &0.into()), "{line}");
-        let text = asked(&words(&line)).assert().success().get_output().stdout.clone();
+        let text = carom_command(&words(&line)).assert().success().get_output().stdout.clone();
         let text = String::from_utf8(text).unwrap();
         assert!(text.contains("; on 5 of 5 layouts none was started, because the time was up)"), "{text}");
     }
-    let text = asked(&words(line)).assert().success().get_output().stdout.clone();
+    let text = carom_command(&words(line)).assert().success().get_output().stdout.clone();
     let text = String::from_utf8(text).unwrap();
     assert!(text.contains("in 5 innings (") && !text.contains("none was started"), "{text}");
 }
 
 #[test]
-fn the_bundled_networks_that_play_alone_are_named() {
+fn policy_only_evaluation_names_the_bundled_networks() {
     let line = "evaluate --policy-only --rule three-cushion --layouts 5";
     for (rest, networks) in [("", "match-three-cushion"), (" --skill club", "context-three-cushion")] {
         let report = json(&format!("{line}{rest}"));
         assert_eq!((&report["policy"], &report["networks"]), (&"bundled".into(), &networks.into()));
-        let text = asked(&words(&format!("{line}{rest}"))).assert().success().get_output().stdout.clone();
+        let text = carom_command(&words(&format!("{line}{rest}"))).assert().success().get_output().stdout.clone();
         let text = String::from_utf8(text).unwrap();
         assert!(text.starts_with(&format!("policy bundled ({networks}) on \"match\"")), "{text}");
     }
@@ -139,7 +140,7 @@ fn the_bundled_networks_that_play_alone_are_named() {
 }
 
 #[test]
-fn what_is_not_a_whole_is_refused_by_name() {
+fn merging_incomplete_or_mismatched_parts_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let line = "evaluate --layouts 4 --random-search 5";
     let [one, two] = ["1/3", "2/3"].map(|shard| part(folder.path(), line, shard));
@@ -157,7 +158,7 @@ fn what_is_not_a_whole_is_refused_by_name() {
     };
     let cut = file("cut.json", &fs::read_to_string(&one).unwrap()[..300]);
     let (empty, prose, other_json) = (file("empty", ""), file("prose", "Notes"), file("list.json", "[7]"));
-    for (files, said) in [
+    for (files, expected) in [
         (vec![&one, &two], "part 3/3 is missing"),
         (vec![&one, &two, &one], "which another file holds too"),
         (vec![&one, &two, &stranger], "different evaluations: "),
@@ -171,13 +172,13 @@ fn what_is_not_a_whole_is_refused_by_name() {
         (vec![&other_json], "line 1, column 2"),
     ] {
         let files: Vec<&str> = files.into_iter().map(String::as_str).collect();
-        let output = asked(&[&["evaluate", "--merge"][..], &files].concat()).output().unwrap();
+        let output = carom_command(&[&["evaluate", "--merge"][..], &files].concat()).output().unwrap();
         let error = String::from_utf8(output.stderr).unwrap();
-        assert!(output.status.code() == Some(2) && output.stdout.is_empty() && error.contains(said), "{error}");
+        assert!(output.status.code() == Some(2) && output.stdout.is_empty() && error.contains(expected), "{error}");
         assert!(!["EOF", "missing field", "expected", "struct"].iter().any(|jargon| error.contains(jargon)), "{error}");
     }
     for shard in ["0/3", "4/3", "2", "a/b", "1/0"] {
-        let output = asked(&["evaluate", "--shard", shard]).output().unwrap();
+        let output = carom_command(&["evaluate", "--shard", shard]).output().unwrap();
         assert_eq!(output.status.code(), Some(2), "{shard}");
     }
 }
@@ -185,7 +186,7 @@ fn what_is_not_a_whole_is_refused_by_name() {
 /// Regression test: clap does not check what an option requires if a conflicting option is given. The option was silently ignored, and the
 /// report named tables that were never played on.
 #[test]
-fn an_option_of_another_kind_of_measurement_is_refused() {
+fn options_of_another_evaluation_mode_are_refused() {
     for line in [
         "--drawn-tables --budget-ms 5",
         "--drawn-tables --simulations 5",
@@ -200,7 +201,7 @@ fn an_option_of_another_kind_of_measurement_is_refused() {
         "--reward r1 --plan",
         "--reward r1 --simulations 5",
     ] {
-        let output = asked(&words(&format!("evaluate --layouts 1 {line}"))).output().unwrap();
+        let output = carom_command(&words(&format!("evaluate --layouts 1 {line}"))).output().unwrap();
         let error = String::from_utf8(output.stderr).unwrap();
         assert!(output.status.code() == Some(2) && output.stdout.is_empty(), "{line}: {error}");
         assert!(error.contains(words(line)[0]), "{line}: {error}");
@@ -209,9 +210,10 @@ fn an_option_of_another_kind_of_measurement_is_refused() {
 
 /// Regression test: a raised cue had brought a ball above another; they met in the air endlessly, and the coach never answered.
 #[test]
-fn a_ball_that_stays_above_another_keeps_nobody_waiting() {
+fn a_ball_that_stays_above_another_does_not_hang_the_engine() {
     let line = "evaluate --self-play --rule three-cushion --skill beginner --layouts 400 --simulations 90000 --seed 16";
-    let output = asked(&words(&format!("{line} --shard 54/400"))).timeout(Duration::from_secs(60)).assert().success();
+    let output =
+        carom_command(&words(&format!("{line} --shard 54/400"))).timeout(Duration::from_secs(60)).assert().success();
     let part: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
     assert_eq!(part["records"]["innings"][0]["layout"], 53);
 }

@@ -2,10 +2,10 @@
 
 use std::fs;
 
-use crate::program::{carom, command, drill, fed, folder};
+use crate::program::{carom, command, drill, folder, run_with_input};
 
 #[test]
-fn what_a_name_or_a_path_stands_for_and_is_not_there_cannot_be_done() {
+fn missing_names_and_files_exit_with_one() {
     let home = folder();
     let layouts = ["--layouts", "1"];
     for args in [
@@ -38,20 +38,20 @@ fn what_a_name_or_a_path_stands_for_and_is_not_there_cannot_be_done() {
         &["reproduce", "--table", "nowhere"],
         &["accuracy", "--table", "nowhere"],
     ] {
-        let said = carom(home.path(), args);
+        let output = carom(home.path(), args);
         assert!(
-            said.code == Some(1) && said.err.contains("nowhere") || args.contains(&"own"),
+            output.code == Some(1) && output.err.contains("nowhere") || args.contains(&"own"),
             "{args:?}: {}",
-            said.err
+            output.err
         );
-        assert!(said.err.starts_with("carom: ") && said.out.is_empty(), "{args:?}: {}", said.err);
-        assert_eq!(said.err.lines().count(), 1, "{args:?}: {}", said.err);
-        assert!(!said.err.contains("os error"), "{args:?}: {}", said.err);
+        assert!(output.err.starts_with("carom: ") && output.out.is_empty(), "{args:?}: {}", output.err);
+        assert_eq!(output.err.lines().count(), 1, "{args:?}: {}", output.err);
+        assert!(!output.err.contains("os error"), "{args:?}: {}", output.err);
     }
 }
 
 #[test]
-fn what_would_be_wrong_on_every_machine_is_not_acceptable() {
+fn invalid_input_exits_with_two() {
     let home = folder();
     fs::write(home.path().join("odd.toml"), "[table]\nlength = -1\n").unwrap();
     fs::write(home.path().join("odd.safetensors"), "this is no safetensors file").unwrap();
@@ -74,38 +74,38 @@ fn what_would_be_wrong_on_every_machine_is_not_acceptable() {
         &["calibrate", "odd.toml"],
         &["config", "--nothing"],
     ] {
-        let said = carom(home.path(), args);
-        assert!(said.code == Some(2) && !said.err.is_empty() && said.out.is_empty(), "{args:?}: {}", said.err);
+        let output = carom(home.path(), args);
+        assert!(output.code == Some(2) && !output.err.is_empty() && output.out.is_empty(), "{args:?}: {}", output.err);
         // Messages of clap have several lines.
-        assert!(!said.err.starts_with("carom: ") || said.err.lines().count() == 1, "{args:?}: {}", said.err);
+        assert!(!output.err.starts_with("carom: ") || output.err.lines().count() == 1, "{args:?}: {}", output.err);
     }
 }
 
 #[test]
-fn refused_lines_of_a_pipe_end_every_conversation_in_the_same_way() {
+fn refused_input_lines_exit_with_two_at_the_end() {
     let home = folder();
-    let said = |args: &[&str], lines: &str| fed(command(home.path(), args), lines);
+    let run = |args: &[&str], lines: &str| run_with_input(command(home.path(), args), lines);
     for (args, good, refused) in [
         (&["--plain"][..], "where\nballs 0,0 0.5,0 1,0\nquit\n", "where\nballs 0,0 0,0 1,0\nperhaps\n"),
         (&["drill", "log", "mine"], "make\nmiss\n", "make\nperhaps\nmake it\n"),
         (&["drill", "run", "mine", "--goal", "9"], "0,0.3,0,1,2\n", "0,0.3,0,1,2\n0,0\nperhaps\n"),
         (&["calibrate"], "undo\ndone\n", "perhaps\nperhaps\ndone\n"),
     ] {
-        assert_eq!(said(args, good).code, Some(0), "{args:?}");
-        let ended = said(args, refused);
+        assert_eq!(run(args, good).code, Some(0), "{args:?}");
+        let ended = run(args, refused);
         assert!(
             ended.code == Some(2) && ended.err.ends_with("2 lines refused; the reasons are above\n"),
             "{args:?}: {}",
             ended.err
         );
     }
-    let early = said(&["--plain"], "margins\nundo\nfilm 1000\nother\nskill own\n");
+    let early = run(&["--plain"], "margins\nundo\nfilm 1000\nother\nskill own\n");
     assert!(early.code == Some(2) && early.err.contains("5 lines refused"), "{}", early.err);
 }
 
 #[test]
 #[cfg(target_os = "linux")]
-fn what_cannot_be_written_is_not_done_help_and_documents_too() {
+fn unwritable_output_exits_with_one() {
     let home = folder();
     for args in [
         &["--help"][..],
@@ -122,14 +122,14 @@ fn what_cannot_be_written_is_not_done_help_and_documents_too() {
     ] {
         let mut full = command(home.path(), args);
         full.stdout(fs::File::create("/dev/full").unwrap());
-        let said = crate::program::outcome(full.spawn().unwrap());
+        let output = crate::program::outcome(full.spawn().unwrap());
         assert!(
-            said.code == Some(1) && said.err.contains("cannot be written"),
+            output.code == Some(1) && output.err.contains("cannot be written"),
             "{args:?}: {:?} {}",
-            said.code,
-            said.err
+            output.code,
+            output.err
         );
-        assert_eq!(said.err.lines().count(), 1, "{args:?}: {}", said.err);
+        assert_eq!(output.err.lines().count(), 1, "{args:?}: {}", output.err);
         let read = carom(home.path(), args);
         assert!(read.code == Some(0) && read.err.is_empty() && !read.out.is_empty(), "{args:?}: {}", read.err);
     }

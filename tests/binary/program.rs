@@ -20,7 +20,7 @@ pub fn home() -> impl Iterator<Item = (&'static str, String)> {
 }
 
 /// Returns the program in this environment, with assertions on its output.
-pub fn asked(args: &[&str]) -> assert_cmd::Command {
+pub fn carom_command(args: &[&str]) -> assert_cmd::Command {
     let mut command = assert_cmd::Command::new(cargo_bin!("carom"));
     command.envs(home()).env_remove("LC_ALL").env_remove("LC_CTYPE").env("LANG", "C.UTF-8").args(args);
     command
@@ -74,7 +74,7 @@ pub fn drill(folder: &Path, args: &[&str]) -> Outcome {
 }
 
 /// Runs a command with these lines on the standard input.
-pub fn fed(mut command: Command, lines: &str) -> Outcome {
+pub fn run_with_input(mut command: Command, lines: &str) -> Outcome {
     let mut child = command.stdin(Stdio::piped()).spawn().unwrap();
     // A program that ends early does not read all of its input.
     let _ = child.stdin.take().unwrap().write_all(lines.as_bytes());
@@ -88,23 +88,23 @@ pub fn outcome(child: Child) -> Outcome {
 }
 
 /// Returns the files of all sessions.
-pub fn sessions(folder: &Path) -> Vec<PathBuf> {
+pub fn session_files(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder.join("carom/sessions")).into_iter().flatten();
     let files = entries.map(|entry| entry.unwrap().path());
     files.filter(|file| file.extension().is_some_and(|extension| extension == "json")).collect()
 }
 
 /// Returns the number of attempts at `mine` that the program finds in its files; it must report no problem.
-pub fn tried(folder: &Path) -> u64 {
+pub fn count_attempts(folder: &Path) -> u64 {
     let history = drill(folder, &["history", "--json"]);
     assert!(history.code == Some(0) && history.err.is_empty(), "{}", history.err);
     history.json().iter().map(|row| row["tried"].as_u64().unwrap()).sum()
 }
 
 /// A process that is ended when the test ends, even after a failure.
-pub struct Kept(pub Child);
+pub struct KillOnDrop(pub Child);
 
-impl Deref for Kept {
+impl Deref for KillOnDrop {
     type Target = Child;
 
     fn deref(&self) -> &Child {
@@ -112,13 +112,13 @@ impl Deref for Kept {
     }
 }
 
-impl DerefMut for Kept {
+impl DerefMut for KillOnDrop {
     fn deref_mut(&mut self) -> &mut Child {
         &mut self.0
     }
 }
 
-impl Drop for Kept {
+impl Drop for KillOnDrop {
     fn drop(&mut self) {
         // After a successful test it has already ended.
         let _ = self.0.kill();

@@ -6,10 +6,10 @@ use std::{
     process::Stdio,
 };
 
-use crate::program::{Kept, SAVE, carom, command, drill, fed, folder};
+use crate::program::{KillOnDrop, SAVE, carom, command, drill, folder, run_with_input};
 
 #[test]
-fn what_a_session_at_the_table_would_end_with_is_refused_before_it_begins() {
+fn invalid_output_options_are_refused_before_a_calibration_starts() {
     let home = folder();
     fs::write(home.path().join("notes.toml"), "not a table").unwrap();
     for (args, code, named) in [
@@ -19,23 +19,23 @@ fn what_a_session_at_the_table_would_end_with_is_refused_before_it_begins() {
         (["--name", "match"], 2, "the name of a bundled table"),
         (["--name", " "], 2, "not all of them blanks"),
     ] {
-        let said = fed(command(home.path(), &[&["calibrate"], &args[..]].concat()), "9.6 5.4 4\ndone\n");
-        assert!(said.code == Some(code) && said.err.contains(named), "{args:?}: {}", said.err);
-        assert!(said.err.lines().count() == 1 && said.out.is_empty(), "{args:?}: {}", said.err);
+        let output = run_with_input(command(home.path(), &[&["calibrate"], &args[..]].concat()), "9.6 5.4 4\ndone\n");
+        assert!(output.code == Some(code) && output.err.contains(named), "{args:?}: {}", output.err);
+        assert!(output.err.lines().count() == 1 && output.out.is_empty(), "{args:?}: {}", output.err);
     }
     assert!(!home.path().join("carom/calibration.toml").exists(), "nothing was asked for");
 }
 
 #[test]
-fn settings_of_an_agent_are_refused_in_plain_words() {
+fn invalid_agent_settings_are_refused_in_plain_words() {
     let home = folder();
-    let said = |agent: &str, text: &str| {
+    let message = |agent: &str, text: &str| {
         fs::write(home.path().join("own.toml"), text).unwrap();
         let line = ["train", "--agent", agent, "--run", "run", "--steps", "192", "--config", "own.toml"];
-        let said = carom(home.path(), &line);
-        assert!(said.code == Some(2) && said.err.lines().count() == 1, "{text}: {}", said.err);
+        let message = carom(home.path(), &line);
+        assert!(message.code == Some(2) && message.err.lines().count() == 1, "{text}: {}", message.err);
         assert!(!home.path().join("run").exists(), "{text}");
-        said.err
+        message.err
     };
     let again =
         "the settings in own.toml: line 2, heads: a name that is already used; accepted are lines like heads = 8";
@@ -80,10 +80,13 @@ fn settings_of_an_agent_are_refused_in_plain_words() {
         ("thesis-ddpg", "keep = -0.1", "keep = -0.1"),
         ("thesis-ddpg", "hindsight = 0.7\ndemonstrations = 0.7", "hindsight + demonstrations = 1.4"),
     ] {
-        let said = said(agent, text);
-        assert!(said.contains(words), "{said}");
+        let message = message(agent, text);
+        assert!(message.contains(words), "{message}");
         // Settings that only thesis-ddpg has are not suggested for other agents.
-        assert!(agent == "thesis-ddpg" || said.contains("accepted is 0, as") || !said.contains("hindsight"), "{said}");
+        assert!(
+            agent == "thesis-ddpg" || message.contains("accepted is 0, as") || !message.contains("hindsight"),
+            "{message}"
+        );
     }
     let nameless = carom(home.path(), &["train", "--set", "=8"]);
     assert!(nameless.code == Some(2) && nameless.err.contains("write NAME=VALUE"), "{}", nameless.err);
@@ -96,7 +99,7 @@ fn settings_of_an_agent_are_refused_in_plain_words() {
 }
 
 #[test]
-fn options_that_would_mean_nothing_are_refused() {
+fn options_without_effect_are_refused() {
     let home = folder();
     let list = ["train", "--list"];
     for args in [
@@ -109,20 +112,20 @@ fn options_that_would_mean_nothing_are_refused() {
         &["calibrate", "--tests", "--name", "mine"],
         &["calibrate", "--template", "--table", "thesis"],
     ] {
-        let said = carom(home.path(), args);
-        assert!(said.code == Some(2) && said.err.contains("cannot be used with"), "{args:?}: {}", said.err);
+        let output = carom(home.path(), args);
+        assert!(output.code == Some(2) && output.err.contains("cannot be used with"), "{args:?}: {}", output.err);
     }
 }
 
 #[test]
-fn times_and_texts_have_bounds() {
+fn durations_and_texts_have_limits() {
     let home = folder();
-    let said = carom(home.path(), &["evaluate", "--layouts", "1", "--budget-ms", "3600001"]);
-    assert!(said.code == Some(2) && said.err.contains("from 0 to 3600000"), "{}", said.err);
+    let output = carom(home.path(), &["evaluate", "--layouts", "1", "--budget-ms", "3600001"]);
+    assert!(output.code == Some(2) && output.err.contains("from 0 to 3600000"), "{}", output.err);
     let long = "x".repeat(4001);
     for (option, accepted) in [("--point", "up to 4000"), ("--title", "up to 400"), ("--tag", "up to 400")] {
-        let said = drill(home.path(), &[SAVE, &["--replace", option, &long]].concat());
-        assert!(said.code == Some(2) && said.err.contains(accepted), "{option}: {}", said.err);
+        let output = drill(home.path(), &[SAVE, &["--replace", option, &long]].concat());
+        assert!(output.code == Some(2) && output.err.contains(accepted), "{option}: {}", output.err);
     }
     assert_eq!(drill(home.path(), &[SAVE, &["--replace", "--point", &long[1..]]].concat()).code, Some(0));
     for args in [
@@ -131,18 +134,18 @@ fn times_and_texts_have_bounds() {
         &["recommend", "--policy", ""],
         &["evaluate", "--policy", ""],
     ] {
-        let said = carom(home.path(), args);
-        assert!(said.code == Some(2) && said.err.contains("a value is required"), "{args:?}: {}", said.err);
+        let output = carom(home.path(), args);
+        assert!(output.code == Some(2) && output.err.contains("a value is required"), "{args:?}: {}", output.err);
     }
     for args in [&["bench", "--seconds", "1e300"][..], &["recommend", "--skill", "a=1e300,b=1,theta=1,phi=1,V=1"]] {
-        let said = carom(home.path(), args);
-        assert!(said.code == Some(2) && said.err.contains("1e300"), "{args:?}: {}", said.err);
+        let output = carom(home.path(), args);
+        assert!(output.code == Some(2) && output.err.contains("1e300"), "{args:?}: {}", output.err);
     }
 }
 
 #[test]
 #[cfg(unix)]
-fn what_is_in_a_folders_place_is_named() {
+fn a_file_in_place_of_a_folder_is_named() {
     let home = folder();
     fs::write(home.path().join("taken"), "").unwrap();
     for args in [
@@ -151,28 +154,28 @@ fn what_is_in_a_folders_place_is_named() {
         &["train", "--run", "/dev/null", "--steps", "192"],
         &["train", "--run", "taken/run", "--steps", "192"],
     ] {
-        let said = carom(home.path(), args);
-        assert!(said.code == Some(1) && said.err.contains("folder"), "{args:?}: {}", said.err);
-        assert!(!said.err.contains("os error"), "{args:?}: {}", said.err);
+        let output = carom(home.path(), args);
+        assert!(output.code == Some(1) && output.err.contains("folder"), "{args:?}: {}", output.err);
+        assert!(!output.err.contains("os error"), "{args:?}: {}", output.err);
     }
 }
 
 #[test]
-fn one_run_is_trained_one_at_a_time_when_it_is_gone_on_with_too() {
+fn jobs_is_refused_when_resuming_a_single_run() {
     let home = folder();
     let train = ["train", "--run", "run", "--steps", "192", "--evaluation-layouts", "5"];
     assert_eq!(carom(home.path(), &train).code, Some(0));
-    let said = carom(home.path(), &["train", "--resume", "run", "--jobs", "2"]);
-    assert!(said.code == Some(2) && said.err.contains("--jobs 2 is for several seeds"), "{}", said.err);
+    let output = carom(home.path(), &["train", "--resume", "run", "--jobs", "2"]);
+    assert!(output.code == Some(2) && output.err.contains("--jobs 2 is for several seeds"), "{}", output.err);
 }
 
 #[test]
-fn where_nothing_is_to_be_taken_back_other_programs_may_go_on() {
+fn a_refused_undo_does_not_block_other_programs() {
     let home = folder();
-    let said = drill(home.path(), &["log", "mine", "undo"]);
-    assert!(said.code == Some(1) && said.err.contains("no attempt at mine to take back"), "{}", said.err);
+    let output = drill(home.path(), &["log", "mine", "undo"]);
+    assert!(output.code == Some(1) && output.err.contains("no attempt at mine to take back"), "{}", output.err);
     let mut log = command(home.path(), &["drill", "log", "mine"]);
-    let mut log = Kept(log.stdin(Stdio::piped()).spawn().unwrap());
+    let mut log = KillOnDrop(log.stdin(Stdio::piped()).spawn().unwrap());
     let mut words = log.stdin.take().unwrap();
     words.write_all(b"undo\n").unwrap();
     let mut answer = String::new();
@@ -185,18 +188,18 @@ fn where_nothing_is_to_be_taken_back_other_programs_may_go_on() {
 }
 
 #[test]
-fn of_a_guest_at_no_terminal_nothing_is_made() {
+fn a_guest_without_a_terminal_creates_no_files() {
     let home = tempfile::tempdir().unwrap();
-    let said = carom(home.path(), &["--guest", "--player", "anna"]);
-    assert!(said.code == Some(2) && said.err.contains("this is not a terminal"), "{}", said.err);
-    assert!(said.err.contains("ssh -t") && !said.err.contains("carom recommend"), "{}", said.err);
+    let output = carom(home.path(), &["--guest", "--player", "anna"]);
+    assert!(output.code == Some(2) && output.err.contains("this is not a terminal"), "{}", output.err);
+    assert!(output.err.contains("ssh -t") && !output.err.contains("carom recommend"), "{}", output.err);
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0);
 }
 
 #[test]
-fn a_folder_in_a_tables_place_is_called_one() {
+fn a_folder_in_place_of_a_table_is_named() {
     let home = tempfile::tempdir().unwrap();
     fs::create_dir(home.path().join("dir")).unwrap();
-    let said = carom(home.path(), &["simulate", "--table", "dir", "--shot", "0,0.3,1,1,4"]);
-    assert!(said.code == Some(1) && said.err.contains("it is a folder"), "{:?} {}", said.code, said.err);
+    let output = carom(home.path(), &["simulate", "--table", "dir", "--shot", "0,0.3,1,1,4"]);
+    assert!(output.code == Some(1) && output.err.contains("it is a folder"), "{:?} {}", output.code, output.err);
 }

@@ -2,10 +2,10 @@
 
 use assert_cmd::Command;
 
-use crate::program::{Kept, asked, home};
+use crate::program::{KillOnDrop, carom_command, home};
 
 fn reproduce(args: &[&str]) -> Command {
-    asked(&[&["reproduce"], args].concat())
+    carom_command(&[&["reproduce"], args].concat())
 }
 
 #[test]
@@ -15,8 +15,8 @@ fn a_figure_is_written_as_csv_and_svg_and_does_not_depend_on_threads() {
         let out = folder.path().to_str().unwrap();
         let args = ["--figure", "23", "--figure", "25", "--episodes", "800", "--jobs", jobs, "--out", out];
         let output = reproduce(&args).assert().success().get_output().stdout.clone();
-        let said = String::from_utf8(output).unwrap();
-        assert!(said.contains("Figure 23") && said.contains("random play"), "{said}");
+        let text = String::from_utf8(output).unwrap();
+        assert!(text.contains("Figure 23") && text.contains("random play"), "{text}");
         ["figure-23.csv", "figure-23.svg", "figure-25.csv", "figure-25.svg"]
             .map(|name| std::fs::read_to_string(folder.path().join(name)).unwrap())
     };
@@ -28,16 +28,16 @@ fn a_figure_is_written_as_csv_and_svg_and_does_not_depend_on_threads() {
 }
 
 #[test]
-fn an_unknown_figure_is_refused_with_those_that_there_are() {
+fn an_unknown_figure_is_refused_with_the_available_ones() {
     let output = reproduce(&["--figure", "26"]).output().unwrap();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!((output.status.code(), said.lines().count()), (Some(2), 1), "{said}");
-    assert!(said.contains("26") && said.contains("q-learning, 21, 22"), "{said}");
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!((output.status.code(), message.lines().count()), (Some(2), 1), "{message}");
+    assert!(message.contains("26") && message.contains("q-learning, 21, 22"), "{message}");
 }
 
 #[cfg(unix)]
 #[test]
-fn an_interrupt_ends_it_with_the_number_of_figures_that_are_complete() {
+fn an_interrupt_reports_the_number_of_complete_figures() {
     let folder = tempfile::tempdir().unwrap();
     let child = std::process::Command::new(assert_cmd::cargo::cargo_bin!("carom"))
         .envs(home())
@@ -46,14 +46,14 @@ fn an_interrupt_ends_it_with_the_number_of_figures_that_are_complete() {
         .stderr(std::process::Stdio::piped())
         .spawn()
         .unwrap();
-    let mut child = Kept(child);
+    let mut child = KillOnDrop(child);
     // The program reports that it trains once it handles signals.
-    let mut said = std::io::BufReader::new(child.stderr.take().unwrap());
+    let mut messages = std::io::BufReader::new(child.stderr.take().unwrap());
     let mut line = String::new();
-    std::io::BufRead::read_line(&mut said, &mut line).unwrap();
+    std::io::BufRead::read_line(&mut messages, &mut line).unwrap();
     std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     let mut rest = String::new();
-    std::io::Read::read_to_string(&mut said, &mut rest).unwrap();
+    std::io::Read::read_to_string(&mut messages, &mut rest).unwrap();
     assert_eq!(child.wait().unwrap().code(), Some(1), "{line}{rest}");
     assert!(rest.contains("0 of 1 figures"), "{rest}");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);

@@ -14,11 +14,11 @@ use portable_pty::{Child, CommandBuilder, ExitStatus, MasterPty, PtySize, native
 use tempfile::TempDir;
 
 /// Timeout for an expected picture; a loaded machine may need long to start a process.
-pub const PATIENCE: Duration = Duration::from_secs(20);
+pub const TIMEOUT: Duration = Duration::from_secs(20);
 /// Text of the coach's screen at the start.
-pub const OPENING: &str = "white at x -710.0 mm";
+pub const START_TEXT: &str = "white at x -710.0 mm";
 /// Silence after which no more output is expected.
-pub const REST: Duration = Duration::from_millis(150);
+pub const QUIET_TIME: Duration = Duration::from_millis(150);
 
 pub fn carom() -> CommandBuilder {
     CommandBuilder::new(env!("CARGO_BIN_EXE_carom"))
@@ -35,17 +35,17 @@ fn cells(count: u16) -> NonZero<u16> {
 }
 
 /// The terminal's side of the connection. It reads only on demand, so that an unread connection stalls.
-struct Line {
+struct Connection {
     master: Box<dyn MasterPty + Send>,
     writer: Box<dyn Write + Send>,
-    ask: Sender<()>,
+    request: Sender<()>,
     output: Receiver<Vec<u8>>,
-    is_asked: bool,
+    is_read_requested: bool,
 }
 
 pub struct Session {
     /// `None` once the connection is cut.
-    line: Option<Line>,
+    connection: Option<Connection>,
     pub child: Box<dyn Child + Send + Sync>,
     screen: vt100::Parser,
     /// Settings, the last session and the log: not those of the user who runs the tests.
@@ -87,10 +87,10 @@ impl Session {
         command.env_remove("CAROM_GLYPHS");
         let child = pair.slave.spawn_command(command).unwrap();
         let mut reader = pair.master.try_clone_reader().unwrap();
-        let ((ask, asked), (sender, output)) = (channel(), channel());
+        let ((request, requested), (sender, output)) = (channel(), channel());
         thread::spawn(move || {
             let mut buffer = vec![0; 65536];
-            while asked.recv().is_ok() {
+            while requested.recv().is_ok() {
                 let Ok(count @ 1..) = reader.read(&mut buffer) else { break };
                 if sender.send(buffer[..count].to_vec()).is_err() {
                     break;
@@ -98,9 +98,9 @@ impl Session {
             }
         });
         let writer = pair.master.take_writer().unwrap();
-        let line = Some(Line { master: pair.master, writer, ask, output, is_asked: false });
+        let connection = Some(Connection { master: pair.master, writer, request, output, is_read_requested: false });
         let screen = vt100::Parser::new(cells(height), cells(width), 0);
-        Self { line, child, screen, home: None, bytes: 0 }
+        Self { connection, child, screen, home: None, bytes: 0 }
     }
 
     pub fn screen(&self) -> &vt100::Screen {
@@ -108,13 +108,13 @@ impl Session {
     }
 
     /// Returns the file in which the next session looks for the last one.
-    pub fn last(&self) -> String {
+    pub fn saved_session(&self) -> String {
         let home = self.home.as_ref().unwrap().path();
         std::fs::read_to_string(home.join("state/carom/last.json")).unwrap_or_default()
     }
 
     pub fn send(&mut self, keys: &str) {
-        let writer = &mut self.line.as_mut().unwrap().writer;
+        let writer = &mut self.connection.as_mut().unwrap().writer;
         writer.write_all(keys.as_bytes()).unwrap();
         writer.flush().unwrap();
     }
@@ -125,14 +125,14 @@ impl Session {
         self.send(keys);
         let start = Instant::now();
         while self.bytes == before {
-            assert!(start.elapsed() < PATIENCE, "no answer to {keys:?}\n{}", self.screen().contents());
-            self.take(Duration::from_millis(50));
+            assert!(start.elapsed() < TIMEOUT, "no answer to {keys:?}\n{}", self.screen().contents());
+            self.read_output(Duration::from_millis(50));
         }
     }
 
     pub fn resize(&mut self, width: u16, height: u16) {
         let size = PtySize { rows: height, cols: width, pixel_width: 0, pixel_height: 0 };
-        self.line.as_ref().unwrap().master.resize(size).unwrap();
+        self.connection.as_ref().unwrap().master.resize(size).unwrap();
         self.screen.screen_mut().set_size(cells(height), cells(width));
     }
 
@@ -142,34 +142,34 @@ impl Session {
     }
 
     /// Returns the number of bytes that the program has written so far, to any file; `None` if the system does not report it.
-    pub fn written(&self) -> Option<u64> {
+    pub fn bytes_written(&self) -> Option<u64> {
         let text = std::fs::read_to_string(format!("/proc/{}/io", self.child.process_id()?)).ok()?;
         text.lines().find_map(|line| line.strip_prefix("wchar: ")?.parse().ok())
     }
 
     /// Closes the terminal. (The library ends it with an empty line and Ctrl-D.)
-    pub fn cut(&mut self) {
+    pub fn disconnect(&mut self) {
         // A reader that waits for output holds the connection, so output is provoked by resizing.
         let mut sizes = [(100, 30), (120, 40)].into_iter().cycle();
-        while self.line.as_ref().is_some_and(|line| line.is_asked)
+        while self.connection.as_ref().is_some_and(|connection| connection.is_read_requested)
             && let Some((width, height)) = sizes.next()
         {
             self.resize(width, height);
-            self.take(Duration::from_millis(200));
+            self.read_output(Duration::from_millis(200));
         }
-        self.line = None;
+        self.connection = None;
     }
 
     /// Reads the output that arrives within `time`; `None` once the other side is closed.
-    pub fn take(&mut self, time: Duration) -> Option<Vec<u8>> {
-        let line = self.line.as_mut()?;
-        if !line.is_asked {
-            line.ask.send(()).ok()?;
-            line.is_asked = true;
+    pub fn read_output(&mut self, time: Duration) -> Option<Vec<u8>> {
+        let connection = self.connection.as_mut()?;
+        if !connection.is_read_requested {
+            connection.request.send(()).ok()?;
+            connection.is_read_requested = true;
         }
-        match line.output.recv_timeout(time) {
+        match connection.output.recv_timeout(time) {
             Ok(bytes) => {
-                line.is_asked = false;
+                connection.is_read_requested = false;
                 self.bytes += bytes.len();
                 self.screen.process(&bytes);
                 Some(bytes)
@@ -182,8 +182,8 @@ impl Session {
     pub fn wait_until(&mut self, what: &str, condition: impl Fn(&vt100::Screen) -> bool) {
         let start = Instant::now();
         while !condition(self.screen()) {
-            assert!(start.elapsed() < PATIENCE, "never came: {what}\n{}", self.screen().contents());
-            self.take(Duration::from_millis(50));
+            assert!(start.elapsed() < TIMEOUT, "timed out waiting for: {what}\n{}", self.screen().contents());
+            self.read_output(Duration::from_millis(50));
         }
     }
 
@@ -200,51 +200,53 @@ impl Session {
     }
 
     /// Waits until nothing has arrived for `silence`.
-    pub fn settle(&mut self, silence: Duration) {
+    pub fn wait_until_quiet(&mut self, silence: Duration) {
         let start = Instant::now();
-        while self.take(silence).is_some_and(|bytes| !bytes.is_empty()) {
-            assert!(start.elapsed() < PATIENCE, "it never rests\n{}", self.screen().contents());
+        while self.read_output(silence).is_some_and(|bytes| !bytes.is_empty()) {
+            assert!(start.elapsed() < TIMEOUT, "the output does not stop\n{}", self.screen().contents());
         }
     }
 
     /// Returns the number of bytes that arrive within `time`.
-    pub fn count(&mut self, time: Duration) -> usize {
+    pub fn count_bytes(&mut self, time: Duration) -> usize {
         let (start, before) = (Instant::now(), self.bytes);
         while start.elapsed() < time {
-            self.take(time.saturating_sub(start.elapsed()));
+            self.read_output(time.saturating_sub(start.elapsed()));
         }
         self.bytes - before
     }
 
     /// Waits at most `time` for the end of the process, without reading its output.
-    pub fn ends_within(&mut self, time: Duration) -> ExitStatus {
+    pub fn wait_for_exit(&mut self, time: Duration) -> ExitStatus {
         let start = Instant::now();
         loop {
             if let Some(status) = self.child.try_wait().unwrap() {
                 return status;
             }
-            assert!(start.elapsed() < time, "it does not end\n{}", self.screen().contents());
+            assert!(start.elapsed() < time, "the program does not end\n{}", self.screen().contents());
             thread::sleep(Duration::from_millis(10));
         }
     }
 
     /// Waits for the end of the process and of its output; the terminal must be restored.
-    pub fn assert_left_without_trace(&mut self) -> ExitStatus {
+    pub fn assert_clean_exit(&mut self) -> ExitStatus {
         let start = Instant::now();
         let status = loop {
             if let Some(status) = self.child.try_wait().unwrap() {
                 break status;
             }
-            assert!(start.elapsed() < PATIENCE, "it does not end\n{}", self.screen().contents());
-            self.take(Duration::from_millis(20));
+            assert!(start.elapsed() < TIMEOUT, "the program does not end\n{}", self.screen().contents());
+            self.read_output(Duration::from_millis(20));
         };
-        while self.take(Duration::from_millis(100)).is_some() && self.count(Duration::from_millis(50)) > 0 {}
-        self.assert_given_back();
+        while self.read_output(Duration::from_millis(100)).is_some() && self.count_bytes(Duration::from_millis(50)) > 0
+        {
+        }
+        self.assert_terminal_restored();
         status
     }
 
     /// Asserts that the program has restored all terminal modes.
-    pub fn assert_given_back(&self) {
+    pub fn assert_terminal_restored(&self) {
         let screen = self.screen();
         assert!(!screen.alternate_screen(), "the alternate screen was left on");
         assert!(!screen.hide_cursor(), "the cursor was left hidden");
@@ -253,13 +255,13 @@ impl Session {
     }
 
     /// Continues the program after Ctrl-Z has returned the terminal to the shell, until `text` is displayed again.
-    pub fn come_back_to(&mut self, text: &str) {
+    pub fn resume_until(&mut self, text: &str) {
         // A signal that arrives before the process has stopped has no effect, so it is repeated.
         let start = Instant::now();
         while !self.screen().alternate_screen() || !self.screen().contents().contains(text) {
-            assert!(start.elapsed() < PATIENCE, "it does not come back\n{}", self.screen().contents());
+            assert!(start.elapsed() < TIMEOUT, "the program does not resume\n{}", self.screen().contents());
             self.signal("CONT");
-            self.count(Duration::from_millis(50));
+            self.count_bytes(Duration::from_millis(50));
         }
     }
 }

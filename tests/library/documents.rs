@@ -1,7 +1,7 @@
 //! Pages of `docs/` that the library writes.
 
 #[test]
-fn the_table_of_keys_is_that_of_the_program() {
+fn the_keys_page_matches_the_program() {
     let written = include_str!("../../docs/keys.md");
     assert_eq!(
         written,
@@ -14,7 +14,7 @@ fn the_table_of_keys_is_that_of_the_program() {
 }
 
 #[test]
-fn the_glossary_has_every_pattern_with_its_course() {
+fn the_glossary_contains_every_pattern_with_its_course() {
     let rows: Vec<String> =
         carom::coach::PATTERNS.iter().map(|pattern| format!("| {} | {} |", pattern.name, pattern.course)).collect();
     let table = rows.join("\n") + "\n";

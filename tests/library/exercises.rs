@@ -21,7 +21,7 @@ fn bundled() -> Vec<Exercise> {
 }
 
 #[test]
-fn there_are_enough_of_every_category_and_each_says_what_it_teaches() {
+fn every_category_has_enough_exercises_with_complete_texts() {
     let exercises = bundled();
     assert!(exercises.len() >= 72, "{}", exercises.len());
     for category in Category::ALL {
@@ -61,7 +61,7 @@ fn every_shot_shows_what_its_category_teaches() {
 /// In exercises for gathering, the tags describe the motion of yellow; in one-cushion exercises, the tags `draw`, `follow` and `thin`
 /// describe the stroke.
 #[test]
-fn the_classifier_calls_exercises_as_their_tags_do() {
+fn the_pattern_classifier_agrees_with_exercise_tags() {
     let mut compared = 0;
     for exercise in bundled().into_iter().filter(|exercise| exercise.category != Category::Gather) {
         let table = exercise.table().unwrap();
@@ -83,21 +83,21 @@ fn the_classifier_calls_exercises_as_their_tags_do() {
 }
 
 #[test]
-fn the_numbers_in_the_words_of_a_systems_exercise_are_those_of_its_shot() {
+fn the_numbers_in_system_exercises_match_their_shots() {
     for exercise in bundled().into_iter().filter(|exercise| exercise.category == Category::Systems) {
         let (table, shot) = (exercise.table().unwrap(), exercise.shot.unwrap());
         let recording = Recording::new(&table, &exercise.layout, &shot).unwrap();
         let Some(Guide::System(applied)) = guide(&table, &recording) else { panic!("{}", exercise.name) };
         // The text of the exercise and the text of the coach: three numbers with a sign and an equals sign.
-        let [told, counted] = [&exercise.point, &applied.arithmetic()].map(|text| {
+        let [stated, counted] = [&exercise.point, &applied.arithmetic()].map(|text| {
             let words: Vec<&str> = text.split([' ', ',', ':']).collect();
             let equals = words.iter().position(|word| *word == "=").unwrap();
             [3, 1].map(|back| words[equals - back]).map(|word| word.parse::<f64>().unwrap())
         });
         // A tenth of a diamond, or three tenths for systems in which one unit is a diamond or less.
         let near = if applied.system == System::Corner5 { 1.0 } else { 0.3 };
-        for (told, counted) in told.into_iter().zip(counted) {
-            assert!((told - counted).abs() <= near, "{}: {}", exercise.name, applied.arithmetic());
+        for (stated, counted) in stated.into_iter().zip(counted) {
+            assert!((stated - counted).abs() <= near, "{}: {}", exercise.name, applied.arithmetic());
         }
     }
 }
@@ -105,16 +105,16 @@ fn the_numbers_in_the_words_of_a_systems_exercise_are_those_of_its_shot() {
 /// [`flaws`] checks the line of the ball itself. A player who aims the cue through the stated diamond and ignores squirt must also make the
 /// point.
 #[test]
-fn a_cue_that_is_sighted_through_the_number_of_a_systems_exercise_makes_the_point() {
+fn aiming_at_the_number_of_a_system_exercise_scores() {
     for exercise in bundled().into_iter().filter(|exercise| exercise.category == Category::Systems) {
         let (table, shot) = (exercise.table().unwrap(), exercise.shot.unwrap());
         let system = System::ALL.into_iter().find(|system| exercise.tags[0] == system.name().to_lowercase()).unwrap();
-        let told = exercise.point.split_once("= ").unwrap().1.split([' ', ',', ':']).next().unwrap();
-        let told: f64 = told.parse().unwrap();
+        let stated = exercise.point.split_once("= ").unwrap().1.split([' ', ',', ':']).next().unwrap();
+        let stated: f64 = stated.parse().unwrap();
         let from = diamonds(&table, exercise.layout.balls[0]);
         let [low, high] = system.first_ends();
         let lines = (0..=8000).map(|step| low + (high - low) * f64::from(step) / 8000.0);
-        let off = |line: &Line| system.numbers(line).map_or(f64::INFINITY, |numbers| (numbers.first - told).abs());
+        let off = |line: &Line| system.numbers(line).map_or(f64::INFINITY, |numbers| (numbers.first - stated).abs());
         let lines = lines.map(|along| Line::between(from, system.first_at(along)));
         let line = lines.min_by(|one, other| off(one).total_cmp(&off(other))).unwrap();
         assert!(off(&line) < 0.02, "{}: {line:?}", exercise.name);
@@ -124,7 +124,7 @@ fn a_cue_that_is_sighted_through_the_number_of_a_systems_exercise_makes_the_poin
 }
 
 #[test]
-fn balls_are_gathered_for_players_too() {
+fn gather_exercises_work_with_an_experts_errors() {
     for exercise in bundled().into_iter().filter(|exercise| exercise.category == Category::Gather) {
         let (table, shot) = (exercise.table().unwrap(), exercise.shot.unwrap());
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
@@ -143,7 +143,7 @@ fn balls_are_gathered_for_players_too() {
 }
 
 #[test]
-fn a_shot_that_does_not_show_it_is_found_out() {
+fn a_shot_that_misses_its_exercises_purpose_is_detected() {
     let library = Library::bundled();
     let changed = |category, change: fn(&mut CueInputs)| {
         let exercise = library.exercises().iter().find(|e| e.category == category).unwrap();
@@ -162,7 +162,7 @@ fn a_shot_that_does_not_show_it_is_found_out() {
 }
 
 #[test]
-fn par_is_what_is_measured_and_the_grade_follows_it() {
+fn par_equals_its_measurement_and_determines_the_grade() {
     let exercises = bundled();
     for exercise in &exercises {
         let par = exercise.par.unwrap();
@@ -179,7 +179,7 @@ fn par_is_what_is_measured_and_the_grade_follows_it() {
 }
 
 #[test]
-fn the_files_are_written_as_the_program_writes_them() {
+fn the_library_files_are_formatted_by_the_program() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("saves");
     for category in Category::ALL.into_iter().filter(|category| *category != Category::Own) {
         let text = fs::read_to_string(folder.join(format!("{category}.json"))).unwrap();
@@ -190,7 +190,7 @@ fn the_files_are_written_as_the_program_writes_them() {
 }
 
 #[test]
-fn every_exercise_is_shared_in_a_line_and_shifted_on_the_table() {
+fn every_exercise_can_be_shared_and_shifted() {
     for exercise in bundled() {
         let code = encode(&exercise).unwrap();
         let shared = decode(&code).unwrap();

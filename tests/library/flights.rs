@@ -36,7 +36,7 @@ fn a_stroke_of_45_degrees_and_6_m_s_clears_a_ball_at_30_cm() {
 
 /// The height is `V_z²/2g`, for the part of the stroke's downward speed that the cloth returns.
 #[test]
-fn a_level_ish_stroke_hops_by_a_millimetre() {
+fn a_nearly_level_stroke_hops_by_about_a_millimetre() {
     let table = flying("match");
     let cue = CueInputs::parse("0,0,3,0,5").unwrap();
     let pressed = strike(&Table { flight: None, ..table.clone() }, &cue).velocity.length() * cue.theta.tan();
@@ -50,7 +50,7 @@ fn a_level_ish_stroke_hops_by_a_millimetre() {
 /// Coriolis (1835): a massé ends up rolling parallel to the line from the ball's initial position to the point on the cloth at which the
 /// cue aims. This does not depend on friction during the stroke, in landings or in between.
 #[test]
-fn a_masse_bends_the_way_that_coriolis_constructs() {
+fn a_masse_ends_in_the_direction_constructed_by_coriolis() {
     let table = Table { width: 20.0, length: 40.0, ..flying("textbook") };
     for (a, b, degrees, speed) in
         [(0.3, 0.1, 60.0, 3.0), (-0.4, -0.1, 75.0, 4.0), (0.25, -0.3, 45.0, 2.0), (-0.2, 0.3, 30.0, 5.0)]
@@ -72,7 +72,7 @@ fn a_masse_bends_the_way_that_coriolis_constructs() {
 
 /// A shot without any lift is computed as on a table whose balls stay on the cloth.
 #[test]
-fn level_strokes_give_the_same_bits_whether_or_not_balls_can_fly() {
+fn level_strokes_give_the_same_bits_with_and_without_flight() {
     for preset in ["textbook", "match"] {
         let flat = Table { flight: None, ..Table::preset(preset).unwrap() };
         let table = flying(preset);
@@ -131,7 +131,7 @@ impl Observer for Counts {
 }
 
 #[test]
-fn random_flights_end_on_the_table_or_off_it() {
+fn random_flights_end_at_rest_or_off_the_table() {
     for (preset, restitution) in [("match", 0.5), ("textbook", 0.5), ("match", 0.99), ("thesis", 0.5), ("match", 0.0)] {
         let table = Table { flight: Some(Flight { restitution, friction: None }), ..Table::preset(preset).unwrap() };
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);

@@ -47,7 +47,7 @@ fn only_single_impacts(recording: &Recording) -> bool {
 }
 
 /// Returns the event with balls 1 and 2 exchanged.
-fn renamed(kind: EventKind) -> EventKind {
+fn exchange_object_balls(kind: EventKind) -> EventKind {
     let name = |ball: usize| if ball == 0 { 0 } else { 3 - ball };
     match kind {
         EventKind::BallBall(first, second) => {
@@ -70,7 +70,7 @@ fn energy(recording: &Recording, table: &Table, t: f64) -> f64 {
 
 /// Checks at time `t` that no balls overlap and that all are on the table, within a billionth of a metre. A ball that has left the table
 /// may be anywhere; a ball in the air may be over a nose.
-fn check_places(table: &Table, recording: &Recording, t: f64) -> Result<(), TestCaseError> {
+fn check_positions(table: &Table, recording: &Recording, t: f64) -> Result<(), TestCaseError> {
     let is_on_table = |ball: &usize| recording.motion(*ball, t) != Motion::OffTable;
     let on_table = (0..3).filter(is_on_table).map(|ball| recording.spatial_state(ball, t).position);
     let places: Vec<DVec3> = on_table.collect();
@@ -110,19 +110,19 @@ proptest! {
     }
 
     #[test]
-    fn balls_stay_apart_and_on_the_table_between_events_too((table, layout, cue) in shots()) {
+    fn balls_never_overlap_or_leave_the_table_between_events((table, layout, cue) in shots()) {
         let recording = Recording::new(&table, &layout, &cue).unwrap();
         let mut last = 0.0;
         for event in recording.events() {
             for share in [0.25, 0.5, 0.75, 1.0] {
-                check_places(&table, &recording, last + share * (event.time - last))?;
+                check_positions(&table, &recording, last + share * (event.time - last))?;
             }
             last = event.time;
         }
     }
 
     #[test]
-    fn a_mirrored_shot_runs_mirrored((table, layout, cue) in shots()) {
+    fn a_mirrored_shot_has_a_mirrored_course((table, layout, cue) in shots()) {
         let recording = Recording::new(&table, &layout, &cue).unwrap();
         let flip = DVec2::new(1.0, -1.0);
         let mirrored_layout = Layout::new(layout.balls.map(|ball| ball * flip));
@@ -142,12 +142,12 @@ proptest! {
 
     /// Exchanging the object balls exchanges their names in the course and changes nothing else, to the last bit.
     #[test]
-    fn the_balls_numbers_do_not_matter((table, layout, cue) in shots()) {
+    fn exchanging_the_object_balls_exchanges_their_courses((table, layout, cue) in shots()) {
         let [cue_ball, one, other] = layout.balls;
         let recording = Recording::new(&table, &layout, &cue).unwrap();
         prop_assume!(only_single_impacts(&recording));
         let exchanged = Recording::new(&table, &Layout::new([cue_ball, other, one]), &cue).unwrap();
-        let named = recording.events().iter().map(|event| (event.time, renamed(event.kind)));
+        let named = recording.events().iter().map(|event| (event.time, exchange_object_balls(event.kind)));
         let found = exchanged.events().iter().map(|event| (event.time, event.kind));
         prop_assert_eq!(named.collect::<Vec<_>>(), found.collect::<Vec<_>>());
         let [end, first, second] = exchanged.final_layout().balls;
@@ -165,7 +165,7 @@ proptest! {
 
 /// Regression test: two balls roll against each other on the thesis' table, and the motion of each alone presses them together.
 #[test]
-fn rolling_balls_that_nothing_holds_together_meet_again_before_they_overlap() {
+fn rolling_balls_without_contact_collide_before_they_overlap() {
     let table = Table::preset("thesis").unwrap();
     let layout = Layout::new([
         DVec2::new(-1.226_677_999_408_687_8, -0.504_228_537_506_218_1),
@@ -181,7 +181,7 @@ fn rolling_balls_that_nothing_holds_together_meet_again_before_they_overlap() {
     };
     let recording = Recording::new(&table, &layout, &cue).unwrap();
     for event in recording.events() {
-        check_places(&table, &recording, event.time).unwrap();
+        check_positions(&table, &recording, event.time).unwrap();
     }
 }
 

@@ -7,7 +7,7 @@ fn worst(spread: Option<Spread>) -> f64 {
 }
 
 #[test]
-fn the_reference_shots_are_met() {
+fn the_engines_reproduce_the_reference_shots() {
     let rows = check_references();
     for ReferenceRow { file, engine_m, engine_units, engine_time_s, .. } in &rows {
         println!("{file}: {engine_m:?} m, {engine_units:?} units, {engine_time_s:?} s");

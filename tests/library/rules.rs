@@ -24,7 +24,7 @@ fn play(table: &Table, balls: [DVec2; 3], shot: &CueInputs) -> Recording {
 }
 
 /// Returns position and direction of the cue ball, halfway in time between its contact `number` (0 is the stroke) and the next one.
-fn after(recording: &Recording, number: usize) -> (DVec2, DVec2) {
+fn cue_ball_after(recording: &Recording, number: usize) -> (DVec2, DVec2) {
     let of_cue = |kind: EventKind| matches!(kind, EventKind::BallBall(0, _) | EventKind::BallRail(0, _));
     let meetings = recording.events().iter().filter(|event| of_cue(event.kind)).map(|event| event.time);
     let times: Vec<f64> = [0.0].into_iter().chain(meetings).collect();
@@ -34,23 +34,23 @@ fn after(recording: &Recording, number: usize) -> (DVec2, DVec2) {
 
 /// Builds a shot that zigzags between the long cushions. Ball 1 is in its path after `before` cushions, hit thin, and ball 2 after
 /// `between` more cushions, hit full.
-fn built(table: &Table, before: usize, between: usize) -> ([DVec2; 3], CueInputs) {
+fn build_shot(table: &Table, before: usize, between: usize) -> ([DVec2; 3], CueInputs) {
     let shot = CueInputs::parse("0,0,0,70,5").unwrap();
     let away = [DVec2::new(-1.35, -0.65), DVec2::new(-1.35, 0.65)];
     let cue = DVec2::new(-0.9, -0.3);
     let diameter = 2.0 * table.radius;
-    let (place, way) = after(&play(table, [cue, away[0], away[1]], &shot), before);
+    let (place, way) = cue_ball_after(&play(table, [cue, away[0], away[1]], &shot), before);
     let aside = 0.95 * diameter;
     let first = place + way * (diameter * diameter - aside * aside).sqrt() + way.perp() * aside;
-    let (place, way) = after(&play(table, [cue, first, away[1]], &shot), before + 1 + between);
+    let (place, way) = cue_ball_after(&play(table, [cue, first, away[1]], &shot), before + 1 + between);
     ([cue, first, place + way * diameter], shot)
 }
 
 #[test]
-fn cushions_count_before_the_second_ball_wherever_they_come() {
+fn cushions_count_anywhere_before_the_second_ball() {
     let table = Table::preset("textbook").unwrap();
     for (before, between) in [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2), (3, 0), (2, 1), (1, 2), (0, 3)] {
-        let (balls, shot) = built(&table, before, between);
+        let (balls, shot) = build_shot(&table, before, between);
         let expected = [vec![0; before], vec![1], vec![0; between], vec![2]].concat();
         let course = course(&play(&table, balls, &shot));
         assert!(course.starts_with(&expected), "{before} and {between}: {course:?}");
@@ -62,10 +62,10 @@ fn cushions_count_before_the_second_ball_wherever_they_come() {
 }
 
 #[test]
-fn cushions_after_the_second_ball_count_for_nothing() {
+fn cushions_after_the_second_ball_do_not_count() {
     let table = Table::preset("textbook").unwrap();
     for between in [0, 2] {
-        let (balls, shot) = built(&table, 0, between);
+        let (balls, shot) = build_shot(&table, 0, between);
         let course = course(&play(&table, balls, &shot));
         let rest = &course[course.iter().position(|&met| met == 2).unwrap()..];
         assert!(rest.contains(&0), "there is a cushion after it: {course:?}");
@@ -74,7 +74,7 @@ fn cushions_after_the_second_ball_count_for_nothing() {
 }
 
 #[test]
-fn the_same_ball_twice_is_one_ball() {
+fn hitting_the_same_ball_twice_is_no_point() {
     let table = Table::preset("textbook").unwrap();
     // Straight at a ball in front of the short cushion: that ball comes back and is met again.
     let balls = [DVec2::new(0.0, 0.0), DVec2::new(1.2, 0.0), DVec2::new(-1.2, 0.6)];
@@ -88,7 +88,7 @@ fn the_same_ball_twice_is_one_ball() {
 /// as a contact: after playing away, the frozen ball must be met again. (Playing onto it is a foul under those rules; here the impact
 /// counts, because the simulator has no fouls.)
 #[test]
-fn a_ball_that_is_touched_at_the_start_counts_only_when_it_is_met() {
+fn a_frozen_ball_counts_only_after_a_new_contact() {
     let table = Table::preset("textbook").unwrap();
     let frozen = DVec2::new(-2.0 * table.radius, 0.0);
     let away = CueInputs::parse("0,0,0,0,1.2").unwrap();

@@ -14,7 +14,7 @@ use glam::DVec2;
 const PLAN: Plan = Plan { random: 1_000, adversarial: 1_000, each_case: 100, seed: 1 };
 
 /// Plays a row and fails with its first failing shot, as JSON that `carom simulate --batch` reads.
-fn hold(name: &str) {
+fn assert_row_holds(name: &str) {
     let case: Case = cases().into_iter().find(|case| case.name == name).expect("the row is in the table");
     let row = Row::of(&case, &PLAN, |_| {});
     if let Some(first) = &row.finding {
@@ -32,7 +32,7 @@ fn hold(name: &str) {
 
 macro_rules! rows_as_tests {
     ($($test:ident => $name:literal,)*) => {
-        $(#[test] fn $test() { hold($name); })*
+        $(#[test] fn $test() { assert_row_holds($name); })*
         const NAMES: &[&str] = &[$($name),*];
     };
 }
@@ -53,8 +53,8 @@ rows_as_tests! {
     three_touching_balls => "three balls exactly touching",
     three_balls_in_line => "three balls in line, touching or 1e-16 to 1e-6 m apart",
     tiny_gaps => "two balls 1e-16 to 1e-6 m apart",
-    two_balls_at_the_same_moment => "two object balls hit at the same moment",
-    ball_and_cushion_at_the_same_moment => "ball and cushion hit at the same moment",
+    two_balls_at_the_same_time => "two object balls hit at the same moment",
+    ball_and_cushion_at_the_same_time => "ball and cushion hit at the same moment",
     resting_on_a_cushion => "a ball resting on a cushion",
     resting_on_two_cushions => "a ball resting on two cushions",
     resting_on_another_ball => "a ball resting on another",
@@ -65,7 +65,7 @@ rows_as_tests! {
     lively_ball => "a ball spinning against another, e = 0.95",
     livelier_ball => "a ball spinning against another, e = 0.99",
     resting_on_a_smooth_ball => "a ball resting on another, smooth ball",
-    pressed_between_smooth_things => "a ball pressed between a smooth ball and cushion",
+    pressed_between_smooth_ball_and_cushion => "a ball pressed between a smooth ball and cushion",
     next_to_no_slip => "next to no slip: relative 1e-16 to 1e-6",
     tiny_spins => "spins of 1e-16 to 1e-9",
     all_speeds => "speeds from 1e-6 to 60 m/s",
@@ -96,7 +96,7 @@ fn every_row_of_the_table_is_a_test() {
 }
 
 #[test]
-fn every_row_is_in_the_document_and_holds_there() {
+fn every_row_is_documented_as_holding() {
     let page = include_str!("../../docs/stability.md");
     for name in NAMES {
         let line = page.lines().find(|line| line.starts_with(&format!("| {name} |"))).expect(name);
@@ -107,7 +107,7 @@ fn every_row_is_in_the_document_and_holds_there() {
 /// Shots of the table that failed once, each with the cause that it names. Some took far too many steps of resting contacts and bounces of
 /// chatter: these state how many are enough.
 #[test]
-fn shots_that_failed_hold() {
+fn shots_that_once_failed_now_pass() {
     // One table is longer than a file may state.
     let name = "thesis, 1 km".to_owned();
     let kilometre = Table { name, length: 1000.0, width: 500.0, ..Table::preset("thesis").unwrap() };
@@ -130,7 +130,7 @@ fn shots_that_failed_hold() {
 }
 
 #[test]
-fn a_contact_that_another_ball_ends_holds_nobody() {
+fn a_contact_ended_by_another_ball_does_not_hang() {
     let table = Table::preset("thesis").unwrap();
     let layout = "0.3554977378777134,0.1549044831937764 0.29738331918515715,0.17344401770836426 -0.7480378896521971,0.5069520010895157";
     let layout = Layout::parse(layout, &table).unwrap();
@@ -140,7 +140,7 @@ fn a_contact_that_another_ball_ends_holds_nobody() {
 
 /// The limits of the table cases are those of a table file.
 #[test]
-fn the_longest_table_is_the_longest_that_a_file_may_have() {
+fn the_longest_table_equals_the_limit_of_table_files() {
     let case: Case = cases().into_iter().find(|case| case.name == "the longest table, ten metres").unwrap();
     for table in (case.tables)() {
         let file = |table: &Table| Table::from_file(Path::new("own.toml"), &toml::to_string(table).unwrap());
@@ -151,14 +151,14 @@ fn the_longest_table_is_the_longest_that_a_file_may_have() {
 }
 
 #[test]
-fn every_case_has_its_tables() {
+fn every_case_has_tables() {
     for case in cases() {
         assert!(!(case.tables)().is_empty(), "{} has no table", case.name);
     }
 }
 
 #[test]
-fn a_cloth_without_friction_is_refused_with_a_sentence() {
+fn a_cloth_without_friction_is_refused() {
     let text = include_str!("../../src/table/textbook.toml");
     for (key, line) in [("mu_r", "mu_r = 0.010"), ("mu_s", "mu_s = 0.2")] {
         let error = Table::from_toml(&text.replace(line, &format!("{key} = 0"))).unwrap_err();
@@ -170,7 +170,7 @@ fn a_cloth_without_friction_is_refused_with_a_sentence() {
 /// The checks themselves: on a table that is smaller than the checker assumes, a shot leaves the table; balls that are placed inside each
 /// other overlap.
 #[test]
-fn the_checks_see_what_is_wrong() {
+fn the_checks_detect_violations() {
     let table = Table::default();
     let mut trace = Trace::new(&table);
     let layout = Layout::new([DVec2::ZERO, DVec2::new(0.06, 0.0), DVec2::new(1.0, 0.5)]);

@@ -57,7 +57,7 @@ impl Environment for Detour {
 }
 
 /// Returns the mean reward of the agent's best first actions over both states, after this number of shots.
-fn learnt<A: Agent>(settings: A::Settings, shots: u32, seed: u64) -> f64 {
+fn trained_reward<A: Agent>(settings: A::Settings, shots: u32, seed: u64) -> f64 {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut agent = A::new(settings, &mut rng).unwrap();
     let (mut episode, mut game) = (EpisodeState::default(), Detour::default());
@@ -76,8 +76,8 @@ fn learnt<A: Agent>(settings: A::Settings, shots: u32, seed: u64) -> f64 {
 fn q_learning_finds_the_optimum() {
     let epsilon = Epsilon { first: 1.0, last: 0.1, over: 20_000 };
     let settings = QLearningSettings { learning_rate: 0.5, epsilon, ..QLearningSettings::default() };
-    assert!(learnt::<QLearning>(settings.clone(), 0, 1) < 0.9, "chance alone must not pass");
-    let earned = learnt::<QLearning>(settings, 30_000, 1);
+    assert!(trained_reward::<QLearning>(settings.clone(), 0, 1) < 0.9, "chance alone must not pass");
+    let earned = trained_reward::<QLearning>(settings, 30_000, 1);
     assert!(earned > 0.95, "{earned}");
 }
 
@@ -85,8 +85,8 @@ fn q_learning_finds_the_optimum() {
 fn deep_q_learning_finds_the_optimum() {
     let epsilon = Epsilon { first: 1.0, last: 0.1, over: 3_000 };
     let settings = DqnSettings { target_every: 200, memory: 5_000, epsilon, ..DqnSettings::default() };
-    assert!(learnt::<Dqn>(settings.clone(), 0, 1) < 0.9, "chance alone must not pass");
-    let earned = learnt::<Dqn>(settings, 5_000, 1);
+    assert!(trained_reward::<Dqn>(settings.clone(), 0, 1) < 0.9, "chance alone must not pass");
+    let earned = trained_reward::<Dqn>(settings, 5_000, 1);
     assert!(earned > 0.9, "{earned}");
 }
 
@@ -96,7 +96,9 @@ fn the_deterministic_policy_gradient_finds_the_optimum() {
     // plain algorithm fails even so: of 16 seeds two do, and rounding decides which ones and may cost a third.
     let noise = OrnsteinUhlenbeck { theta: 0.15, sigma: 0.3, dt: 1.0 };
     let settings = PlainDdpgSettings { keep: 0.99, noise, noise_restarts: false, ..PlainDdpgSettings::default() };
-    let all = |shots: u32| (1..=16).map(|seed| learnt::<PlainDdpg>(settings.clone(), shots, seed)).collect::<Vec<_>>();
+    let all = |shots: u32| {
+        (1..=16).map(|seed| trained_reward::<PlainDdpg>(settings.clone(), shots, seed)).collect::<Vec<_>>()
+    };
     let found = |earned: &[f64]| earned.iter().filter(|earned| **earned > 0.95).count();
     let (chance, earned) = (all(0), all(10_000));
     assert!(found(&chance) == 0 && found(&earned) >= 13, "{chance:?} {earned:?}");
@@ -107,13 +109,13 @@ fn start(agent: &str, settings: &Value) -> Box<dyn Learner> {
     (AgentKind::named(agent).unwrap().start)(plan, Table::preset("thesis").unwrap(), settings).unwrap()
 }
 
-fn put_aside(learner: &dyn Learner) -> Vec<u8> {
+fn save(learner: &dyn Learner) -> Vec<u8> {
     let mut writer = Writer::default();
     let note = learner.save(&mut writer).unwrap();
     writer.finish(&note).unwrap()
 }
 
-fn taken_up(agent: &str, bytes: &[u8]) -> Box<dyn Learner> {
+fn restore(agent: &str, bytes: &[u8]) -> Box<dyn Learner> {
     let reader = Reader::new(bytes).unwrap();
     (AgentKind::named(agent).unwrap().restore)(&reader, reader.note().unwrap()).unwrap()
 }
@@ -121,7 +123,7 @@ fn taken_up(agent: &str, bytes: &[u8]) -> Box<dyn Learner> {
 const AGENTS: [&str; 3] = ["q-learning", "dqn", "thesis-ddpg"];
 
 #[test]
-fn an_agent_with_lessons_that_goes_on_is_bit_for_bit_the_one_that_never_stopped() {
+fn a_resumed_agent_with_lessons_equals_an_uninterrupted_one() {
     // When the agent is saved, layouts are left to search, and more lessons were found than fit into memory.
     let settings = json!({
         "hindsight": 0.4, "demonstrations": 0.3, "demonstration_layouts": 330, "demonstration_tries": 60, "memory": 50,
@@ -133,7 +135,7 @@ fn an_agent_with_lessons_that_goes_on_is_bit_for_bit_the_one_that_never_stopped(
     let (mut whole, mut parts) = (start(), start());
     let first_rate = whole.progress().learning_rate;
     while !whole.is_finished() {
-        parts = taken_up("thesis-ddpg", &put_aside(parts.as_ref()));
+        parts = restore("thesis-ddpg", &save(parts.as_ref()));
         assert_eq!(whole.iterate().unwrap(), parts.iterate().unwrap());
     }
     assert!(
@@ -141,8 +143,8 @@ fn an_agent_with_lessons_that_goes_on_is_bit_for_bit_the_one_that_never_stopped(
         "{} of {first_rate}",
         whole.progress().learning_rate
     );
-    let bytes = put_aside(whole.as_ref());
-    assert!(bytes == put_aside(parts.as_ref()));
+    let bytes = save(whole.as_ref());
+    assert!(bytes == save(parts.as_ref()));
     for name in ["hindsight", "demonstrations"] {
         let (shape, _) = Reader::new(&bytes).unwrap().array(name).unwrap();
         assert_eq!(shape[0], 50, "{name}");
@@ -150,13 +152,13 @@ fn an_agent_with_lessons_that_goes_on_is_bit_for_bit_the_one_that_never_stopped(
 }
 
 #[test]
-fn in_canonical_and_relative_views_symmetric_layouts_are_played_alike() {
+fn canonical_and_relative_views_are_symmetric() {
     for view in ["canonical", "relative"] {
-        symmetric_layouts_are_played_alike(start("thesis-ddpg", &json!({ view: true })).as_ref());
+        assert_symmetric_play(start("thesis-ddpg", &json!({ view: true })).as_ref());
     }
 }
 
-fn symmetric_layouts_are_played_alike(agent: &dyn Learner) {
+fn assert_symmetric_play(agent: &dyn Learner) {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(9);
     for _ in 0..100 {
         let layout = Layout::random(agent.table(), &mut rng);
@@ -174,7 +176,7 @@ fn symmetric_layouts_are_played_alike(agent: &dyn Learner) {
 }
 
 #[test]
-fn a_run_from_before_there_were_lessons_is_still_read_and_goes_on_alike() {
+fn checkpoints_older_than_lessons_resume_identically() {
     let mut new = start("thesis-ddpg", &json!({}));
     new.iterate().unwrap();
     new.iterate().unwrap();
@@ -196,13 +198,13 @@ fn a_run_from_before_there_were_lessons_is_still_read_and_goes_on_alike() {
     ];
     note["settings"].as_object_mut().unwrap().retain(|name, _| before.contains(&name.as_str()));
     assert!(note["agent"].get("lessons").is_none(), "{note}");
-    let mut old = taken_up("thesis-ddpg", &writer.finish(&note).unwrap());
+    let mut old = restore("thesis-ddpg", &writer.finish(&note).unwrap());
     assert_eq!(old.iterate().unwrap(), new.iterate().unwrap());
-    assert!(put_aside(old.as_ref()) == put_aside(new.as_ref()));
+    assert!(save(old.as_ref()) == save(new.as_ref()));
 }
 
 #[test]
-fn an_agent_that_goes_on_is_bit_for_bit_the_one_that_never_stopped() {
+fn a_resumed_agent_equals_an_uninterrupted_one() {
     for agent in AGENTS {
         // Seven does not divide the hundred shots of an iteration, so agents are saved in the middle of a game.
         for episode in [json!("one-shot"), json!({ "shots": 7 })] {
@@ -213,24 +215,24 @@ fn an_agent_that_goes_on_is_bit_for_bit_the_one_that_never_stopped() {
             let mut whole = start(agent, &settings);
             let mut parts = start(agent, &settings);
             while !whole.is_finished() {
-                parts = taken_up(agent, &put_aside(parts.as_ref()));
+                parts = restore(agent, &save(parts.as_ref()));
                 assert_eq!(whole.iterate().unwrap(), parts.iterate().unwrap(), "{agent}");
             }
             assert_eq!(parts.shots(), 650);
             assert!(parts.progress().updates >= 500);
-            assert!(put_aside(whole.as_ref()) == put_aside(parts.as_ref()), "{agent}");
+            assert!(save(whole.as_ref()) == save(parts.as_ref()), "{agent}");
         }
     }
 }
 
 #[test]
-fn weights_are_loaded_and_those_of_another_agent_or_size_are_refused() {
+fn weights_of_other_agents_or_sizes_are_refused() {
     for agent in AGENTS {
         let mut teacher = start(agent, &json!({}));
         for _ in 0..6 {
             teacher.iterate().unwrap();
         }
-        let bytes = put_aside(teacher.as_ref());
+        let bytes = save(teacher.as_ref());
         let mut pupil = start(agent, &json!({}));
         let layouts = carom::learning::evaluation::held_out_layouts(pupil.table(), 300, 1);
         pupil.load_weights(&Reader::new(&bytes).unwrap()).unwrap();
@@ -243,7 +245,7 @@ fn weights_are_loaded_and_those_of_another_agent_or_size_are_refused() {
             );
         }
     }
-    let bytes = put_aside(start("thesis-ddpg", &json!({ "actor_layers": [8] })).as_ref());
+    let bytes = save(start("thesis-ddpg", &json!({ "actor_layers": [8] })).as_ref());
     let refused = start("thesis-ddpg", &json!({})).load_weights(&Reader::new(&bytes).unwrap()).unwrap_err().to_string();
     assert!(["10028", "12492", "6-16-16-16-2"].iter().all(|part| refused.contains(part)), "{refused}");
 }

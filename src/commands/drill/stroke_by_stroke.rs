@@ -335,7 +335,11 @@ impl<'a> StrokeByStroke<'a> {
         if let Some(score) = session.score_words() {
             print_line(score)?;
             for cue_ball in [session.cue_ball, session.cue_ball.other()] {
-                print_line(format_args!("{}: {}", session.side_words(cue_ball), words(&session.side_record(cue_ball))))?;
+                print_line(format_args!(
+                    "{}: {}",
+                    session.side_words(cue_ball),
+                    words(&session.side_record(cue_ball))
+                ))?;
             }
         } else {
             print_line(words(&record))?;

@@ -1,6 +1,6 @@
 //! Practice through the real binary: sessions, scores, positions, and their safety when something goes wrong.
 
-mod kept;
+mod data_safety;
+mod positions;
 mod scores;
 mod sides;
-mod trouble;

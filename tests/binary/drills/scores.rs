@@ -2,14 +2,14 @@
 
 use serde_json::{Value, json};
 
-use crate::program::{SAVE, carom, command, drill, fed, folder};
+use crate::program::{SAVE, carom, command, drill, folder, run_with_input};
 
-fn kinds<'a>(lines: &'a [Value], kind: &str) -> Vec<&'a Value> {
+fn of_kind<'a>(lines: &'a [Value], kind: &str) -> Vec<&'a Value> {
     lines.iter().filter(|line| line["kind"] == kind).collect()
 }
 
 #[test]
-fn results_at_a_table_are_scored_as_by_hand() {
+fn logged_results_are_scored_correctly() {
     let folder = folder();
     let undo = |times| drill(folder.path(), &[&["log", "mine"][..], &["undo"].repeat(times)].concat()).code;
     drill(folder.path(), &["log", "mine", "make", "make", "miss", "make", "miss", "miss"]);
@@ -20,7 +20,8 @@ fn results_at_a_table_are_scored_as_by_hand() {
     assert_eq!(score["average"], 1.5);
     assert_eq!(drill(folder.path(), &["log", "mine", "--made", "7", "--of", "10"]).code, Some(0));
     let lines =
-        fed(command(folder.path(), &["drill", "log", "mine", "--json"]), "make\nmiss\nundo\nmake\nmake\n").json();
+        run_with_input(command(folder.path(), &["drill", "log", "mine", "--json"]), "make\nmiss\nundo\nmake\nmake\n")
+            .json();
     assert_eq!(lines.len(), 5, "every word is answered");
     assert_eq!([&lines[4]["tried"], &lines[4]["high_run"]], [3, 3]);
     let all = &drill(folder.path(), &["history", "--json"]).json()[0];
@@ -36,7 +37,7 @@ fn results_at_a_table_are_scored_as_by_hand() {
     let text = drill(folder.path(), &["history", "mine"]).err;
     assert!(text.contains("not tried yet"), "{text}");
     assert_eq!(undo(1), Some(1));
-    let refused = fed(command(folder.path(), &["drill", "log", "mine"]), "undo\n");
+    let refused = run_with_input(command(folder.path(), &["drill", "log", "mine"]), "undo\n");
     assert!(refused.code == Some(1) && refused.err.contains("to take back"), "{}", refused.err);
     // A session without any remaining attempt is not exported.
     let file = folder.path().join("all.json");
@@ -45,7 +46,7 @@ fn results_at_a_table_are_scored_as_by_hand() {
 }
 
 #[test]
-fn what_has_gone_is_told_where_one_more_undo_finds_nothing() {
+fn surplus_undos_are_refused_after_the_possible_ones() {
     let folder = folder();
     drill(folder.path(), &["log", "mine", "make", "miss"]);
     let undone = drill(folder.path(), &["log", "mine", "undo", "undo", "undo"]);
@@ -55,20 +56,20 @@ fn what_has_gone_is_told_where_one_more_undo_finds_nothing() {
 }
 
 #[test]
-fn a_stroke_on_a_line_that_is_too_long_is_refused_and_the_rest_go_on() {
+fn an_overlong_line_is_refused_and_the_run_continues() {
     let folder = folder();
     let args = ["drill", "run", "mine", "--goal", "2", "--skill", "perfect", "--seed", "1", "--json"];
     let long = "0".repeat((1 << 20) + 1);
-    let run = fed(command(folder.path(), &args), &format!("0,0,0,90,1\n{long}\n0,0,0,90,1\n"));
+    let run = run_with_input(command(folder.path(), &args), &format!("0,0,0,90,1\n{long}\n0,0,0,90,1\n"));
     let lines = run.json();
-    assert_eq!((run.code, kinds(&lines, "attempt").len()), (Some(2), 2));
-    let refused = kinds(&lines, "refused");
+    assert_eq!((run.code, of_kind(&lines, "attempt").len()), (Some(2), 2));
+    let refused = of_kind(&lines, "refused");
     let error = refused[0]["error"].as_str().unwrap();
     assert!(refused.len() == 1 && refused[0]["line"] == 2 && error.contains("a line is too long"), "{refused:?}");
 }
 
 #[test]
-fn a_seed_plays_the_same_again_and_is_compared_with_the_model_shot_or_the_coach() {
+fn a_seed_repeats_attempts_and_compares_with_the_model_shot() {
     let folder = folder();
     let play = || {
         let args =
@@ -76,9 +77,9 @@ fn a_seed_plays_the_same_again_and_is_compared_with_the_model_shot_or_the_coach(
         drill(folder.path(), &[&args[..], &["--budget-ms", "1000"]].concat()).json()
     };
     let (once, again) = (play(), play());
-    let attempts = kinds(&once, "attempt");
+    let attempts = of_kind(&once, "attempt");
     assert_eq!(attempts.len(), 5);
-    for (attempt, again) in attempts.iter().zip(kinds(&again, "attempt")) {
+    for (attempt, again) in attempts.iter().zip(of_kind(&again, "attempt")) {
         assert_eq!(
             [&attempt["played"], &attempt["end"], &attempt["chance"]],
             [&again["played"], &again["end"], &again["chance"]]
@@ -88,36 +89,38 @@ fn a_seed_plays_the_same_again_and_is_compared_with_the_model_shot_or_the_coach(
         assert_eq!(attempt["advised_by"], "exercise");
     }
     let own = drill(folder.path(), &["try", "mine", "--shot", "0,0.3,3,1,4", "--json"]).json();
-    let own = kinds(&own, "attempt")[0];
+    let own = of_kind(&own, "attempt")[0];
     assert_eq!([&own["changes"], &own["advised_chance"]], [&json!([]), &own["chance"]], "as the model shot");
     assert_ne!(attempts[0]["played"], attempts[1]["played"], "every attempt has its own errors");
     assert_eq!(drill(folder.path(), &["history", "--json"]).json()[0]["tried"], 11);
     let shifted = ["try", "mine", "--shot", "0,0.3,3,1,4", "--repeat", "3", "--shifted", "--budget-ms", "20", "--json"];
     let lines = drill(folder.path(), &shifted).json();
-    assert_eq!(kinds(&lines, "position").len(), 3, "the balls are shifted every time");
+    assert_eq!(of_kind(&lines, "position").len(), 3, "the balls are shifted every time");
 }
 
 #[test]
-fn a_run_reads_strokes_and_the_word_coach_and_goes_on_after_a_line_that_is_none() {
+fn a_run_reads_strokes_and_coach_and_skips_invalid_lines() {
     let folder = folder();
     let args = ["drill", "run", "mine", "--goal", "2", "--skill", "perfect", "--seed", "1", "--json"];
-    let run =
-        fed(command(folder.path(), &args), "0,0,0,90,1\n\nfull speed\n0,0,0,0,-1\n0,0.8,0,0,1\ncoach\ncoach\ncoach\n");
+    let run = run_with_input(
+        command(folder.path(), &args),
+        "0,0,0,90,1\n\nfull speed\n0,0,0,0,-1\n0,0.8,0,0,1\ncoach\ncoach\ncoach\n",
+    );
     let lines = run.json();
-    let refused: Vec<u64> = kinds(&lines, "refused").iter().map(|line| line["line"].as_u64().unwrap()).collect();
+    let refused: Vec<u64> = of_kind(&lines, "refused").iter().map(|line| line["line"].as_u64().unwrap()).collect();
     assert_eq!((run.code, refused), (Some(2), vec![3, 4, 5]));
-    let attempts = kinds(&lines, "attempt");
-    let told: Vec<_> =
+    let attempts = of_kind(&lines, "attempt");
+    let results: Vec<_> =
         attempts.iter().map(|attempt| (attempt["made"].as_bool(), attempt["helped"].as_bool())).collect();
     let [no, yes] = [false, true].map(Some);
-    assert_eq!(told, [(no, no), (yes, yes), (yes, yes)], "two in a row end it");
+    assert_eq!(results, [(no, no), (yes, yes), (yes, yes)], "two in a row end it");
     assert_eq!(attempts[0]["verdict"], "No point: no ball was hit");
     let result = lines.last().unwrap();
     assert_eq!([&result["kind"], &result["over"], &result["high_run"]], [&json!("result"), &json!(true), &json!(2)]);
 }
 
 #[test]
-fn a_game_goes_on_from_where_the_balls_stop_and_ends_after_its_innings() {
+fn a_game_continues_from_end_positions_until_its_last_inning() {
     let folder = tempfile::tempdir().unwrap();
     let args = [
         "play",
@@ -142,27 +145,27 @@ fn a_game_goes_on_from_where_the_balls_stop_and_ends_after_its_innings() {
             _ => {}
         }
     }
-    let made: Vec<bool> = kinds(&lines, "attempt").iter().map(|turn| turn["made"].as_bool().unwrap()).collect();
+    let made: Vec<bool> = of_kind(&lines, "attempt").iter().map(|turn| turn["made"].as_bool().unwrap()).collect();
     let points = made.iter().filter(|made| **made).count();
     assert_eq!((made.len() - points, made.last()), (2, Some(&false)));
     let result = lines.last().unwrap();
     assert_eq!([&result["made"], &result["innings"]], [points, 2]);
     assert_eq!(result["average"].as_f64().unwrap(), points as f64 / 2.0);
     let games = drill(folder.path(), &["history", "--games", "three-cushion", "--json"]).json();
-    assert!(games.is_empty(), "what the coach plays is none of the player's games");
+    assert!(games.is_empty(), "games of the coach are not in the player's history");
 }
 
 #[test]
-fn a_coach_without_a_point_is_one_line_refused_and_no_end() {
+fn a_line_is_refused_when_the_coach_finds_no_point() {
     let folder = tempfile::tempdir().unwrap();
     let args = ["play", "--table", "thesis", "--rule", "three-cushion", "--budget-ms", "0", "--innings", "1", "--json"];
     let layout = ["--layout", "-0.9,0.1 0.3,0.3 0.6,-0.5"];
-    let lines = fed(command(folder.path(), &[&args[..], &layout].concat()), "coach\n0,0,0,0,2\n").json();
-    assert_eq!([kinds(&lines, "refused").len(), kinds(&lines, "attempt").len()], [1, 1], "{lines:?}");
+    let lines = run_with_input(command(folder.path(), &[&args[..], &layout].concat()), "coach\n0,0,0,0,2\n").json();
+    assert_eq!([of_kind(&lines, "refused").len(), of_kind(&lines, "attempt").len()], [1, 1], "{lines:?}");
 }
 
 #[test]
-fn enough_results_tell_a_skill_that_every_command_takes() {
+fn enough_results_give_a_skill_that_commands_accept() {
     let folder = folder();
     let early = drill(folder.path(), &["skill"]);
     assert!(
@@ -198,11 +201,11 @@ fn enough_results_tell_a_skill_that_every_command_takes() {
     let report = own(&["evaluate", "--policy-only", "--layouts", "1", "--json"]).json().remove(0);
     assert_eq!(report["robustness"]["skill"], answer["skill"]);
     let lines = own(&["drill", "try", "mine", "--shot", "0,0.3,3,1,4", "--budget-ms", "0", "--json"]).json();
-    assert_eq!(kinds(&lines, "attempt").len(), 1);
+    assert_eq!(of_kind(&lines, "attempt").len(), 1);
 }
 
 #[test]
-fn what_is_wrong_or_not_there_is_named() {
+fn invalid_or_missing_names_and_values_are_named() {
     let folder = folder();
     let own = |args: &'static [&'static str]| args;
     let cases: [(&[&str], i32, &str); 12] = [
@@ -227,7 +230,7 @@ fn what_is_wrong_or_not_there_is_named() {
 }
 
 #[test]
-fn a_table_of_ones_own_is_played_on_where_it_has_the_size_of_the_exercises() {
+fn exercises_accept_a_users_table_of_the_same_size() {
     let folder = folder();
     let file = folder.path().join("cellar.toml");
     let own = carom(folder.path(), &["table", "show", "match"]).out.replace("name = \"match\"", "name = \"cellar\"");
@@ -237,7 +240,7 @@ fn a_table_of_ones_own_is_played_on_where_it_has_the_size_of_the_exercises() {
     let on = |table: &[&str]| drill(folder.path(), &[&["try", "mine"], &shot[..], table].concat()).json();
     let (own, bundled) = (on(&["--table", file]), on(&[]));
     assert_eq!([&own[0]["table"], &bundled[0]["table"]], ["cellar", "match"]);
-    assert_ne!(own[1]["end"], bundled[1]["end"], "the cloth is another");
+    assert_ne!(own[1]["end"], bundled[1]["end"], "the cloth has another friction");
     let refused = |args: &[&str]| {
         let outcome = drill(folder.path(), args);
         assert_eq!(outcome.code, Some(2));
@@ -247,16 +250,17 @@ fn a_table_of_ones_own_is_played_on_where_it_has_the_size_of_the_exercises() {
     assert!(other.contains("2.84 by 1.42 m") && other.contains("\"thesis\" is another"), "{other}");
     assert!(refused(&["exam", "--table", file]).contains("leave out --table"));
     let game =
-        fed(command(folder.path(), &["play", "--table", file, "--innings", "1", "--json"]), "0,0,0,0,1\n").json();
+        run_with_input(command(folder.path(), &["play", "--table", file, "--innings", "1", "--json"]), "0,0,0,0,1\n")
+            .json();
     assert_eq!(game[0]["table"], "cellar");
 }
 
 #[test]
-fn an_exam_asks_twenty_exercises_once_and_says_whose_score_it_is() {
+fn an_exam_has_twenty_exercises_and_grades_the_score() {
     let folder = folder();
     let args = ["exam", "--level", "2", "--seed", "8", "--skill", "perfect", "--budget-ms", "200", "--json"];
     let lines = drill(folder.path(), &[&args[..], &["--coach"]].concat()).json();
-    let attempts = kinds(&lines, "attempt");
+    let attempts = of_kind(&lines, "attempt");
     let names: std::collections::BTreeSet<&str> =
         attempts.iter().map(|attempt| attempt["exercise"].as_str().unwrap()).collect();
     assert_eq!((attempts.len(), names.len()), (20, 20));
@@ -265,16 +269,16 @@ fn an_exam_asks_twenty_exercises_once_and_says_whose_score_it_is() {
     assert_eq!((&result["over"], &result["nearest"]), (&json!(true), &json!("world-class")), "{result}");
     assert!(points > 15, "a perfect player makes what the coach finds: {points}");
     // The same seed selects the same exercises; an exam that ends early is saved as far as it was played.
-    let lines = fed(command(folder.path(), &[&["drill"], &args[..]].concat()), "0,0,0,0,1\n").json();
-    assert_eq!(kinds(&lines, "position")[0]["exercise"], attempts[0]["exercise"]);
+    let lines = run_with_input(command(folder.path(), &[&["drill"], &args[..]].concat()), "0,0,0,0,1\n").json();
+    assert_eq!(of_kind(&lines, "position")[0]["exercise"], attempts[0]["exercise"]);
     let result = lines.last().unwrap();
     assert_eq!([&result["tried"], &result["over"]], [&json!(1), &json!(false)]);
-    let text = fed(command(folder.path(), &["drill", "exam"]), "0,0,0,0,1\n").out;
+    let text = run_with_input(command(folder.path(), &["drill", "exam"]), "0,0,0,0,1\n").out;
     assert!(text.contains("(1 of 20 played)"), "{text}");
 }
 
 #[test]
-fn a_game_that_the_limit_of_strokes_ends_says_so() {
+fn a_game_ended_by_the_stroke_limit_is_reported() {
     let folder = folder();
     let played = |strokes: &str| {
         let args = ["play", "--coach", "--innings", "3", "--budget-ms", "10", "--seed", "1", "--strokes", strokes];
@@ -284,12 +288,12 @@ fn a_game_that_the_limit_of_strokes_ends_says_so() {
     let says = "the limit of 2 strokes ended it; --strokes sets another, up to 10000";
     assert!(cut.code == Some(0) && cut.err.contains(says), "{}", cut.err);
     // The miss that ends the last inning ends the game, even at the limit of strokes.
-    let missing = fed(
+    let missing = run_with_input(
         command(folder.path(), &["play", "--innings", "1", "--strokes", "1", "--skill", "perfect"]),
         "0,0,0,90,1\n",
     );
     assert!(missing.code == Some(0) && !missing.err.contains("limit"), "{}", missing.err);
     let run = ["drill", "run", "mine", "--goal", "9", "--strokes", "2"];
-    let run = fed(command(folder.path(), &run), &"0,0,0,90,1\n".repeat(3));
+    let run = run_with_input(command(folder.path(), &run), &"0,0,0,90,1\n".repeat(3));
     assert!(run.err.contains(says), "{}", run.err);
 }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::program::{carom, command, fed, folder};
+use crate::program::{carom, command, folder, run_with_input};
 
 /// A stroke that moves the cue ball a little and meets nothing.
 const MISS: &str = "0,0,5,180,0.3\n";
@@ -12,10 +12,10 @@ fn of_kind<'a>(lines: &'a [Value], kind: &str) -> Vec<&'a Value> {
 }
 
 #[test]
-fn after_a_miss_the_other_ball_is_the_cue_ball_and_nobody_has_touched_the_balls() {
+fn after_a_miss_the_other_side_plays_the_same_position() {
     let folder = folder();
     let args = ["play", "--both", "--ball", "yellow", "--innings", "1", "--seed", "1", "--json"];
-    let lines = fed(command(folder.path(), &args), &MISS.repeat(5)).json();
+    let lines = run_with_input(command(folder.path(), &args), &MISS.repeat(5)).json();
     let (positions, attempts) = (of_kind(&lines, "position"), of_kind(&lines, "attempt"));
     assert_eq!(attempts.len(), 2, "one inning of each side: {lines:?}");
     for (index, colour) in ["yellow", "white"].into_iter().enumerate() {
@@ -31,7 +31,7 @@ fn after_a_miss_the_other_ball_is_the_cue_ball_and_nobody_has_touched_the_balls(
 }
 
 #[test]
-fn the_coach_plays_the_other_side_and_alone_one_keeps_ones_ball() {
+fn the_coach_plays_the_other_side_against_the_player() {
     let folder = folder();
     let args = [
         "play",
@@ -46,7 +46,7 @@ fn the_coach_plays_the_other_side_and_alone_one_keeps_ones_ball() {
         "beginner",
         "--json",
     ];
-    let lines = fed(command(folder.path(), &args), &MISS.repeat(5)).json();
+    let lines = run_with_input(command(folder.path(), &args), &MISS.repeat(5)).json();
     let attempts = of_kind(&lines, "attempt");
     assert!(attempts.iter().any(|attempt| attempt["cue_ball"] == "yellow"), "{lines:?}");
     for attempt in &attempts {
@@ -54,16 +54,16 @@ fn the_coach_plays_the_other_side_and_alone_one_keeps_ones_ball() {
         assert_eq!(attempt["helped"], false, "{attempt}");
     }
     let alone = ["play", "--ball", "yellow", "--innings", "2", "--seed", "1", "--json"];
-    let lines = fed(command(folder.path(), &alone), &MISS.repeat(5)).json();
+    let lines = run_with_input(command(folder.path(), &alone), &MISS.repeat(5)).json();
     assert!(of_kind(&lines, "attempt").iter().all(|attempt| attempt["cue_ball"] == "yellow"));
     assert!(of_kind(&lines, "result")[0].get("sides").is_none());
-    let told = fed(command(folder.path(), &["play", "--both", "--innings", "1"]), &MISS.repeat(3)).out;
-    assert!(told.contains("the cue ball is white") && told.contains("the cue ball is yellow"), "{told}");
-    assert!(told.contains("\nwhite: 0 of 1 made") && told.contains("\nyellow: 0 of 1 made"), "{told}");
+    let text = run_with_input(command(folder.path(), &["play", "--both", "--innings", "1"]), &MISS.repeat(3)).out;
+    assert!(text.contains("the cue ball is white") && text.contains("the cue ball is yellow"), "{text}");
+    assert!(text.contains("\nwhite: 0 of 1 made") && text.contains("\nyellow: 0 of 1 made"), "{text}");
 }
 
 #[test]
-fn words_that_are_no_ball_or_side_are_refused_with_what_would_be_accepted() {
+fn unknown_balls_and_sides_are_refused_with_accepted_values() {
     let folder = folder();
     for (args, says) in
         [(["play", "--ball", "red"], "use white or yellow"), (["play", "--side", "up"], "left or right")]

@@ -22,13 +22,13 @@ use super::mutation::mutated;
 use crate::program::home;
 
 /// Tests with files are a thousand times slower than those with text in memory.
-fn few() -> ProptestConfig {
+fn fewer_cases() -> ProptestConfig {
     let default = ProptestConfig::default();
     ProptestConfig { cases: (default.cases / 4).max(16), ..default }
 }
 
 /// A valid run and a valid session, written by the program.
-static SOUND: LazyLock<TempDir> = LazyLock::new(|| {
+static VALID: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     let small = "actor_layers = [4]\ncritic_layers = [4]\nbatch = 8\nactor_batch = 4\nreplay = 1000\n";
     fs::write(folder.path().join("small.toml"), small).unwrap();
@@ -45,37 +45,37 @@ static SOUND: LazyLock<TempDir> = LazyLock::new(|| {
     folder
 });
 
-fn sound(name: &str) -> Vec<u8> {
-    fs::read(SOUND.path().join(name)).unwrap()
+fn valid_file(name: &str) -> Vec<u8> {
+    fs::read(VALID.path().join(name)).unwrap()
 }
 
 /// Returns the only file in a folder of practice data.
-fn only(folder: &str) -> (String, Vec<u8>) {
-    let mut files = fs::read_dir(SOUND.path().join(folder)).unwrap().map(|entry| entry.unwrap().path());
+fn only_json_file(folder: &str) -> (String, Vec<u8>) {
+    let mut files = fs::read_dir(VALID.path().join(folder)).unwrap().map(|entry| entry.unwrap().path());
     let file = files.find(|file| file.extension().is_some_and(|extension| extension == "json")).unwrap();
     (file.file_name().unwrap().to_str().unwrap().to_owned(), fs::read(file).unwrap())
 }
 
 /// Files that identify a run.
-const OF_RUN: [&str; 5] = ["config.json", "metrics.jsonl", "state.json", "shots.json", "checkpoint.safetensors"];
+const RUN_FILES: [&str; 5] = ["config.json", "metrics.jsonl", "state.json", "shots.json", "checkpoint.safetensors"];
 
 /// One of these files, damaged.
-fn one_of_run() -> impl Strategy<Value = (&'static str, Vec<u8>)> {
-    prop::sample::select(&OF_RUN).prop_flat_map(|name| (Just(name), mutated(sound(&format!("run/{name}")))))
+fn damaged_run_file() -> impl Strategy<Value = (&'static str, Vec<u8>)> {
+    prop::sample::select(&RUN_FILES).prop_flat_map(|name| (Just(name), mutated(valid_file(&format!("run/{name}")))))
 }
 
 /// Returns a folder that contains a valid run called `run`.
-fn folder_of_run() -> TempDir {
+fn run_folder() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("run")).unwrap();
-    for name in OF_RUN {
-        fs::write(folder.path().join("run").join(name), sound(&format!("run/{name}"))).unwrap();
+    for name in RUN_FILES {
+        fs::write(folder.path().join("run").join(name), valid_file(&format!("run/{name}"))).unwrap();
     }
     folder
 }
 
 proptest! {
-    #![proptest_config(few())]
+    #![proptest_config(fewer_cases())]
 
     #[test]
     fn settings(bytes in mutated(Settings::default().document().into_bytes())) {
@@ -86,15 +86,15 @@ proptest! {
     }
 
     #[test]
-    fn practice(session in mutated(only("carom/sessions").1), position in mutated(only("carom/positions").1)) {
+    fn practice(session in mutated(only_json_file("carom/sessions").1), position in mutated(only_json_file("carom/positions").1)) {
         let folder = tempfile::tempdir().unwrap();
         for (kind, bytes) in [("sessions", &session), ("positions", &position)] {
             fs::create_dir(folder.path().join(kind)).unwrap();
-            fs::write(folder.path().join(kind).join(only(&format!("carom/{kind}")).0), bytes).unwrap();
+            fs::write(folder.path().join(kind).join(only_json_file(&format!("carom/{kind}")).0), bytes).unwrap();
         }
         let store = Store::new(&DataPaths::under(folder.path()));
         let found = store.sessions();
-        prop_assert_eq!(found.items.len() + found.notes.len(), 1, "it is read or told of");
+        prop_assert_eq!(found.items.len() + found.notes.len(), 1, "the file is either read or reported");
         for session in &found.items {
             let _ = (session.record(), session.position());
         }
@@ -102,8 +102,8 @@ proptest! {
     }
 
     #[test]
-    fn runs((name, bytes) in one_of_run()) {
-        let folder = folder_of_run();
+    fn runs((name, bytes) in damaged_run_file()) {
+        let folder = run_folder();
         let run = folder.path().join("run");
         fs::write(run.join(name), bytes).unwrap();
         let _ = runs_in(folder.path());
@@ -111,7 +111,7 @@ proptest! {
     }
 
     #[test]
-    fn policies(bytes in mutated(sound("run/policy.safetensors"))) {
+    fn policies(bytes in mutated(valid_file("run/policy.safetensors"))) {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("policy.safetensors");
         fs::write(&path, bytes).unwrap();
@@ -119,8 +119,8 @@ proptest! {
     }
 
     #[test]
-    fn runs_that_are_followed(states in prop::collection::vec((one_of_run(), any::<bool>()), 1..6)) {
-        let folder = folder_of_run();
+    fn followed_runs(states in prop::collection::vec((damaged_run_file(), any::<bool>()), 1..6)) {
+        let folder = run_folder();
         let run = folder.path().join("run");
         let (mut follower, mut followed) = (Follower::new(&run), Followed::new(&run));
         for ((name, bytes), is_there) in states {

@@ -51,17 +51,17 @@ fn check(args: &[&str], lines: usize) {
 }
 
 #[test]
-fn shots() {
+fn simulate_batch() {
     check(&["simulate", "--batch", "-"], 10 * Config::default().cases as usize);
 }
 
 #[test]
-fn questions() {
+fn recommend_batch() {
     check(&["recommend", "--policy-only", "--batch", "-"], 4 * Config::default().cases as usize);
 }
 
 #[test]
-fn conversation() {
+fn plain_mode() {
     let (mut runner, words) = (
         TestRunner::new(Config::default()),
         prop::sample::select(vec![
@@ -81,13 +81,13 @@ fn conversation() {
             "tell",
         ]),
     );
-    let mut said = Vec::new();
+    let mut input_text = Vec::new();
     for _ in 0..Config::default().cases {
         let order = words.new_tree(&mut runner).unwrap().current();
         let mut line = mutated(order.into()).new_tree(&mut runner).unwrap().current();
         line.retain(|byte| *byte != b'\n');
-        said.extend(line);
-        said.push(b'\n');
+        input_text.extend(line);
+        input_text.push(b'\n');
     }
     // Some lines ask the coach, who must answer quickly.
     let config = tempfile::tempdir().unwrap();
@@ -102,7 +102,7 @@ fn conversation() {
         .spawn()
         .unwrap();
     let mut input = child.stdin.take().unwrap();
-    let feeder = thread::spawn(move || input.write_all(&said));
+    let feeder = thread::spawn(move || input.write_all(&input_text));
     let output = child.wait_with_output().unwrap();
     // The program may have understood "quit".
     let _ = feeder.join().unwrap();

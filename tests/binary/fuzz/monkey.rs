@@ -13,7 +13,7 @@ use std::{
 use rand::{RngExt, SeedableRng, seq::IndexedRandom};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use crate::terminal::{OPENING, Session};
+use crate::terminal::{START_TEXT, Session};
 
 /// Number of events in a session.
 const EVENTS: u32 = 300;
@@ -81,7 +81,7 @@ const KEYS: [&str; 60] = [
     "]",
 ];
 
-const HOSTILE: [&str; 12] = [
+const HOSTILE_SEQUENCES: [&str; 12] = [
     "\x1b[<",
     "\x1b[<0;5;",
     "\x1b[?",
@@ -97,18 +97,18 @@ const HOSTILE: [&str; 12] = [
 ];
 
 #[test]
-fn a_monkey_leaves_no_trace() {
+fn random_input_leaves_the_terminal_restored() {
     let seconds = env::var("CAROM_MONKEY").ok().and_then(|text| text.parse().ok());
     let (start, end) = (Instant::now(), Duration::from_secs(seconds.unwrap_or(0)));
     let (mut sessions, mut events, mut most) = (0, 0_u64, 0);
     for seed in 0.. {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let mut session = Session::start(120, 40);
-        session.wait_for(OPENING);
+        session.wait_for(START_TEXT);
         for _ in 0..EVENTS {
             events += 1;
             match rng.random_range(0..20) {
-                0 => session.send(HOSTILE.choose(&mut rng).unwrap()),
+                0 => session.send(HOSTILE_SEQUENCES.choose(&mut rng).unwrap()),
                 1 => session.resize(rng.random_range(20..200), rng.random_range(5..60)),
                 2 => {
                     let (button, column, row) =
@@ -116,7 +116,7 @@ fn a_monkey_leaves_no_trace() {
                     session.send(&format!("\x1b[<{button};{column};{row}M"));
                 }
                 3 => {
-                    session.count(Duration::from_millis(20));
+                    session.count_bytes(Duration::from_millis(20));
                 }
                 // Ctrl-Z would stop the program, and nothing would continue it.
                 _ => session.send(KEYS.choose(&mut rng).unwrap().trim_start_matches('\x1a')),
@@ -124,15 +124,15 @@ fn a_monkey_leaves_no_trace() {
             if session.child.try_wait().unwrap().is_some() {
                 break;
             }
-            session.count(Duration::from_millis(1));
+            session.count_bytes(Duration::from_millis(1));
         }
         most = most.max(memory(&session));
         // A paste without an end may block for a second.
-        session.count(Duration::from_millis(1200));
+        session.count_bytes(Duration::from_millis(1200));
         if session.child.try_wait().unwrap().is_none() {
             session.send("\x03");
         }
-        let status = session.assert_left_without_trace();
+        let status = session.assert_clean_exit();
         assert!(status.success(), "seed {seed}: {status:?}");
         if let Some(home) = session.home() {
             abandon(&home.join("data/carom/runs"));

@@ -56,44 +56,44 @@ fn damage() -> impl Strategy<Value = Damage> {
     ]
 }
 
-/// Generates `sound` with up to four damages, and sometimes noise.
-pub fn mutated(sound: Vec<u8>) -> impl Strategy<Value = Vec<u8>> {
+/// Generates `valid` with up to four damages, and sometimes noise.
+pub fn mutated(valid: Vec<u8>) -> impl Strategy<Value = Vec<u8>> {
     let damaged = prop::collection::vec(damage(), 0..5)
-        .prop_map(move |all| all.iter().fold(sound.clone(), |bytes, damage| damage.on(bytes)));
+        .prop_map(move |all| all.iter().fold(valid.clone(), |bytes, damage| damage.apply_to(bytes)));
     prop_oneof![9 => damaged, 1 => prop::collection::vec(any::<u8>(), 0..200)]
 }
 
 /// Like [`mutated`], as text.
-pub fn mutated_text(sound: &str) -> impl Strategy<Value = String> + use<> {
-    mutated(sound.as_bytes().to_vec()).prop_map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
+pub fn mutated_text(valid: &str) -> impl Strategy<Value = String> + use<> {
+    mutated(valid.as_bytes().to_vec()).prop_map(|bytes| String::from_utf8_lossy(&bytes).into_owned())
 }
 
 impl Damage {
-    fn on(&self, mut bytes: Vec<u8>) -> Vec<u8> {
-        let place = |at: usize, bytes: &[u8]| at % (bytes.len() + 1);
+    fn apply_to(&self, mut bytes: Vec<u8>) -> Vec<u8> {
+        let wrapped = |at: usize, bytes: &[u8]| at % (bytes.len() + 1);
         match *self {
             Self::Byte(at, byte) => {
-                let at = place(at, &bytes);
+                let at = wrapped(at, &bytes);
                 if let Some(old) = bytes.get_mut(at) {
                     *old = byte;
                 }
             }
-            Self::Cut(at) => bytes.truncate(place(at, &bytes)),
+            Self::Cut(at) => bytes.truncate(wrapped(at, &bytes)),
             Self::Remove(at, length) => {
-                let at = place(at, &bytes);
+                let at = wrapped(at, &bytes);
                 bytes.drain(at..(at + length).min(bytes.len()));
             }
             Self::Repeat(at, length) => {
-                let at = place(at, &bytes);
+                let at = wrapped(at, &bytes);
                 let part = bytes[at..(at + length).min(bytes.len())].to_vec();
                 bytes.splice(at..at, part);
             }
             Self::Token(at, token) => {
-                let at = place(at, &bytes);
+                let at = wrapped(at, &bytes);
                 bytes.splice(at..at, token.bytes());
             }
             Self::Number(at, token) => {
-                let from = place(at, &bytes);
+                let from = wrapped(at, &bytes);
                 let is_part = |byte: &u8| byte.is_ascii_digit() || b"+-.eE".contains(byte);
                 if let Some(start) = bytes[from..].iter().position(u8::is_ascii_digit).map(|found| from + found) {
                     let length = bytes[start..].iter().position(|byte| !is_part(byte)).unwrap_or(bytes.len() - start);

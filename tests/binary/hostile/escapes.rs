@@ -4,7 +4,7 @@ use std::{fs, path::Path};
 
 use carom::printing::is_hidden;
 
-use crate::program::{carom, command, fed};
+use crate::program::{carom, command, run_with_input};
 
 /// Sets the title, colours text, reverses its direction, and starts another line.
 const NAME: &str = "\u{1b}]0;pwn\u{7}\u{9b}31m\u{202e}\r\u{7f}";
@@ -16,7 +16,7 @@ fn quoted() -> String {
 
 /// Asserts that the text contains no control character, and that the name is shown or escaped somewhere.
 #[track_caller]
-fn assert_shown(what: &str, text: &str) {
+fn assert_escaped(what: &str, text: &str) {
     let hidden = |character: &char| is_hidden(*character) && !matches!(character, '\n' | '\t');
     assert_eq!(text.chars().find(hidden), None, "{what}: {text}");
     assert!(["u{9b}", "u009b", "u009B"].iter().any(|shown| text.contains(shown)), "{what} says nothing of it: {text}");
@@ -25,8 +25,8 @@ fn assert_shown(what: &str, text: &str) {
 /// Runs the program and checks both outputs.
 #[track_caller]
 fn check(home: &Path, args: &[&str]) {
-    let said = carom(home, args);
-    assert_shown(&args.join(" "), &(said.out + &said.err));
+    let output = carom(home, args);
+    assert_escaped(&args.join(" "), &(output.out + &output.err));
 }
 
 fn table_with_name(folder: &Path) {
@@ -85,27 +85,27 @@ fn tables_and_arguments() {
 }
 
 #[test]
-fn lines_of_input() {
+fn input_lines() {
     let folder = tempfile::tempdir().unwrap();
-    let plain = fed(command(folder.path(), &["--plain"]), &format!("{NAME}\nrule {NAME}\nballs {NAME}\n"));
-    assert_shown("--plain", &(plain.out + &plain.err));
-    let play = fed(command(folder.path(), &["play"]), &format!("{NAME}\n"));
-    assert_shown("play", &(play.out + &play.err));
+    let plain = run_with_input(command(folder.path(), &["--plain"]), &format!("{NAME}\nrule {NAME}\nballs {NAME}\n"));
+    assert_escaped("--plain", &(plain.out + &plain.err));
+    let play = run_with_input(command(folder.path(), &["play"]), &format!("{NAME}\n"));
+    assert_escaped("play", &(play.out + &play.err));
     let batch = format!("{{\"preset\":\"{}\",\"layout\":[[0,0],[1,0],[0,0.5]],\"cue\":null}}\n{NAME}\n", quoted());
-    let batch = fed(command(folder.path(), &["simulate", "--batch", "-"]), &batch);
+    let batch = run_with_input(command(folder.path(), &["simulate", "--batch", "-"]), &batch);
     assert!(!(batch.out + &batch.err).chars().any(|character| is_hidden(character) && character != '\n'));
 }
 
 #[test]
-fn settings_and_kept_files() {
+fn settings_and_saved_files() {
     let folder = tempfile::tempdir().unwrap();
     let settings = folder.path().join("config.toml");
     fs::write(&settings, format!("\"{0}\" = 1\ntable = \"{0}\"\n", quoted())).unwrap();
     let mut config = command(folder.path(), &["config", "--check"]);
     fs::create_dir_all(folder.path().join("c/carom")).unwrap();
     fs::rename(&settings, folder.path().join("c/carom/config.toml")).unwrap();
-    let said = config.env("XDG_CONFIG_HOME", folder.path().join("c")).output().unwrap();
-    assert_shown("config", &(String::from_utf8(said.stdout).unwrap() + &String::from_utf8(said.stderr).unwrap()));
+    let output = config.env("XDG_CONFIG_HOME", folder.path().join("c")).output().unwrap();
+    assert_escaped("config", &(String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap()));
 
     let positions = folder.path().join("carom/positions");
     fs::create_dir_all(&positions).unwrap();
@@ -121,7 +121,7 @@ fn runs() {
     let args = ["train", "--steps", "200", "--evaluation-layouts", "2", "--evaluate-every", "200", "--run"];
     let made = carom(folder.path(), &[&args[..], &[run.to_str().unwrap()]].concat());
     assert_eq!(made.code, Some(0), "{}", made.err);
-    assert_shown("train", &(made.out + &made.err));
+    assert_escaped("train", &(made.out + &made.err));
     let text = fs::read_to_string(run.join("config.json")).unwrap();
     let mut config: serde_json::Value = serde_json::from_str(&text).unwrap();
     config["agent"] = NAME.into();
@@ -138,9 +138,9 @@ fn runs() {
     state["warning"] = NAME.into();
     fs::write(run.join("state.json"), state.to_string()).unwrap();
     for json in [&[][..], &["--json"]] {
-        let said = carom(folder.path(), &[&["watch", "--plain", run.to_str().unwrap()], json].concat());
-        assert_shown("watch", &said.err);
-        assert!(!format!("\n{}", said.err).contains("\nforged"), "{}", said.err);
-        assert!(!said.out.chars().any(|character| is_hidden(character) && character != '\n'), "{}", said.out);
+        let output = carom(folder.path(), &[&["watch", "--plain", run.to_str().unwrap()], json].concat());
+        assert_escaped("watch", &output.err);
+        assert!(!format!("\n{}", output.err).contains("\nforged"), "{}", output.err);
+        assert!(!output.out.chars().any(|character| is_hidden(character) && character != '\n'), "{}", output.out);
     }
 }

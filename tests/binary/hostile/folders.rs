@@ -11,15 +11,15 @@ fn train(home: &Path, run: &str) -> crate::program::Outcome {
 }
 
 #[test]
-fn a_new_run_writes_over_nothing_that_no_run_has_written() {
+fn a_new_run_refuses_folders_with_foreign_files() {
     let home = folder();
     for name in ["state.json", "shots.json", "request", "metrics.jsonl", "notes.txt"] {
         let run = home.path().join(format!("run-{name}"));
         fs::create_dir(&run).unwrap();
         fs::write(run.join(name), "mine").unwrap();
-        let said = train(home.path(), run.to_str().unwrap());
-        assert_eq!(said.code, Some(1), "{name}: {}", said.err);
-        assert!(said.err.contains("not empty") && said.err.contains(name), "{}", said.err);
+        let output = train(home.path(), run.to_str().unwrap());
+        assert_eq!(output.code, Some(1), "{name}: {}", output.err);
+        assert!(output.err.contains("not empty") && output.err.contains(name), "{}", output.err);
         assert_eq!(fs::read_to_string(run.join(name)).unwrap(), "mine");
         let several = carom(home.path(), &[&TRAIN[..], &[run.to_str().unwrap(), "--seeds", "2"]].concat());
         assert_eq!(several.code, Some(1), "{}", several.err);
@@ -37,7 +37,7 @@ fn a_new_run_writes_over_nothing_that_no_run_has_written() {
 }
 
 #[test]
-fn pipes_and_devices_are_refused_and_not_waited_for() {
+fn pipes_and_devices_are_refused_without_blocking() {
     let home = folder();
     let pipe = home.path().join("pipe");
     assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
@@ -51,9 +51,9 @@ fn pipes_and_devices_are_refused_and_not_waited_for() {
             &["recommend", "--policy", path],
             &["drill", "import", path],
         ] {
-            let said = carom(home.path(), args);
-            assert!(matches!(said.code, Some(1 | 2)), "{args:?}: {}", said.err);
-            assert!(said.err.contains("regular file"), "{args:?}: {}", said.err);
+            let output = carom(home.path(), args);
+            assert!(matches!(output.code, Some(1 | 2)), "{args:?}: {}", output.err);
+            assert!(output.err.contains("regular file"), "{args:?}: {}", output.err);
         }
     }
     // The same in place of the files of a run.
@@ -73,7 +73,7 @@ fn pipes_and_devices_are_refused_and_not_waited_for() {
 }
 
 #[test]
-fn an_export_goes_where_a_link_leads() {
+fn an_export_follows_symbolic_links() {
     let home = folder();
     fs::write(home.path().join("real.json"), "").unwrap();
     symlink("real.json", home.path().join("link.json")).unwrap();
@@ -83,19 +83,19 @@ fn an_export_goes_where_a_link_leads() {
     // Overwrites another export, but nothing else.
     assert_eq!(carom(home.path(), &["drill", "export", "real.json"]).code, Some(0));
     fs::write(home.path().join("notes.txt"), "mine").unwrap();
-    let said = carom(home.path(), &["drill", "export", "notes.txt"]);
-    assert!(said.code == Some(1) && said.err.contains("is not an export, so it stays as it is"), "{}", said.err);
+    let output = carom(home.path(), &["drill", "export", "notes.txt"]);
+    assert!(output.code == Some(1) && output.err.contains("is not an export, so it stays as it is"), "{}", output.err);
     assert_eq!(fs::read_to_string(home.path().join("notes.txt")).unwrap(), "mine");
 }
 
 #[test]
-fn a_tables_name_leads_no_run_into_other_folders() {
+fn a_table_name_cannot_escape_the_runs_folder() {
     let home = folder();
     let table = carom(home.path(), &["table", "show", "match"]).out;
     fs::write(home.path().join("t.toml"), table.replace("\"match\"", "\"../../../gone\\u001b\"")).unwrap();
     let args = ["train", "--table", "t.toml", "--steps", "100", "--evaluation-layouts", "2", "--evaluate-every", "100"];
-    let said = carom(home.path(), &args);
-    assert_eq!(said.code, Some(0), "{}", said.err);
+    let output = carom(home.path(), &args);
+    assert_eq!(output.code, Some(0), "{}", output.err);
     let runs = fs::read_dir(home.path().join("carom/runs")).unwrap();
     let names: Vec<_> = runs.map(|run| run.unwrap().file_name().into_string().unwrap()).collect();
     assert!(names.len() == 1 && names[0].contains("gone"), "{names:?}");

@@ -2,10 +2,10 @@
 
 use std::{thread, time::Duration};
 
-use crate::terminal::{OPENING, Session};
+use crate::terminal::{START_TEXT, Session};
 
 /// Sequences that start and never end.
-const CUT: [&str; 27] = [
+const INCOMPLETE: [&str; 27] = [
     "\x1b",
     "\x1b[",
     "\x1b[<",
@@ -36,21 +36,21 @@ const CUT: [&str; 27] = [
 ];
 
 /// Number of programs that run at the same time.
-const AT_ONCE: usize = 4;
+const CONCURRENT: usize = 4;
 
 #[test]
-fn ctrl_c_is_heard_after_every_cut_sequence() {
+fn ctrl_c_quits_after_every_incomplete_sequence() {
     let check = |sequence: &str, pause: u64| {
         let mut session = Session::start(80, 24);
-        session.wait_for(OPENING);
+        session.wait_for(START_TEXT);
         session.send(sequence);
         thread::sleep(Duration::from_millis(pause));
         session.send("\x03");
-        assert!(session.assert_left_without_trace().success(), "{sequence:?} {pause}");
+        assert!(session.assert_clean_exit().success(), "{sequence:?} {pause}");
     };
     // Each program mostly waits, so several run at once.
     thread::scope(|scope| {
-        for sequences in CUT.chunks(CUT.len().div_ceil(AT_ONCE)) {
+        for sequences in INCOMPLETE.chunks(INCOMPLETE.len().div_ceil(CONCURRENT)) {
             scope.spawn(move || {
                 for sequence in sequences {
                     check(sequence, 0);
@@ -62,17 +62,17 @@ fn ctrl_c_is_heard_after_every_cut_sequence() {
 }
 
 #[test]
-fn other_keys_are_heard_too() {
+fn other_keys_work_after_incomplete_sequences() {
     // Maximum delay of each: a tenth of a second, and ten times that for a paste.
     let check = |sequence: &str, pause: u64| {
         let mut session = Session::start(80, 24);
-        session.wait_for(OPENING);
+        session.wait_for(START_TEXT);
         session.send(sequence);
         thread::sleep(Duration::from_millis(pause));
         session.send("?");
         session.wait_for("Placing the balls");
         session.send("\x03");
-        assert!(session.assert_left_without_trace().success());
+        assert!(session.assert_clean_exit().success());
     };
     thread::scope(|scope| {
         for (sequence, pause) in [("\x1b[<", 300), ("\x1b[<0;", 300), ("\x1b[?", 300), ("\x1b[200~half a paste", 1500)]
@@ -83,9 +83,9 @@ fn other_keys_are_heard_too() {
 }
 
 #[test]
-fn a_paste_right_behind_an_escape_runs_no_keys() {
+fn a_paste_right_after_escape_triggers_no_keys() {
     let mut session = Session::start(80, 24);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     session.send("\x1b\x1b[200~qqq\x1b[201~");
     session.send("?");
     session.wait_for("Placing the balls");
@@ -95,9 +95,9 @@ fn a_paste_right_behind_an_escape_runs_no_keys() {
 fn ctrl_c_quits_from_help_messages_and_palette() {
     for keys in ["?", ":", "d", "t"] {
         let mut session = Session::start(80, 24);
-        session.wait_for(OPENING);
+        session.wait_for(START_TEXT);
         session.press(keys);
         session.send("\x03");
-        assert!(session.assert_left_without_trace().success(), "{keys}");
+        assert!(session.assert_clean_exit().success(), "{keys}");
     }
 }

@@ -3,16 +3,16 @@
 use std::fs;
 
 use crate::{
-    program::asked,
-    terminal::{OPENING, PATIENCE, REST, Session, carom},
+    program::carom_command,
+    terminal::{QUIET_TIME, START_TEXT, Session, TIMEOUT, carom},
 };
 
 #[test]
-fn a_stroke_that_was_entered_is_there_after_the_program_was_killed() {
+fn entered_strokes_survive_a_kill() {
     let home = tempfile::tempdir().unwrap();
     let start = || {
         let mut session = Session::start_at(home.path(), carom(), 80, 24);
-        session.wait_for(OPENING);
+        session.wait_for(START_TEXT);
         session.send("\x1b[18~");
         session.wait_for("Strokes of slow-roll");
         session
@@ -33,21 +33,21 @@ fn a_stroke_that_was_entered_is_there_after_the_program_was_killed() {
     second.wait_for("9.6, 5.4, 725 mm");
     second.wait_for("mu_r");
     second.send("q");
-    assert!(second.assert_left_without_trace().success());
-    let mut command = asked(&["calibrate"]);
+    assert!(second.assert_clean_exit().success());
+    let mut command = carom_command(&["calibrate"]);
     command.env("HOME", home.path()).env("XDG_DATA_HOME", home.path().join("data"));
-    let said = command.write_stdin("9.4 5.3\ndone\n").output().unwrap();
-    assert!(String::from_utf8_lossy(&said.stdout).contains("slow-back (1)"), "{said:?}");
+    let printed = command.write_stdin("9.4 5.3\ndone\n").output().unwrap();
+    assert!(String::from_utf8_lossy(&printed.stdout).contains("slow-back (1)"), "{printed:?}");
     let kept = fs::read_to_string(home.path().join("data/carom/calibration.toml")).unwrap();
     assert_eq!(kept.matches("[[trial]]").count(), 2, "{kept}");
 }
 
 #[test]
-fn what_is_typed_in_part_is_there_at_the_next_start_whatever_ended_the_program() {
+fn partly_typed_strokes_survive_every_end_of_the_program() {
     let home = tempfile::tempdir().unwrap();
     let start = || {
         let mut session = Session::start_at(home.path(), carom(), 80, 24);
-        session.wait_for(OPENING);
+        session.wait_for(START_TEXT);
         session
     };
     let mut session = start();
@@ -56,14 +56,14 @@ fn what_is_typed_in_part_is_there_at_the_next_start_whatever_ended_the_program()
     session.press("\r");
     for (ending, text) in [("HUP", "9"), ("TERM", ".6"), ("cut", "1"), ("quit", "2"), ("", "3")] {
         session.send(text);
-        session.settle(REST);
+        session.wait_until_quiet(QUIET_TIME);
         match ending {
-            "cut" => session.cut(),
+            "cut" => session.disconnect(),
             "quit" => session.send("\x03"),
             "" => break,
             signal => session.signal(signal),
         }
-        session.ends_within(PATIENCE);
+        session.wait_for_exit(TIMEOUT);
         session = start();
         session.wait_for("a stroke of slow-roll that was typed in part");
         session.send("\x1b[18~");
@@ -72,14 +72,14 @@ fn what_is_typed_in_part_is_there_at_the_next_start_whatever_ended_the_program()
     session.wait_for("9.6123");
     // A field that was emptied stays empty.
     session.send("\x15");
-    session.settle(REST);
+    session.wait_until_quiet(QUIET_TIME);
     session.send("\x1b");
-    session.settle(REST);
+    session.wait_until_quiet(QUIET_TIME);
     session.send("\x03");
-    session.ends_within(PATIENCE);
+    session.wait_for_exit(TIMEOUT);
     let mut last = start();
-    last.settle(REST);
+    last.wait_until_quiet(QUIET_TIME);
     assert!(!last.screen().contents().contains("typed in part"), "{}", last.screen().contents());
     last.send("q");
-    assert!(last.assert_left_without_trace().success());
+    assert!(last.assert_clean_exit().success());
 }

@@ -12,8 +12,8 @@ use assert_cmd::cargo::cargo_bin;
 use portable_pty::CommandBuilder;
 
 use crate::{
-    program::Kept,
-    terminal::{OPENING, PATIENCE, REST, Session, guest},
+    program::KillOnDrop,
+    terminal::{QUIET_TIME, START_TEXT, Session, TIMEOUT, guest},
 };
 
 /// Returns a guest session with this command after `ssh`.
@@ -24,7 +24,7 @@ fn over_ssh(name: &str, words: &str) -> CommandBuilder {
 }
 
 /// Returns the program without a terminal, in the home folder of a session.
-fn lines(home: &Path, args: &[&str]) -> Command {
+fn piped_carom(home: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(cargo_bin!("carom"));
     command
         .args(args)
@@ -37,37 +37,37 @@ fn lines(home: &Path, args: &[&str]) -> Command {
 }
 
 /// Returns the exit code and the outputs of such a program.
-fn said(command: &mut Command) -> (Option<i32>, String, String) {
+fn run(command: &mut Command) -> (Option<i32>, String, String) {
     let output = command.output().unwrap();
     let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
     (output.status.code(), out, err)
 }
 
 /// Returns the folder in which a player shows their table.
-fn shown(home: &Path, name: &str) -> PathBuf {
+fn shown_folder(home: &Path, name: &str) -> PathBuf {
     home.join("data/carom/players").join(name).join("shown")
 }
 
 /// Starts a player who shows their table.
-fn showing(home: &Path, name: &str) -> Session {
+fn start_showing_player(home: &Path, name: &str) -> Session {
     let mut session = Session::start_at(home, guest(name), 80, 24);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     session.send("F");
     session.wait_for(&format!("carom follow {name} shows this table"));
-    let file = shown(home, name).join("table.json");
+    let file = shown_folder(home, name).join("table.json");
     session.wait_until("the file", |_| file.exists());
     session
 }
 
 #[test]
-fn a_table_is_followed_live_as_long_as_its_player_allows_it() {
+fn a_table_is_followed_live_while_its_player_allows_it() {
     let home = tempfile::tempdir().unwrap();
     let home = home.path();
-    assert_eq!(said(&mut lines(home, &["follow", "anna"])).0, Some(1), "before there is an anna");
+    assert_eq!(run(&mut piped_carom(home, &["follow", "anna"])).0, Some(1), "the player anna does not exist yet");
     let mut anna = Session::start_at(home, guest("Anna"), 80, 24);
-    anna.wait_for(OPENING);
-    assert!(!shown(home, "anna").exists(), "nothing is shown by itself");
-    let (code, _, err) = said(&mut lines(home, &["follow", "anna"]));
+    anna.wait_for(START_TEXT);
+    assert!(!shown_folder(home, "anna").exists(), "nothing is shown by itself");
+    let (code, _, err) = run(&mut piped_carom(home, &["follow", "anna"]));
     assert!(code == Some(1) && err.contains("anna shows no table now"), "{err}");
     anna.send("F");
     anna.wait_for("carom follow Anna shows this table");
@@ -83,10 +83,10 @@ fn a_table_is_followed_live_as_long_as_its_player_allows_it() {
     anna.send("\r");
     ben.wait_for("the coach thinks for anna");
     anna.wait_for_advice();
-    anna.settle(Duration::from_secs(2));
-    let told = |screen: &vt100::Screen| screen.contents().lines().nth(18).map(str::to_owned);
-    let words = told(anna.screen());
-    ben.wait_until("the shot in words", |screen| told(screen) == words);
+    anna.wait_until_quiet(Duration::from_secs(2));
+    let shot_line = |screen: &vt100::Screen| screen.contents().lines().nth(18).map(str::to_owned);
+    let words = shot_line(anna.screen());
+    ben.wait_until("the shot in words", |screen| shot_line(screen) == words);
     anna.send(" ");
     ben.wait_until("the shot plays", |screen| screen.contents().contains("next: "));
     let over =
@@ -95,54 +95,54 @@ fn a_table_is_followed_live_as_long_as_its_player_allows_it() {
     ben.wait_until("the end", over);
     // Keys of the spectator change nothing.
     ben.send("\x1b[C\x1b[Cro\rF");
-    ben.settle(REST);
-    assert!(ben.screen().contents().contains("following anna") && !shown(home, "ben").exists());
+    ben.wait_until_quiet(QUIET_TIME);
+    assert!(ben.screen().contents().contains("following anna") && !shown_folder(home, "ben").exists());
     anna.send("F");
     ben.wait_for("anna shows no table at the moment");
-    assert_eq!(fs::read_dir(shown(home, "anna")).unwrap().count(), 1, "the lock alone");
+    assert_eq!(fs::read_dir(shown_folder(home, "anna")).unwrap().count(), 1, "only the lock remains");
     anna.send("F");
     ben.wait_for("following anna: match");
     anna.send("q");
-    assert!(anna.assert_left_without_trace().success());
+    assert!(anna.assert_clean_exit().success());
     ben.wait_for("anna shows no table at the moment");
     ben.send("q");
-    assert!(ben.assert_left_without_trace().success());
+    assert!(ben.assert_clean_exit().success());
     assert!(!home.join("data/carom/players/ben/last.json").exists(), "it was not ben's session");
 }
 
 #[test]
-fn a_player_who_is_killed_is_seen_no_more_and_one_who_rests_writes_nothing() {
+fn a_killed_player_disappears_and_an_idle_one_writes_nothing() {
     let home = tempfile::tempdir().unwrap();
     let home = home.path();
-    let mut anna = showing(home, "anna");
+    let mut anna = start_showing_player(home, "anna");
     let mut ben = Session::start_at(home, over_ssh("ben", "follow anna"), 120, 40);
     ben.wait_for("anna places the balls");
-    anna.settle(Duration::from_secs(3));
-    let changed = || fs::metadata(shown(home, "anna").join("table.json")).unwrap().modified().unwrap();
-    let (before, written) = (changed(), anna.written());
+    anna.wait_until_quiet(Duration::from_secs(3));
+    let changed = || fs::metadata(shown_folder(home, "anna").join("table.json")).unwrap().modified().unwrap();
+    let (before, written) = (changed(), anna.bytes_written());
     thread::sleep(Duration::from_secs(2));
-    assert_eq!((changed(), anna.written()), (before, written));
+    assert_eq!((changed(), anna.bytes_written()), (before, written));
     // Another session of the same player cannot show a second table under her name.
     let mut second = Session::start_at(home, guest("anna"), 80, 24);
-    second.wait_for(OPENING);
+    second.wait_for(START_TEXT);
     second.send("F");
     second.wait_for("others see the table");
     assert!(!second.screen().contents().contains("from now on"));
     anna.signal("KILL");
     ben.wait_for("anna shows no table at the moment");
-    assert_eq!(said(&mut lines(home, &["follow", "anna"])).0, Some(1));
+    assert_eq!(run(&mut piped_carom(home, &["follow", "anna"])).0, Some(1));
     second.send("F");
     ben.wait_for("anna places the balls");
 }
 
 #[test]
-fn a_player_without_a_name_shows_nothing_and_one_may_follow_oneself() {
+fn nameless_players_show_nothing_and_players_may_follow_themselves() {
     let mut nobody = Session::start(80, 24);
-    nobody.wait_for(OPENING);
+    nobody.wait_for(START_TEXT);
     nobody.send("F");
     nobody.wait_for("carom --player NAME");
     let home = tempfile::tempdir().unwrap();
-    let mut anna = showing(home.path(), "anna");
+    let mut anna = start_showing_player(home.path(), "anna");
     let mut mirror = Session::start_at(home.path(), over_ssh("anna", "follow Anna"), 80, 24);
     mirror.wait_for("Anna places the balls");
     anna.press("\x1b[C");
@@ -150,18 +150,18 @@ fn a_player_without_a_name_shows_nothing_and_one_may_follow_oneself() {
 }
 
 #[test]
-fn pipes_get_lines_and_programs_get_objects_until_the_player_leaves() {
+fn follow_prints_text_or_json_until_the_player_leaves() {
     let home = tempfile::tempdir().unwrap();
     let home = home.path();
-    let mut anna = showing(home, "anna");
-    let (code, out, _) = said(&mut lines(home, &["follow"]));
+    let mut anna = start_showing_player(home, "anna");
+    let (code, out, _) = run(&mut piped_carom(home, &["follow"]));
     assert_eq!((code, out.as_str()), (Some(0), "anna\n"));
-    let (_, out, _) = said(&mut lines(home, &["follow", "--json"]));
+    let (_, out, _) = run(&mut piped_carom(home, &["follow", "--json"]));
     assert_eq!(out, "{\"player\":\"anna\"}\n");
     let heard = home.join("heard.txt");
-    let plain = lines(home, &["follow", "anna"]).stdout(File::create(&heard).unwrap()).spawn().unwrap();
+    let plain = piped_carom(home, &["follow", "anna"]).stdout(File::create(&heard).unwrap()).spawn().unwrap();
     let seen = home.join("seen.txt");
-    let json = lines(home, &["follow", "anna", "--json"]).stdout(File::create(&seen).unwrap()).spawn().unwrap();
+    let json = piped_carom(home, &["follow", "anna", "--json"]).stdout(File::create(&seen).unwrap()).spawn().unwrap();
     let objects = || fs::read_to_string(&seen).unwrap();
     let text = || fs::read_to_string(&heard).unwrap();
     anna.wait_until("the balls", |_| text().contains("White lies at"));
@@ -186,13 +186,13 @@ fn pipes_get_lines_and_programs_get_objects_until_the_player_leaves() {
 }
 
 #[test]
-fn a_file_that_somebody_else_has_made_hurts_nobody() {
+fn forged_table_files_do_no_harm() {
     let home = tempfile::tempdir().unwrap();
     let home = home.path();
-    let anna = showing(home, "anna");
-    let good = fs::read_to_string(shown(home, "anna").join("table.json")).unwrap();
+    let anna = start_showing_player(home, "anna");
+    let good = fs::read_to_string(shown_folder(home, "anna").join("table.json")).unwrap();
     drop(anna);
-    let folder = shown(home, "mallory");
+    let folder = shown_folder(home, "mallory");
     fs::create_dir_all(&folder).unwrap();
     let put = |text: &str| {
         // Written atomically, as by a player's own program.
@@ -205,7 +205,8 @@ fn a_file_that_somebody_else_has_made_hurts_nobody() {
     let mut ben = Session::start_at(home, over_ssh("ben", "follow mallory"), 120, 40);
     ben.wait_for("mallory places the balls");
     let heard = home.join("heard.txt");
-    let mut plain = Kept(lines(home, &["follow", "mallory"]).stdout(File::create(&heard).unwrap()).spawn().unwrap());
+    let mut plain =
+        KillOnDrop(piped_carom(home, &["follow", "mallory"]).stdout(File::create(&heard).unwrap()).spawn().unwrap());
     let text = || fs::read_to_string(&heard).unwrap();
     ben.wait_until("the lines", |_| text().contains("mallory plays"));
     put("{\"version\":1,");
@@ -228,29 +229,29 @@ fn a_file_that_somebody_else_has_made_hurts_nobody() {
     ben.wait_for("mallory shows no table at the moment");
     plain.wait().unwrap();
     assert!(!text().contains(['\u{1b}', '\u{9b}']), "{:?}", text());
-    assert!(ben.child.try_wait().unwrap().is_none(), "it looks on still");
+    assert!(ben.child.try_wait().unwrap().is_none(), "the spectator's program still runs");
 }
 
 #[test]
-fn hostile_and_unknown_names_are_a_sentence_and_a_guest_gets_nothing_else_by_asking() {
+fn hostile_names_and_other_ssh_commands_are_rejected() {
     let home = tempfile::tempdir().unwrap();
     let home = home.path();
     for name in ["../anna", "/etc", "a b", "\u{1b}]0;x\u{7}", ""] {
-        let (code, out, err) = said(&mut lines(home, &["follow", "--", name]));
+        let (code, out, err) = run(&mut piped_carom(home, &["follow", "--", name]));
         assert!(code == Some(2) && out.is_empty() && err.contains("accepted are 1 to 32 letters"), "{name:?}: {err}");
         assert!(!err.contains('\u{1b}'), "{err:?}");
     }
-    let mut asked = lines(home, &["--guest", "--player", "ben"]);
-    let (code, _, err) = said(asked.env("SSH_ORIGINAL_COMMAND", "follow ../../secret\u{1b}[2J"));
+    let mut asked = piped_carom(home, &["--guest", "--player", "ben"]);
+    let (code, _, err) = run(asked.env("SSH_ORIGINAL_COMMAND", "follow ../../secret\u{1b}[2J"));
     assert!(code == Some(2) && err.contains("accepted are") && !err.contains('\u{1b}'), "{err:?}");
-    let mut asked = lines(home, &["--guest", "--player", "ben"]);
-    let (code, _, err) = said(asked.env("SSH_ORIGINAL_COMMAND", "follow"));
+    let mut asked = piped_carom(home, &["--guest", "--player", "ben"]);
+    let (code, _, err) = run(asked.env("SSH_ORIGINAL_COMMAND", "follow"));
     assert!(code == Some(0) && err.contains("nobody shows"), "{err}");
     for words in ["train --list", "doctor", "simulate", "cat /etc/passwd", "followx anna"] {
         let mut ben = Session::start_at(home, over_ssh("ben", words), 80, 24);
-        ben.wait_for(OPENING);
+        ben.wait_for(START_TEXT);
         ben.send("q");
-        assert_eq!(ben.ends_within(PATIENCE).exit_code(), 0, "{words}");
+        assert_eq!(ben.wait_for_exit(TIMEOUT).exit_code(), 0, "{words}");
     }
-    assert_eq!(said(&mut lines(home, &["follow", "anna"])).2.lines().count(), 1);
+    assert_eq!(run(&mut piped_carom(home, &["follow", "anna"])).2.lines().count(), 1);
 }

@@ -8,8 +8,8 @@ use std::{
 use portable_pty::CommandBuilder;
 
 use crate::{
-    program::{asked, carom as program, command, fed},
-    terminal::{OPENING, PATIENCE, REST, Session, guest},
+    program::{carom as program, carom_command, command, run_with_input},
+    terminal::{QUIET_TIME, START_TEXT, Session, TIMEOUT, guest},
 };
 
 /// Returns the player's folder in a session's home folder.
@@ -24,14 +24,14 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 }
 
 #[test]
-fn a_guest_plays_and_leaves_files_in_the_players_folder_alone() {
+fn a_guest_writes_only_to_the_players_folder() {
     let home = tempfile::tempdir().unwrap();
     let mut session = Session::start_at(home.path(), guest("Anna"), 80, 24);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     session.send("\x1b[B\r");
     session.wait_for_advice();
     session.send("q");
-    assert!(session.assert_left_without_trace().success());
+    assert!(session.assert_clean_exit().success());
     let own = folder(home.path(), "anna");
     let left = files(home.path());
     assert!(left.iter().any(|file| file.ends_with("last.json")), "{left:?}");
@@ -39,11 +39,11 @@ fn a_guest_plays_and_leaves_files_in_the_players_folder_alone() {
     // The next session continues from there, and that of another player does not.
     let mut again = Session::start_at(home.path(), guest("anna"), 80, 24);
     again.wait_for("Coach Drills");
-    again.settle(REST);
+    again.wait_until_quiet(QUIET_TIME);
     again.send("c");
     again.wait_for("this is where the last session ended");
     let mut other = Session::start_at(home.path(), guest("ben"), 80, 24);
-    other.wait_for(OPENING);
+    other.wait_for(START_TEXT);
     other.press("c");
     assert!(!other.screen().contents().contains("this is where"), "{}", other.screen().contents());
 }
@@ -51,31 +51,31 @@ fn a_guest_plays_and_leaves_files_in_the_players_folder_alone() {
 #[test]
 fn a_guest_starts_no_training_and_has_no_shell() {
     let mut session = Session::start_command(guest("anna"), 80, 24);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     session.send("\x1a");
     session.wait_for("guests have no shell");
     session.send("t");
     session.wait_for("no run is training");
     session.send("n");
     session.wait_for("guests can watch runs");
-    session.settle(REST);
+    session.wait_until_quiet(QUIET_TIME);
     session.send("q");
-    assert!(session.assert_left_without_trace().success());
+    assert!(session.assert_clean_exit().success());
 }
 
 #[test]
-fn a_guests_settings_lead_to_no_file_that_is_not_theirs() {
+fn a_guests_settings_cannot_read_other_files() {
     let home = tempfile::tempdir().unwrap();
     let (own, secret) = (folder(home.path(), "anna"), home.path().join("secret.toml"));
     fs::create_dir_all(&own).unwrap();
     fs::write(&secret, "password = \"xyzzy\"\n").unwrap();
     fs::write(own.join("config.toml"), format!("table = \"{}\"\n", secret.display())).unwrap();
     let mut session = Session::start_at(home.path(), guest("anna"), 120, 40);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     session.send("\x1b[17~");
     session.wait_for("It is taken as");
-    let said = session.screen().contents();
-    assert!(said.contains("secret.toml") && !said.contains("xyzzy") && !said.contains("password"), "{said}");
+    let text = session.screen().contents();
+    assert!(text.contains("secret.toml") && !text.contains("xyzzy") && !text.contains("password"), "{text}");
 }
 
 #[test]
@@ -83,13 +83,13 @@ fn two_sessions_of_one_player_lose_nothing() {
     let home = tempfile::tempdir().unwrap();
     let mut sessions = [(); 2].map(|()| Session::start_at(home.path(), guest("anna"), 80, 24));
     for session in &mut sessions {
-        session.wait_for(OPENING);
+        session.wait_for(START_TEXT);
         session.send("\r");
     }
     for session in &mut sessions {
         session.wait_for_advice();
         session.send("q");
-        assert!(session.assert_left_without_trace().success());
+        assert!(session.assert_clean_exit().success());
     }
     let own = folder(home.path(), "anna");
     let last = fs::read_to_string(own.join("last.json")).unwrap();
@@ -98,51 +98,55 @@ fn two_sessions_of_one_player_lose_nothing() {
 }
 
 #[test]
-fn a_disk_that_takes_nothing_is_told_and_neither_spoils_the_screen_nor_keeps_the_program() {
+fn an_unwritable_disk_is_reported_without_breaking_the_screen() {
     let mut limited = CommandBuilder::new("sh");
     let program = assert_cmd::cargo::cargo_bin!("carom").to_str().unwrap();
     limited.args(["-c", &format!("ulimit -f 0; exec {program} --guest")]);
     let mut session = Session::start_command(limited, 80, 24);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     session.send("\x1b[B\r");
     session.wait_for_advice();
     session.send("\x1b[17~");
     session.wait_for("cannot go on from here");
-    session.settle(REST);
-    let said = session.screen().contents();
-    assert!(!said.contains("tracing") && !said.contains("Unable to write"), "{said}");
-    session.cut();
-    session.ends_within(PATIENCE);
+    session.wait_until_quiet(QUIET_TIME);
+    let text = session.screen().contents();
+    assert!(!text.contains("tracing") && !text.contains("Unable to write"), "{text}");
+    session.disconnect();
+    session.wait_for_exit(TIMEOUT);
 }
 
 #[test]
-fn a_hostile_name_is_refused_before_anything_is_read_or_made() {
+fn hostile_player_names_are_refused_before_any_file_access() {
     let home = tempfile::tempdir().unwrap();
     for name in ["../anna", "/etc", "..", "a b", "\u{1b}]0;x\u{7}", ""] {
-        let said = program(home.path(), &["--guest", &format!("--player={name}")]);
-        assert_eq!(said.code, Some(2), "{name:?}: {}", said.err);
-        assert!(said.err.contains("accepted are 1 to 32 letters") && !said.err.contains('\u{1b}'), "{}", said.err);
+        let output = program(home.path(), &["--guest", &format!("--player={name}")]);
+        assert_eq!(output.code, Some(2), "{name:?}: {}", output.err);
+        assert!(
+            output.err.contains("accepted are 1 to 32 letters") && !output.err.contains('\u{1b}'),
+            "{}",
+            output.err
+        );
     }
     assert_eq!(fs::read_dir(home.path()).unwrap().count(), 0);
     // Guests cannot run other commands.
-    asked(&["--guest", "train"]).assert().code(2);
+    carom_command(&["--guest", "train"]).assert().code(2);
 }
 
 #[test]
-fn a_folder_that_cannot_be_made_is_a_sentence() {
+fn a_player_folder_that_cannot_be_created_is_reported() {
     let home = tempfile::tempdir().unwrap();
     fs::create_dir_all(home.path().join("carom")).unwrap();
     fs::write(home.path().join("carom/players"), "in the way").unwrap();
-    let said = fed(command(home.path(), &["--guest", "--plain"]), "quit\n");
-    assert_eq!((said.code, said.err.lines().count()), (Some(1), 1), "{}", said.err);
-    assert!(said.err.contains("players/guest cannot be made"), "{}", said.err);
+    let output = run_with_input(command(home.path(), &["--guest", "--plain"]), "quit\n");
+    assert_eq!((output.code, output.err.lines().count()), (Some(1), 1), "{}", output.err);
+    assert!(output.err.contains("players/guest cannot be made"), "{}", output.err);
 }
 
 #[test]
-fn a_guest_may_talk_in_lines() {
+fn a_guest_may_use_plain_mode() {
     let home = tempfile::tempdir().unwrap();
-    let said = fed(command(home.path(), &["--guest", "--player", "anna", "--plain"]), "where\nquit\n");
-    assert_eq!(said.code, Some(0), "{}", said.err);
-    assert!(said.out.contains("Say help"), "{}", said.out);
+    let output = run_with_input(command(home.path(), &["--guest", "--player", "anna", "--plain"]), "where\nquit\n");
+    assert_eq!(output.code, Some(0), "{}", output.err);
+    assert!(output.out.contains("Say help"), "{}", output.out);
     assert!(files(home.path()).iter().all(|file| file.starts_with(home.path().join("carom/players/anna"))));
 }

@@ -8,23 +8,23 @@ use std::{
 use carom::learning::run::{follow::Condition, list::runs_in, status::Phase};
 
 use crate::{
-    terminal::{OPENING, PATIENCE, REST, Session, carom},
+    terminal::{QUIET_TIME, START_TEXT, Session, TIMEOUT, carom},
     training::common::{folder, start, wait_for},
 };
 
 #[test]
-fn a_run_that_was_started_in_the_program_goes_on_when_the_program_has_ended() {
+fn a_run_started_in_the_program_outlives_it() {
     let data = tempfile::tempdir().unwrap();
     let mut command = carom();
     command.env("XDG_DATA_HOME", data.path());
     let mut session = Session::start_command(command, 80, 24);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     session.send("t");
     session.wait_for("No agent has been trained here yet.");
     session.send("n\x1b[B\x1b[B\x1b[B\x7f\x7f\x7f\x7f\x7f\x7f\x7f20000\r");
     session.wait_for("Numbers");
     session.send("q");
-    assert!(session.assert_left_without_trace().success());
+    assert!(session.assert_clean_exit().success());
     // The pseudo-terminal ends with the session.
     drop(session);
     let start = Instant::now();
@@ -34,13 +34,13 @@ fn a_run_that_was_started_in_the_program_goes_on_when_the_program_has_ended() {
         {
             break;
         }
-        assert!(start.elapsed() < 9 * PATIENCE, "it does not finish: {runs:?}");
+        assert!(start.elapsed() < 9 * TIMEOUT, "it does not finish: {runs:?}");
         thread::sleep(Duration::from_millis(100));
     }
 }
 
 #[test]
-fn a_run_is_watched_from_two_terminals_as_it_trains_and_costs_nothing_when_it_has_ended() {
+fn two_terminals_watch_a_run_and_idle_after_its_end() {
     let folder = folder();
     let run = folder.path().join("run");
     let line = "train --config small.toml --steps 60000 --evaluate-every 10000 --evaluation-layouts 50 --run run";
@@ -61,14 +61,14 @@ fn a_run_is_watched_from_two_terminals_as_it_trains_and_costs_nothing_when_it_ha
     // Without the spectator that left, the training continues; the remaining one sees it end.
     let [left, mut stays] = watchers;
     drop(left);
-    let watched = stays.count(Duration::from_secs(2));
+    let watched = stays.count_bytes(Duration::from_secs(2));
     assert!(training.wait().unwrap().success());
     stays.wait_for("finished");
     stays.send(".");
-    stays.settle(REST);
-    assert_eq!(stays.count(Duration::from_secs(2)), 0, "the run has ended, and no shot plays");
+    stays.wait_until_quiet(QUIET_TIME);
+    assert_eq!(stays.count_bytes(Duration::from_secs(2)), 0, "the run has ended, and no shot plays");
     // At most ten pictures of a few hundred bytes per second; 2,300 bytes per second were measured.
     assert!((100..40_000).contains(&watched), "{watched} bytes in two seconds");
     stays.send("q");
-    assert!(stays.assert_left_without_trace().success());
+    assert!(stays.assert_clean_exit().success());
 }

@@ -9,13 +9,13 @@ use std::{
 use portable_pty::CommandBuilder;
 
 use crate::program::home;
-use crate::terminal::{OPENING, PATIENCE, REST, Session, carom};
+use crate::terminal::{QUIET_TIME, START_TEXT, Session, TIMEOUT, carom};
 
 /// Start of every frame.
 const FRAME: &[u8] = b"\x1b[?2026h";
 
 #[test]
-fn a_player_places_a_ball_gets_a_shot_watches_it_and_quits() {
+fn a_session_places_a_ball_and_plays_the_advised_shot() {
     let mut session = Session::start(80, 24);
     session.wait_for("white at x -710.0 mm, y 182.5 mm");
     assert!(session.screen().alternate_screen() && session.screen().hide_cursor());
@@ -36,21 +36,21 @@ fn a_player_places_a_ball_gets_a_shot_watches_it_and_quits() {
     session.wait_for("Placing the balls");
     // Escape and q in one piece would be Alt-q.
     session.send("?q");
-    assert!(session.assert_left_without_trace().success());
+    assert!(session.assert_clean_exit().success());
 }
 
 #[test]
-fn it_costs_nothing_while_nothing_moves() {
+fn an_idle_screen_writes_nothing() {
     let mut session = Session::start(120, 40);
-    session.wait_for(OPENING);
-    session.settle(REST);
-    assert_eq!(session.count(Duration::from_millis(500)), 0);
+    session.wait_for(START_TEXT);
+    session.wait_until_quiet(QUIET_TIME);
+    assert_eq!(session.count_bytes(Duration::from_millis(500)), 0);
 }
 
 #[test]
-fn playback_stays_small_enough_for_a_slow_link() {
+fn playback_output_fits_a_slow_connection() {
     let mut session = Session::start(120, 40);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     session.send("\r");
     session.wait_for_advice();
     // The size of a picture depends on the shot, and the coach's shot depends on the load of the machine. So the test uses its own stroke:
@@ -59,14 +59,14 @@ fn playback_stays_small_enough_for_a_slow_link() {
     session.send(&"-".repeat(80));
     session.send(&"\x1b[1;2B".repeat(12));
     session.send(&"\x1b[1;2A".repeat(8));
-    session.settle(Duration::from_millis(1500));
+    session.wait_until_quiet(Duration::from_millis(1500));
     session.send(" ");
     // The first three seconds: later, the balls are not faster, and no more of them are moving.
     let (mut shot, mut frames) = (Vec::new(), 0);
     let start = Instant::now();
     while frames < 90 {
-        assert!(start.elapsed() < PATIENCE, "{frames} frames");
-        shot.extend(session.take(Duration::from_millis(100)).unwrap());
+        assert!(start.elapsed() < TIMEOUT, "{frames} frames");
+        shot.extend(session.read_output(Duration::from_millis(100)).unwrap());
         frames = shot.windows(FRAME.len()).filter(|window| *window == FRAME).count();
     }
     let frame = shot.len() / frames;
@@ -75,40 +75,40 @@ fn playback_stays_small_enough_for_a_slow_link() {
 }
 
 #[test]
-fn a_resize_repaints_and_a_small_terminal_says_so() {
+fn resizing_repaints_and_small_terminals_show_a_message() {
     let mut session = Session::start(80, 24);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     for (width, height, text) in [(60, 20, "60×20"), (120, 40, "Shift x10")] {
         session.resize(width, height);
         session.wait_for(text);
     }
     session.send("q");
-    assert!(session.assert_left_without_trace().success());
+    assert!(session.assert_clean_exit().success());
 }
 
 #[test]
-fn the_mouse_drags_a_ball_draws_no_more_than_keys_and_is_given_back() {
+fn dragging_a_ball_draws_little_and_the_mouse_is_released() {
     let mut session = Session::start(120, 40);
     session.wait_for("white at x -710.0 mm, y 182.5 mm");
     let screen = session.screen();
     assert_eq!(screen.mouse_protocol_mode(), vt100::MouseProtocolMode::ButtonMotion, "not every motion");
     assert_eq!(screen.mouse_protocol_encoding(), vt100::MouseProtocolEncoding::Sgr);
-    session.settle(REST);
+    session.wait_until_quiet(QUIET_TIME);
     // This input is below the 1,024 bytes that the input library reads at a time.
     let reports: Vec<_> = (0..70).map(|n| format!("\x1b[<32;{};{}M", 34 + n / 7, 13 + n % 2)).collect();
     let before = session.bytes;
     session.send(&format!("\x1b[<0;34;13M{}\x1b[<32;44;13M\x1b[<0;44;13m", reports.concat()));
     session.wait_for("white at x -447.0 mm, y 182.5 mm");
-    session.settle(REST);
+    session.wait_until_quiet(QUIET_TIME);
     let drag = session.bytes - before;
     // A picture has about 300 bytes.
     assert!(drag < 5_000, "{drag} bytes");
     session.send("q");
-    assert!(session.assert_left_without_trace().success());
+    assert!(session.assert_clean_exit().success());
 }
 
 #[test]
-fn a_user_may_keep_the_mouse() {
+fn mouse_capture_can_be_disabled() {
     let home = tempfile::tempdir().unwrap();
     std::fs::create_dir(home.path().join("carom")).unwrap();
     std::fs::write(home.path().join("carom/config.toml"), "mouse = false\n").unwrap();
@@ -121,10 +121,10 @@ fn a_user_may_keep_the_mouse() {
 }
 
 #[test]
-fn a_setting_holds_at_once_and_a_toast_goes_by_itself() {
+fn settings_apply_immediately_and_toasts_expire() {
     let home = tempfile::tempdir().unwrap();
     let mut session = Session::start_at(home.path(), carom(), 80, 24);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     session.send("\x1b[15~");
     session.wait_for("changes apply at once");
     // Three unit settings follow the mouse setting.
@@ -135,23 +135,23 @@ fn a_setting_holds_at_once_and_a_toast_goes_by_itself() {
     let file = home.path().join("config/carom/config.toml");
     let start = Instant::now();
     while !std::fs::read_to_string(&file).unwrap_or_default().contains("mouse = false") {
-        assert!(start.elapsed() < PATIENCE, "it is not written");
+        assert!(start.elapsed() < TIMEOUT, "it is not written");
         thread::sleep(Duration::from_millis(20));
     }
     session.send("\x1bOQ");
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     session.send("u");
     session.wait_for("there is nothing to take back");
     session.wait_until("the toast goes", |screen| !screen.contents().contains("there is nothing to take back"));
-    assert!(session.screen().contents().contains(OPENING));
-    session.settle(REST);
-    assert_eq!(session.count(Duration::from_millis(500)), 0, "and nothing is left to wake up for");
+    assert!(session.screen().contents().contains(START_TEXT));
+    session.wait_until_quiet(QUIET_TIME);
+    assert_eq!(session.count_bytes(Duration::from_millis(500)), 0, "and nothing is left to wake up for");
     session.send("q");
-    assert!(session.assert_left_without_trace().success());
+    assert!(session.assert_clean_exit().success());
 }
 
 #[test]
-fn a_note_is_kept_that_was_made_just_before_the_end() {
+fn an_attempt_noted_just_before_quitting_is_saved() {
     let home = tempfile::tempdir().unwrap();
     let mut save = Command::new(env!("CARGO_BIN_EXE_carom"));
     save.args(["drill", "save", "mine", "--layout", "-0.9,0.1 0.3,0.3 0.6,-0.5", "--rule", "three-cushion"]);
@@ -164,19 +164,19 @@ fn a_note_is_kept_that_was_made_just_before_the_end() {
             .success()
     );
     let mut session = Session::start_at(home.path(), carom(), 80, 24);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     // The last category of the library contains the position; the coach starts to think about it when it is opened.
     session.send("d\x1b[D");
     session.wait_for("mine");
     session.send("\rmq");
-    assert!(session.assert_left_without_trace().success());
+    assert!(session.assert_clean_exit().success());
     let sessions = home.path().join("data/carom/sessions");
     let files = std::fs::read_dir(sessions).unwrap().filter(|file| file.as_ref().unwrap().file_name() != "lock");
     assert_eq!(files.count(), 1);
 }
 
 #[test]
-fn without_a_terminal_it_names_the_command_line() {
+fn without_a_terminal_the_message_names_the_command_line() {
     for term in ["xterm", "dumb"] {
         let output = Command::new(env!("CARGO_BIN_EXE_carom")).envs(home()).env("TERM", term).output().unwrap();
         assert_eq!(output.status.code(), Some(2));
@@ -191,9 +191,9 @@ fn without_a_terminal_it_names_the_command_line() {
 }
 
 #[test]
-fn what_comes_at_once_is_all_taken_without_another_key() {
+fn a_burst_of_input_is_processed_completely() {
     let mut session = Session::start(80, 24);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     // 2,700 bytes, of which the last one selects the yellow ball; the input library reads 1,024 at a time.
     session.send(&format!("{}{}\t", "\x1b[C".repeat(450), "\x1b[D".repeat(450)));
     session.wait_for("yellow at x");
@@ -204,28 +204,29 @@ fn what_comes_at_once_is_all_taken_without_another_key() {
     session.send("\x1b");
     session.wait_for("yellow at x");
     session.send("q");
-    assert!(session.assert_left_without_trace().success());
+    assert!(session.assert_clean_exit().success());
 }
 
 #[test]
-fn a_storm_of_resizes_ends_with_the_right_picture_and_then_silence() {
+fn many_resizes_end_with_the_right_picture() {
     let mut session = Session::start(80, 24);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     for n in 0..200 {
         session.resize(60 + n % 90, 20 + n % 30);
     }
     session.resize(120, 40);
     session.wait_for("Shift x10");
-    session.wait_for(OPENING);
-    session.settle(REST);
-    assert_eq!(session.count(Duration::from_millis(500)), 0);
+    session.wait_for(START_TEXT);
+    session.wait_until_quiet(QUIET_TIME);
+    assert_eq!(session.count_bytes(Duration::from_millis(500)), 0);
     session.send("q");
-    assert!(session.assert_left_without_trace().success());
+    assert!(session.assert_clean_exit().success());
 }
 
 #[test]
-fn a_pipe_that_is_closed_ends_it_quietly() {
-    for (ends, told) in [("--plain < /dev/null", ""), ("--plain | true", ""), ("| true", "carom recommend --layout")] {
+fn a_closed_pipe_ends_the_program_quietly() {
+    for (ends, message) in [("--plain < /dev/null", ""), ("--plain | true", ""), ("| true", "carom recommend --layout")]
+    {
         let output = Command::new("sh")
             .args(["-c", &format!("echo help | \"$0\" {ends}"), env!("CARGO_BIN_EXE_carom")])
             .envs(home())
@@ -233,7 +234,7 @@ fn a_pipe_that_is_closed_ends_it_quietly() {
             .output()
             .unwrap();
         let errors = String::from_utf8_lossy(&output.stderr);
-        assert!(errors.contains(told) && !errors.contains("panicked"), "{ends}: {errors}");
-        assert_eq!(errors.is_empty(), told.is_empty(), "{ends}: {errors}");
+        assert!(errors.contains(message) && !errors.contains("panicked"), "{ends}: {errors}");
+        assert_eq!(errors.is_empty(), message.is_empty(), "{ends}: {errors}");
     }
 }

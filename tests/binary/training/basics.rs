@@ -4,13 +4,13 @@ use std::{fs, path::Path, process::Stdio};
 
 use serde_json::Value;
 
-use super::common::{SHORT, carom, command, done, folder, start, unfinished, wait_for};
+use super::common::{SHORT, carom, command, folder, run_ok, run_unfinished, start, wait_for};
 
 #[test]
 fn a_run_trains_a_policy_that_can_be_evaluated() {
     let folder = folder();
     let here = folder.path();
-    let first = done(here, &format!("{SHORT} --json --run one"));
+    let first = run_ok(here, &format!("{SHORT} --json --run one"));
     let lines: Vec<Value> = first.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     let last = lines.last().unwrap();
     assert_eq!(last["time/total_timesteps"], 640);
@@ -29,15 +29,15 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
     );
     assert_eq!((&config["table"]["name"], &config["version"]), (&"match".into(), &env!("CARGO_PKG_VERSION").into()));
 
-    let measured = done(here, "evaluate --policy one/policy.safetensors --policy-only --layouts 100 --json");
+    let measured = run_ok(here, "evaluate --policy one/policy.safetensors --policy-only --layouts 100 --json");
     let report: Value = serde_json::from_str(&measured.out).unwrap();
     assert_eq!(report["success"]["layouts"], 100);
 
     // The folder of a run can be used in place of its policy file; its checkpoint cannot.
     let of_folder: Value =
-        serde_json::from_str(&done(here, "evaluate --policy one --policy-only --layouts 100 --json").out).unwrap();
+        serde_json::from_str(&run_ok(here, "evaluate --policy one --policy-only --layouts 100 --json").out).unwrap();
     assert_eq!((&of_folder["success"], &of_folder["policy"]), (&report["success"], &"one".into()));
-    done(here, "train --agent dqn --table thesis --reward r1 --steps 100 --evaluation-layouts 5 --run plain");
+    run_ok(here, "train --agent dqn --table thesis --reward r1 --steps 100 --evaluation-layouts 5 --run plain");
     for (policy, code, words) in [
         ("one/checkpoint.safetensors", 2, "is a checkpoint, not a policy; its run's policy is one/policy.safetensors"),
         (
@@ -56,30 +56,31 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
         assert!(refused.code == Some(code) && refused.err.contains(words), "{policy}: {}", refused.err);
     }
 
-    let drawn = done(here, "evaluate --policy one/policy.safetensors --policy-only --drawn-tables --layouts 50 --json");
+    let drawn =
+        run_ok(here, "evaluate --policy one/policy.safetensors --policy-only --drawn-tables --layouts 50 --json");
     let drawn: Value = serde_json::from_str(&drawn.out).unwrap();
     assert!(drawn["tenths"].as_array().is_some_and(|tenths| !tenths.is_empty()), "{drawn}");
     assert_ne!(drawn["claimed"], report["claimed"], "other tables, other strokes");
 
     // Only whole rollouts are played; the report gives the number that was played, not the requested one.
-    let rounds = done(here, "train --config small.toml --steps 1 --evaluation-layouts 5 --run rounds");
+    let rounds = run_ok(here, "train --config small.toml --steps 1 --evaluation-layouts 5 --run rounds");
     assert!(rounds.out.contains("after 16 shots"), "{}", rounds.out);
     for file in ["result.json", "state.json"] {
-        let said: Value = serde_json::from_slice(&fs::read(here.join("rounds").join(file)).unwrap()).unwrap();
-        assert_eq!(said["shots"], 16, "{file}");
+        let content: Value = serde_json::from_slice(&fs::read(here.join("rounds").join(file)).unwrap()).unwrap();
+        assert_eq!(content["shots"], 16, "{file}");
     }
-    let resumed = done(here, "train --resume rounds");
+    let resumed = run_ok(here, "train --resume rounds");
     assert!(resumed.err.contains("it has played 16 shots (requested: 1)"), "{}", resumed.err);
 
     let again = carom(here, &format!("{SHORT} --run one"));
     assert_eq!(again.code, Some(1));
     assert!(again.err.contains("--resume"), "{}", again.err);
-    let finished = done(here, "train --resume one");
+    let finished = run_ok(here, "train --resume one");
     assert!(finished.err.contains("is finished") && finished.out.contains("640 shots"), "{}", finished.err);
 }
 
 #[test]
-fn a_run_whose_result_nobody_reads_is_still_told_to_be_unfinished() {
+fn an_unfinished_run_exits_with_75_even_without_a_reader() {
     let folder = folder();
     let line =
         "train --config small.toml --steps 100000000 --evaluate-every 2000 --evaluation-layouts 20 --minutes 0.002";
@@ -91,7 +92,7 @@ fn a_run_whose_result_nobody_reads_is_still_told_to_be_unfinished() {
 
 #[cfg(unix)]
 #[test]
-fn an_interrupted_run_is_listed_saves_and_goes_on_and_nobody_else_may_meanwhile() {
+fn an_interrupted_run_is_saved_listed_locked_and_resumable() {
     let folder = folder();
     let here = folder.path();
     // In the folder of the user's own runs, where they are found by name.
@@ -101,7 +102,7 @@ fn an_interrupted_run_is_listed_saves_and_goes_on_and_nobody_else_may_meanwhile(
     let mut child = start(here, &format!("{line} --run {}", run.display()));
     // The first lines of metrics show that the signal handlers are installed and training has started.
     wait_for(&run.join("metrics.jsonl"), &mut child);
-    let listed = || -> Value { serde_json::from_str(&done(here, "train --list --json").out).unwrap() };
+    let listed = || -> Value { serde_json::from_str(&run_ok(here, "train --list --json").out).unwrap() };
     assert_eq!((&listed()["name"], &listed()["state"]), (&name.into(), &"running".into()));
     let busy = carom(here, &format!("train --resume {name}"));
     assert_eq!(busy.code, Some(1));
@@ -113,15 +114,15 @@ fn an_interrupted_run_is_listed_saves_and_goes_on_and_nobody_else_may_meanwhile(
     assert!(run.join("policy.safetensors").exists());
     let stopped = listed();
     assert_eq!(stopped["state"], "stopped");
-    let resumed = unfinished(here, &format!("train --resume {name} --minutes 0.002"));
+    let resumed = run_unfinished(here, &format!("train --resume {name} --minutes 0.002"));
     assert!(resumed.err.contains("carom train --resume"), "{}", resumed.err);
     assert!(listed()["shots"].as_u64() > stopped["shots"].as_u64());
-    let table = done(here, "train --list").out;
+    let table = run_ok(here, "train --list").out;
     assert!(table.lines().count() == 2 && table.contains(name) && table.contains("stopped"), "{table}");
 }
 
 #[test]
-fn every_bundled_policy_alone_beats_a_search_of_a_hundred_random_shots() {
+fn every_bundled_policy_beats_a_search_of_100_random_shots() {
     // The model card contains the success rate of a search of 100 random shots, with its interval; a single shot of the networks is better
     // everywhere.
     let card = include_str!("../../../models/README.md");
@@ -130,14 +131,14 @@ fn every_bundled_policy_alone_beats_a_search_of_a_hundred_random_shots() {
             let row = card.lines().find(|line| line.starts_with(&format!("| `{table}-{reward}` | **"))).unwrap();
             let high: f64 = row.rsplit_once('–').unwrap().1.split(' ').next().unwrap().parse().unwrap();
             let line = format!("evaluate --policy-only --table {table} --rule {rule} --layouts 500 --json");
-            let report: Value = serde_json::from_str(&done(Path::new("."), &line).out).unwrap();
+            let report: Value = serde_json::from_str(&run_ok(Path::new("."), &line).out).unwrap();
             assert!(report["success"]["low"].as_f64().unwrap() > high / 100.0, "{row}: {report}");
         }
     }
 }
 
 #[test]
-fn bad_input_is_one_sentence_that_names_the_value_and_nothing_is_written() {
+fn invalid_input_is_named_in_one_sentence_and_writes_nothing() {
     let folder = folder();
     let here = folder.path();
     fs::write(here.join("broken.safetensors"), b"not weights").unwrap();
@@ -196,7 +197,7 @@ fn bad_input_is_one_sentence_that_names_the_value_and_nothing_is_written() {
 }
 
 #[test]
-fn one_part_of_a_setting_is_set_alone_and_the_others_stay() {
+fn setting_one_nested_value_keeps_the_others() {
     let folder = folder();
     let here = folder.path();
     let settings = |run: &str| -> Value {
@@ -204,32 +205,32 @@ fn one_part_of_a_setting_is_set_alone_and_the_others_stay() {
         config["settings"].clone()
     };
     let short = "--table thesis --steps 100 --evaluation-layouts 5";
-    done(
+    run_ok(
         here,
         &format!("train --agent thesis-ddpg --reward r3 {short} --set noise.sigma=1 --set noise.dt=0.5 --run a"),
     );
     assert_eq!(settings("a")["noise"], serde_json::json!({"theta": 0.15, "sigma": 1.0, "dt": 0.5}));
     // The other parts that the source run of the weights has set are kept, too.
-    done(here, &format!("train --from a {short} --set noise.theta=0.3 --run b"));
+    run_ok(here, &format!("train --from a {short} --set noise.theta=0.3 --run b"));
     assert_eq!(settings("b")["noise"], serde_json::json!({"theta": 0.3, "sigma": 1.0, "dt": 0.5}));
     fs::write(here.join("parts.toml"), "[noise]\nsigma = 2.0\n").unwrap();
-    done(here, &format!("train --from a {short} --config parts.toml --set noise.theta=0.3 --run c"));
+    run_ok(here, &format!("train --from a {short} --config parts.toml --set noise.theta=0.3 --run c"));
     assert_eq!(settings("c")["noise"], serde_json::json!({"theta": 0.3, "sigma": 2.0, "dt": 0.5}));
 }
 
 #[test]
-fn one_command_starts_a_run_goes_on_with_it_and_gives_the_number_to_compare() {
+fn continue_and_objective_start_resume_and_score_a_run() {
     let folder = folder();
     let here = folder.path();
     let line = format!("{SHORT} --run again --continue --objective");
-    let early = unfinished(here, &format!("{line} --minutes 0.00001"));
+    let early = run_unfinished(here, &format!("{line} --minutes 0.00001"));
     assert_eq!(early.out.lines().count(), 1, "{}", early.out);
     let result = || fs::read_to_string(here.join("again/result.json"));
     assert!(result().is_err(), "it is not finished");
-    let objective: f64 = done(here, &line).out.trim().parse().unwrap();
+    let objective: f64 = run_ok(here, &line).out.trim().parse().unwrap();
     let result: Value = serde_json::from_str(&result().unwrap()).unwrap();
     assert_eq!(result["held_out_reward"].as_f64(), Some(objective));
-    assert_eq!(done(here, &line).out.trim().parse(), Ok(objective), "a finished run stays as it is");
+    assert_eq!(run_ok(here, &line).out.trim().parse(), Ok(objective), "a finished run stays as it is");
     let other = carom(here, &line.replace("--seed 3", "--seed 4"));
     assert_eq!(other.code, Some(1));
     assert!(other.err.contains("seed 3, not 4"), "{}", other.err);

@@ -9,7 +9,7 @@ use std::{
 
 use serde_json::Value;
 
-use crate::program::{self, Kept, Outcome, outcome};
+use crate::program::{self, KillOnDrop, Outcome, outcome};
 
 /// An agent with thousands of updates per second.
 pub const SMALL: &str =
@@ -34,21 +34,21 @@ pub fn carom(folder: &Path, line: &str) -> Outcome {
 }
 
 /// Runs carom, which must succeed.
-pub fn done(folder: &Path, line: &str) -> Outcome {
+pub fn run_ok(folder: &Path, line: &str) -> Outcome {
     let outcome = carom(folder, line);
     assert_eq!(outcome.code, Some(0), "{line}: {}", outcome.err);
     outcome
 }
 
 /// Runs carom, which must stop before its end with the exit code for a resumable run.
-pub fn unfinished(folder: &Path, line: &str) -> Outcome {
+pub fn run_unfinished(folder: &Path, line: &str) -> Outcome {
     let outcome = carom(folder, line);
     assert_eq!(outcome.code, Some(75), "{line}: {}", outcome.err);
     outcome
 }
 
-pub fn start(folder: &Path, line: &str) -> Kept {
-    Kept(command(folder, line).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap())
+pub fn start(folder: &Path, line: &str) -> KillOnDrop {
+    KillOnDrop(command(folder, line).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap())
 }
 
 /// Waits until the file exists, while the program runs.
@@ -62,7 +62,7 @@ pub fn wait_for(file: &Path, child: &mut Child) {
 /// All content of a run's folder that must not depend on the clock, and the names of all files. The previous checkpoint is excluded,
 /// because the time at which it was written depends on the clock.
 #[derive(PartialEq)]
-pub struct Files {
+pub struct RunFiles {
     names: Vec<PathBuf>,
     policy: Vec<u8>,
     checkpoint: Vec<u8>,
@@ -70,14 +70,14 @@ pub struct Files {
     config: Value,
 }
 
-impl Files {
+impl RunFiles {
     pub fn of(run: &Path) -> Self {
         let mut names: Vec<_> = fs::read_dir(run).unwrap().map(|entry| entry.unwrap().file_name().into()).collect();
         names.sort();
         let read = |name: &str| fs::read(run.join(name)).unwrap();
         let metrics = String::from_utf8(read("metrics.jsonl")).unwrap();
-        let metrics = metrics.lines().map(|line| without(line, &["time/time_elapsed", "time/fps"])).collect();
-        let config = without(&String::from_utf8(read("config.json")).unwrap(), &["started"]);
+        let metrics = metrics.lines().map(|line| without_fields(line, &["time/time_elapsed", "time/fps"])).collect();
+        let config = without_fields(&String::from_utf8(read("config.json")).unwrap(), &["started"]);
         Self { names, policy: read("policy.safetensors"), checkpoint: read("checkpoint.safetensors"), metrics, config }
     }
 
@@ -91,7 +91,7 @@ impl Files {
     }
 }
 
-fn without(text: &str, names: &[&str]) -> Value {
+fn without_fields(text: &str, names: &[&str]) -> Value {
     let mut value: Value = serde_json::from_str(text).unwrap();
     for name in names {
         assert!(value.as_object_mut().unwrap().remove(*name).is_some(), "{name} in {text}");

@@ -4,7 +4,7 @@
 
 use std::{env, time::Duration};
 
-use super::common::{Files, done, folder, start};
+use super::common::{RunFiles, folder, run_ok, start};
 
 /// A run with twenty checkpoints.
 const LONG: &str = "train --config small.toml --steps 20000 --evaluate-every 1000 --evaluation-layouts 20";
@@ -13,7 +13,7 @@ const LONG: &str = "train --config small.toml --steps 20000 --evaluate-every 100
 const KILLS: [u32; 2] = [8, 40];
 
 #[test]
-fn a_run_that_is_killed_at_random_moments_ends_in_the_same_files() {
+fn a_run_killed_at_random_times_ends_with_identical_files() {
     let wanted = env::var("CAROM_KILLS").ok().map_or(KILLS[0], |kills| kills.parse().expect("CAROM_KILLS: a number"));
     let (mut hits, mut runs) = (0, 0);
     while hits < wanted {
@@ -48,9 +48,9 @@ fn hits_on_one_run(seed: u32, wanted: u32) -> u32 {
             break;
         }
     }
-    done(here, &start_or_continue(seed));
+    run_ok(here, &start_or_continue(seed));
     assert!(whole.wait().unwrap().success());
-    Files::of(&here.join("whole")).assert_same(&Files::of(&killed), &format!("seed {seed}, after {hits} kills"));
+    RunFiles::of(&here.join("whole")).assert_same(&RunFiles::of(&killed), &format!("seed {seed}, after {hits} kills"));
     hits
 }
 

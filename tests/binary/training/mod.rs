@@ -2,7 +2,7 @@
 
 mod basics;
 pub mod common;
+mod failures;
 mod kills;
-mod many;
-mod trouble;
+mod seeds;
 mod watching;

@@ -11,7 +11,7 @@ use std::{
 
 use serde_json::Value;
 
-use super::common::{SHORT, carom, command, done, folder, start, unfinished, wait_for};
+use super::common::{SHORT, carom, command, folder, run_ok, run_unfinished, start, wait_for};
 use crate::program::outcome;
 
 /// A run of a few seconds with many lines of metrics.
@@ -42,7 +42,7 @@ fn signal(child: &Child, name: &str) {
 }
 
 #[test]
-fn two_processes_see_every_line_of_a_run_while_it_trains_and_end_with_it() {
+fn two_watchers_see_every_metrics_line_and_end_with_the_run() {
     let folder = folder();
     let here = folder.path();
     let run = here.join("run");
@@ -59,11 +59,11 @@ fn two_processes_see_every_line_of_a_run_while_it_trains_and_end_with_it() {
     assert!(plain.out.lines().all(|line| line.contains("held-out reward")), "{}", plain.out);
     assert!(plain.err.contains("the run is training") && plain.err.contains("the run is finished"), "{}", plain.err);
     // A late watcher sees the same.
-    assert_eq!(done(here, "watch run --json").out, json.out);
+    assert_eq!(run_ok(here, "watch run --json").out, json.out);
 }
 
 #[test]
-fn a_run_that_is_killed_is_said_to_have_died_and_a_broken_connection_kills_none() {
+fn a_killed_run_is_reported_dead_and_a_hangup_is_survived() {
     let folder = folder();
     let here = folder.path();
     let run = here.join("run");
@@ -75,29 +75,29 @@ fn a_run_that_is_killed_is_said_to_have_died_and_a_broken_connection_kills_none(
         fs::metadata(run.join("metrics.jsonl")).unwrap().len() > before
     });
     let mut watcher = watch(here, "watch run");
-    let mut said = BufReader::new(watcher.stderr.take().unwrap());
-    let mut told = String::new();
+    let mut messages = BufReader::new(watcher.stderr.take().unwrap());
+    let mut text = String::new();
     // Its first sentence says that it watches the run.
-    said.read_line(&mut told).unwrap();
+    messages.read_line(&mut text).unwrap();
     training.kill().unwrap();
     training.wait().unwrap();
-    said.read_to_string(&mut told).unwrap();
+    messages.read_to_string(&mut text).unwrap();
     assert_eq!(outcome(watcher).code, Some(1));
-    assert!(told.contains("the run died") && told.contains("carom train --resume"), "{told}");
+    assert!(text.contains("the run died") && text.contains("carom train --resume"), "{text}");
 }
 
 #[test]
-fn a_run_that_is_taken_up_again_is_watched_though_it_was_stopped_before() {
+fn a_resumed_run_can_be_watched() {
     let folder = folder();
     let here = folder.path();
-    unfinished(here, &format!("{} --run run --minutes 0.005", LONG.replace("40000", "120000")));
+    run_unfinished(here, &format!("{} --run run --minutes 0.005", LONG.replace("40000", "120000")));
     let list = |state: &str| {
-        let list = done(here, "train --list . --json").out;
+        let list = run_ok(here, "train --list . --json").out;
         let run = lines(&list).remove(0);
         assert_eq!(run["state"], state, "{list}");
         run["last_reward"].as_f64().unwrap()
     };
-    assert!(list("stopped") >= 0.0, "what it earned when it was stopped is known");
+    assert!(list("stopped") >= 0.0, "the reward at the stop is known");
     let mut training = start(here, "train --resume run");
     let watcher = outcome(watch(here, "watch run"));
     assert!(training.wait().unwrap().success());
@@ -107,7 +107,7 @@ fn a_run_that_is_taken_up_again_is_watched_though_it_was_stopped_before() {
 }
 
 #[test]
-fn a_run_can_be_stopped_and_given_up_from_elsewhere() {
+fn a_run_is_stopped_or_abandoned_by_a_request_file() {
     let folder = folder();
     let here = folder.path();
     for (word, is_kept) in [("stop", true), ("abandon", false)] {
@@ -122,18 +122,18 @@ fn a_run_can_be_stopped_and_given_up_from_elsewhere() {
         assert_eq!(run.exists(), is_kept, "{word}");
     }
     // The report uses the run's own status, not its last line of metrics, which may be older.
-    let stopped = done(here, "watch stop");
+    let stopped = run_ok(here, "watch stop");
     let standing: Value = serde_json::from_slice(&fs::read(here.join("stop/state.json")).unwrap()).unwrap();
     assert!(standing["warning"].as_str().unwrap().contains("\"puase\" is not understood"), "{standing}");
     let reward = standing["held_out_reward"].as_f64().unwrap();
-    let told =
+    let expected =
         format!("the run was stopped after {} shots, held-out reward {reward:.4}; go on with", standing["shots"]);
-    assert!(stopped.err.contains(&told), "{told}: {}", stopped.err);
+    assert!(stopped.err.contains(&expected), "{expected}: {}", stopped.err);
 }
 
 #[cfg(unix)]
 #[test]
-fn a_second_signal_costs_a_stopped_run_nothing_but_its_measurement() {
+fn a_second_signal_skips_only_the_final_measurement() {
     let folder = folder();
     let here = folder.path();
     let run = here.join("run");
@@ -148,21 +148,21 @@ fn a_second_signal_costs_a_stopped_run_nothing_but_its_measurement() {
     let shots = standing()["shots"].clone();
     signal(&training, "TERM");
     assert_eq!(training.wait().unwrap().code(), Some(75));
-    let listed = || lines(&done(here, "train --list . --json").out).remove(0);
+    let listed = || lines(&run_ok(here, "train --list . --json").out).remove(0);
     let start = Instant::now();
     while listed()["state"] != "stopped" {
         assert!(start.elapsed() < Duration::from_secs(10), "{}", listed());
         thread::sleep(Duration::from_millis(100));
     }
-    let resumed = unfinished(here, "train --resume run --minutes 0.0000001");
+    let resumed = run_unfinished(here, "train --resume run --minutes 0.0000001");
     assert!(resumed.out.contains(&format!("after {shots} shots")), "{shots}: {}", resumed.out);
 }
 
 #[test]
-fn odd_files_give_a_sentence_each_and_no_crash() {
+fn damaged_run_files_are_each_reported_in_a_sentence() {
     let folder = folder();
     let here = folder.path();
-    done(here, &format!("{SHORT} --run run"));
+    run_ok(here, &format!("{SHORT} --run run"));
     let lines = fs::read_to_string(here.join("run/metrics.jsonl")).unwrap();
     let settings = fs::read_to_string(here.join("run/config.json")).unwrap();
     let newer = settings.replacen("\"version\": \"0", "\"version\": \"90", 1);
@@ -209,7 +209,7 @@ fn odd_files_give_a_sentence_each_and_no_crash() {
         fs::create_dir(&folder).unwrap();
         scope.spawn(|| look("folder", "metrics.jsonl cannot be read", None));
     });
-    let list = done(here, "train --list .");
+    let list = run_ok(here, "train --list .");
     assert!(list.err.contains("case-5: config.json was written by carom 90"), "{}", list.err);
     assert!(!list.out.lines().any(|line| line.contains("case-5") && line.contains("ddpg")), "{}", list.out);
     // Numbers that are not finite are written by name, and all readers accept them.
@@ -220,7 +220,7 @@ fn odd_files_give_a_sentence_each_and_no_crash() {
 }
 
 #[test]
-fn runs_are_found_by_name_or_as_the_latest_and_listed_where_none_is_named() {
+fn runs_are_found_by_name_or_latest_and_listed_otherwise() {
     let folder = folder();
     let here = folder.path();
     let none = carom(here, "watch latest");
@@ -228,19 +228,19 @@ fn runs_are_found_by_name_or_as_the_latest_and_listed_where_none_is_named() {
     assert!(none.err.contains("carom train"), "{}", none.err);
     assert!(carom(here, "train --resume latest").err.contains("there are no runs in"));
     for call in ["watch", "watch --json"] {
-        assert!(done(here, call).err.contains("no runs in"), "{call}");
+        assert!(run_ok(here, call).err.contains("no runs in"), "{call}");
     }
     let unknown = carom(here, "watch nowhere");
     assert_eq!(unknown.code, Some(1));
     assert!(unknown.err.contains("there is no run nowhere"), "{}", unknown.err);
-    done(here, SHORT);
+    run_ok(here, SHORT);
     thread::sleep(Duration::from_millis(20));
-    done(here, &SHORT.replace("--seed 3", "--seed 4"));
-    let list = done(here, "watch").out;
+    run_ok(here, &SHORT.replace("--seed 3", "--seed 4"));
+    let list = run_ok(here, "watch").out;
     let name =
         list.lines().find_map(|line| line.split_whitespace().next().filter(|name| name.ends_with("-4"))).unwrap();
-    assert_eq!(done(here, "watch latest --json").out, done(here, &format!("watch {name} --json")).out);
-    let resumed = done(here, "train --resume latest");
+    assert_eq!(run_ok(here, "watch latest --json").out, run_ok(here, &format!("watch {name} --json")).out);
+    let resumed = run_ok(here, "train --resume latest");
     assert!(resumed.err.contains(name) && resumed.err.contains("is finished"), "{}", resumed.err);
     let dumb = outcome(command(here, "watch latest").env("TERM", "dumb").spawn().unwrap());
     assert_eq!(dumb.out.lines().count(), 10, "{}", dumb.err);

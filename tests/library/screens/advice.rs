@@ -2,7 +2,7 @@
 
 use std::sync::atomic::Ordering;
 
-use super::player::{NEXT, OTHERS, Player, SHOT, SIZES, TRUE_COLOUR, advice, check, proposal};
+use super::player::{NEXT_SHOT, OTHER_SHOTS, Player, SHOT, SIZES, TRUE_COLOUR, advice, check, proposal};
 use carom::{
     coach::{FirstContact, Skill},
     game::Rule,
@@ -12,31 +12,31 @@ use carom::{
 use ratatui::{buffer::Buffer, style::Color};
 
 #[test]
-fn every_better_shot_is_shown_while_the_coach_thinks_until_its_answer_replaces_it() {
-    let player = Player::new().press("Enter").better(OTHERS[1], 612).wait(0.35);
+fn better_shots_are_shown_until_the_answer_arrives() {
+    let player = Player::new().press("Enter").report_better(OTHER_SHOTS[1], 612).wait(0.35);
     assert!(player.text(80, 24).contains("so far a shot of about 61 %, not judged yet; Esc takes it"));
-    let player = player.better(OTHERS[0], 893);
+    let player = player.report_better(OTHER_SHOTS[0], 893);
     check("so_far", &player);
-    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
-    assert!(player.study.is_none(), "nothing is studied as long as there may be a better shot");
+    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(OTHER_SHOTS[0]).unwrap());
+    assert!(player.analysis_job.is_none(), "nothing is studied as long as there may be a better shot");
     let player = player.press("Space");
     assert!(player.text(80, 24).contains("so far") || !player.app.coach.playback.playing);
     let player = player.answer();
     assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap());
-    assert!(player.study.is_some());
+    assert!(player.analysis_job.is_some());
 }
 
 #[test]
-fn escape_takes_the_best_shot_so_far_and_a_late_answer_changes_nothing() {
-    let player = Player::new().press("Enter").better(OTHERS[0], 893);
-    let late = player.asked.clone();
+fn escape_accepts_the_best_shot_and_ignores_late_answers() {
+    let player = Player::new().press("Enter").report_better(OTHER_SHOTS[0], 893);
+    let late = player.advice_job.clone();
     let mut player = player.press("Esc");
     assert!(late.as_ref().unwrap().cancel.load(Ordering::Relaxed));
     player.shows(&["the coach has stopped thinking; this is the best shot so far", "Space play"]);
-    assert_eq!(player.study.as_ref().unwrap().shot, Some(CueInputs::parse(OTHERS[0]).unwrap()));
-    player.asked = late;
-    let player = player.better(SHOT, 940).answer();
-    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
+    assert_eq!(player.analysis_job.as_ref().unwrap().shot, Some(CueInputs::parse(OTHER_SHOTS[0]).unwrap()));
+    player.advice_job = late;
+    let player = player.report_better(SHOT, 940).answer();
+    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(OTHER_SHOTS[0]).unwrap());
     assert_eq!(player.app.frame_interval(), None);
     // The estimate is biased by the errors used to choose the shot, so no interval is displayed.
     let text = player.press("v").text(120, 40);
@@ -44,10 +44,10 @@ fn escape_takes_the_best_shot_so_far_and_a_late_answer_changes_nothing() {
 }
 
 #[test]
-fn an_answer_is_that_for_the_player_who_was_asked_for_whoever_is_chosen_meanwhile() {
+fn an_answer_belongs_to_the_player_it_was_requested_for() {
     let mut player = Player::new().press("Enter");
-    let job = player.asked.take().expect("the coach is asked");
-    let so_far = proposal(&job.table, &job.layout, OTHERS[0], 893);
+    let job = player.advice_job.take().expect("the coach is asked");
+    let so_far = proposal(&job.table, &job.layout, OTHER_SHOTS[0], 893);
     player.app.receive(CoachAnswer { id: job.id, news: CoachNews::Better(so_far) });
     assert!(player.app.coach.shot().is_some());
     let player = player.press("d p Esc");
@@ -55,22 +55,22 @@ fn an_answer_is_that_for_the_player_who_was_asked_for_whoever_is_chosen_meanwhil
     assert_ne!(player.app.coach.query.skill, Skill::EXPERT);
     assert!(player.app.coach.shot().is_none(), "the best shot so far is an expert's");
     let player = player.tell(job.id, CoachNews::Advice(advice(&job)));
-    assert!(player.study.is_none() && player.app.coach.shot().is_none());
+    assert!(player.analysis_job.is_none() && player.app.coach.shot().is_none());
     player.says("this answer is for expert; Enter asks for");
     // The shot is kept for the player for whom it was found.
     let mut player = player.press("S");
     for _ in 1..Skill::NAMED.len() {
-        if player.study.is_none() {
+        if player.analysis_job.is_none() {
             player = player.press("S");
         }
     }
-    assert!(player.study.is_some());
+    assert!(player.analysis_job.is_some());
     assert_eq!(player.app.coach.query.skill, Skill::EXPERT);
     player.says("the player: expert (average above 2.5); its shot is shown");
 }
 
 #[test]
-fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown() {
+fn changing_rule_player_or_plan_hides_the_shot() {
     for (keys, words, header) in [
         ("R", "what counts: one-cushion; Enter asks the coach", "R 1-cushion S expert P plan on"),
         ("R R", "what counts: three-cushion; Enter asks the coach", "R 3-cushion S expert P plan on"),
@@ -84,7 +84,7 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
         let text = player.text(80, 24);
         assert!(text.contains(words) && text.contains(header), "{keys}\n{text}");
         assert!(player.app.coach.shot().is_none(), "{keys}");
-        let query = &player.press("Enter").asked.unwrap().query;
+        let query = &player.press("Enter").advice_job.unwrap().query;
         assert_eq!(query.plan, keys != "P");
         assert_eq!(query.first == FirstContact::Red, keys == "B B");
         assert_eq!(query.skill == Skill::PERFECT, keys.contains("S S S S S"));
@@ -96,74 +96,74 @@ fn rule_player_and_plan_are_asked_for_and_a_shot_for_something_else_is_not_shown
         "placing balls",
         "the player: national (average 1); Enter asks the coach",
     ]);
-    let cancelled = player.study.clone().unwrap().cancel;
+    let cancelled = player.analysis_job.clone().unwrap().cancel;
     assert!(cancelled.load(Ordering::Relaxed), "nobody looks at that shot any more");
     let player = player.press("R R S S S S");
-    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap(), "the first question again");
-    let again = player.press("Enter").asked.unwrap();
+    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap(), "the first request again");
+    let again = player.press("Enter").advice_job.unwrap();
     assert_eq!(
         again.former,
-        [SHOT, OTHERS[0], OTHERS[1]].map(|cue| CueInputs::parse(cue).unwrap()),
+        [SHOT, OTHER_SHOTS[0], OTHER_SHOTS[1]].map(|cue| CueInputs::parse(cue).unwrap()),
         "they take part again"
     );
-    let asked = Player::new().press("Enter").answer().press("R R Enter").asked.unwrap();
+    let asked = Player::new().press("Enter").answer().press("R R Enter").advice_job.unwrap();
     assert!(asked.query.rule == Rule::ThreeCushion && asked.former.is_empty());
 }
 
 #[test]
-fn a_closer_look_goes_to_its_own_shot_though_another_answer_is_shown_meanwhile() {
+fn an_analysis_is_stored_with_the_shot_it_belongs_to() {
     let known = Player::new().press("Enter").answer();
     let set = |player: &Player| Settings { skill: player.app.coach.query.skill, ..Settings::default() };
     let before = set(&known);
     let mut other = known.press("S Enter").answer();
-    let study = other.study.clone().unwrap();
+    let study = other.analysis_job.clone().unwrap();
     let now = set(&other);
     other.app.coach.take_changes(&now, &before).unwrap();
     let player = other.tell(study.id, CoachNews::Next(None));
     let is_studied = |player: &Player| player.app.coach.advised().map(|advised| advised.choice().is_studied);
-    assert_eq!(is_studied(&player), Some(false), "this was found out of another answer");
+    assert_eq!(is_studied(&player), Some(false), "the analysis belongs to another answer");
     let mut player = player;
     player.app.coach.take_changes(&before, &now).unwrap();
     assert_eq!(is_studied(&player), Some(true));
 }
 
 #[test]
-fn the_shots_that_are_listed_are_stepped_through_each_with_its_own_paths_and_its_own_closer_look() {
+fn each_listed_shot_has_its_own_paths_and_analysis() {
     let player = Player::new().press("Enter").answer().press("v");
     check("chances", &player);
-    let first = player.study.clone().unwrap();
+    let first = player.analysis_job.clone().unwrap();
     let player = player.press("]");
     player.shows(&["Chances · expert 89 % (87-91)", "▸2   89 % yellow, ", "shot 2 of 3: 89 % (87-91)"]);
-    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(OTHERS[0]).unwrap());
+    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(OTHER_SHOTS[0]).unwrap());
     assert!(first.cancel.load(Ordering::Relaxed));
-    let second = player.study.clone().unwrap();
-    assert_eq!(second.shot, Some(CueInputs::parse(OTHERS[0]).unwrap()));
+    let second = player.analysis_job.clone().unwrap();
+    assert_eq!(second.shot, Some(CueInputs::parse(OTHER_SHOTS[0]).unwrap()));
     // A late answer about the first shot is not used for the second one.
     let mut player = player;
-    player.study = Some(first);
-    let mut late = player.studied().press("v");
+    player.analysis_job = Some(first);
+    let mut late = player.finish_analysis().press("v");
     assert!(late.text(80, 24).contains("being computed"));
-    late.study = Some(second);
-    let player = late.studied();
+    late.analysis_job = Some(second);
+    let player = late.finish_analysis();
     assert!(!player.text(80, 24).contains("being computed"));
     // Back at the first shot, the analysis is already available.
     let player = player.press("[ [");
     assert_eq!(
         player.app.coach.shot().unwrap().cue,
-        CueInputs::parse(OTHERS[1]).unwrap(),
+        CueInputs::parse(OTHER_SHOTS[1]).unwrap(),
         "after the first comes the last"
     );
     let mut player = player.press("[");
-    player.study = None;
+    player.analysis_job = None;
     let player = player.press("Space Esc");
-    assert!(player.study.is_none() && player.text(80, 24).contains("Margins R right, L left"));
+    assert!(player.analysis_job.is_none() && player.text(80, 24).contains("Margins R right, L left"));
 }
 
 #[test]
 fn margins_and_maps() {
     let player = Player::new().press("Enter").answer().press("v v");
     assert!(player.text(80, 24).contains("being computed"));
-    let player = player.studied();
+    let player = player.finish_analysis();
     check("margins", &player);
     let large = player.text(200, 60);
     assert!(
@@ -195,9 +195,12 @@ fn margins_and_maps() {
 }
 
 #[test]
-fn margins_maps_and_speeds_are_in_the_units_of_the_settings() {
-    let player =
-        Player::with_settings(TRUE_COLOUR, "length_unit = \"feet\"\n").press("Enter").answer().press("v v").studied();
+fn margins_maps_and_speeds_use_the_units_of_the_settings() {
+    let player = Player::with_settings(TRUE_COLOUR, "length_unit = \"feet\"\n")
+        .press("Enter")
+        .answer()
+        .press("v v")
+        .finish_analysis();
     player.shows(&["Tip ±0.7 in"]);
     assert!(player.text(80, 24).contains("R right, L left: in ° ft/s"));
     for (width, height) in SIZES {
@@ -208,10 +211,10 @@ fn margins_maps_and_speeds_are_in_the_units_of_the_settings() {
 }
 
 #[test]
-fn the_plan_and_where_it_goes_on() {
+fn the_plan_shows_the_next_shot() {
     let player = Player::new().press("Enter").answer();
     let before = player.picture(120, 40);
-    let player = player.press("v v v").studied();
+    let player = player.press("v v v").finish_analysis();
     check("plan", &player);
     let large = player.text(200, 60);
     assert!(large.contains("Plan · next point on average 97 %") && large.contains("next 100 % very hard"), "{large}");
@@ -223,63 +226,69 @@ fn the_plan_and_where_it_goes_on() {
     let end = player.app.coach.shot().unwrap().recording.final_layout();
     let player = player.press("n");
     assert_eq!(*player.app.coach.layout(), end);
-    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(NEXT).unwrap(), "the next shot is there at once");
+    assert_eq!(
+        player.app.coach.shot().unwrap().cue,
+        CueInputs::parse(NEXT_SHOT).unwrap(),
+        "the next shot is there at once"
+    );
     player.shows(&[
         "Plan · next point on average 97 %",
         "now  100 % very hard",
         "stop being tried",
         "next being looked for",
     ]);
-    assert!(player.asked.is_none(), "nothing more was asked");
+    assert!(player.advice_job.is_none(), "nothing more was asked");
 }
 
 #[test]
-fn a_closer_look_that_fails_is_said_to_have_failed() {
+fn a_failed_analysis_is_reported() {
     let mut player = Player::new().press("Enter").answer().press("v v");
     player.shows(&["being computed"]);
-    let id = player.study.take().unwrap().id;
+    let id = player.analysis_job.take().unwrap().id;
     let failed = player.tell(id, CoachNews::Next(None));
-    failed.shows(&["could not be computed"]).is_silent_on("being computed");
+    failed.shows(&["could not be computed"]).does_not_show("being computed");
     failed.press("v").shows(&["stop could not be computed", "next could not be computed"]);
 }
 
 #[test]
-fn the_real_coach_tells_better_shots_then_its_advice_and_then_what_comes_next() {
+fn the_real_coach_reports_progress_then_advice_then_next_shot() {
     let mut worker = CoachWorker::unhurried(30_000);
     let mut player = Player::new().press("Enter");
-    let job = player.asked.clone().unwrap();
-    let mut told = Vec::new();
-    worker.answer(&job, |answer| told.push(answer));
-    assert!(told.len() > 1 && told[..told.len() - 1].iter().all(|one| matches!(one.news, CoachNews::Better(_))));
-    for CoachAnswer { id, news } in told {
+    let job = player.advice_job.clone().unwrap();
+    let mut answers = Vec::new();
+    worker.answer(&job, |answer| answers.push(answer));
+    assert!(
+        answers.len() > 1 && answers[..answers.len() - 1].iter().all(|one| matches!(one.news, CoachNews::Better(_)))
+    );
+    for CoachAnswer { id, news } in answers {
         player = player.tell(id, news);
     }
     let best = player.app.coach.proposal().unwrap().clone();
     assert!(best.shot.solved && best.made.is_some_and(|made| made.rate > 0.8) && best.next.is_some());
-    let job = player.study.clone().unwrap();
-    let mut told = Vec::new();
-    worker.answer(&job, |answer| told.push(answer));
-    assert_eq!(told.len(), 3, "why it leads, the closer look, and the next shot");
-    for CoachAnswer { id, news } in told {
+    let job = player.analysis_job.clone().unwrap();
+    let mut answers = Vec::new();
+    worker.answer(&job, |answer| answers.push(answer));
+    assert_eq!(answers.len(), 3, "why it leads, the closer look, and the next shot");
+    for CoachAnswer { id, news } in answers {
         player = player.tell(id, news);
     }
     assert!(player.text(120, 40).contains("Why: shot 2 ("), "{}", player.text(120, 40));
     let player = player.press("n");
     assert!(player.app.coach.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
     // The coach was cancelled: it reports only the end, at once.
-    let mut told = Vec::new();
+    let mut answers = Vec::new();
     job.cancel.store(true, Ordering::Relaxed);
-    worker.answer(&job, |answer| told.push(answer));
-    assert!(matches!(&told[..], [CoachAnswer { news: CoachNews::Next(None), .. }]));
+    worker.answer(&job, |answer| answers.push(answer));
+    assert!(matches!(&answers[..], [CoachAnswer { news: CoachNews::Next(None), .. }]));
 }
 
 #[test]
-fn a_perfect_player_gets_the_first_point() {
+fn a_perfect_player_gets_the_first_point_found() {
     let player = Player::new().press("S S S S S Enter");
-    let mut told = Vec::new();
-    CoachWorker::unhurried(30_000).answer(&player.asked.clone().unwrap(), |answer| told.push(answer));
-    let [CoachAnswer { news: CoachNews::Advice(advice), .. }] = &told[..] else { panic!("{told:?}") };
+    let mut answers = Vec::new();
+    CoachWorker::unhurried(30_000).answer(&player.advice_job.clone().unwrap(), |answer| answers.push(answer));
+    let [CoachAnswer { news: CoachNews::Advice(advice), .. }] = &answers[..] else { panic!("{answers:?}") };
     assert!(advice.effort.unwrap().simulations < 1000 && advice.proposals[0].shot.solved);
-    let player = told.into_iter().fold(player, |player, CoachAnswer { id, news }| player.tell(id, news));
+    let player = answers.into_iter().fold(player, |player, CoachAnswer { id, news }| player.tell(id, news));
     assert!(player.text(80, 24).contains("makes the point (networks"), "{}", player.text(80, 24));
 }

@@ -25,7 +25,7 @@ fn enter(player: Player, marks: &[&str]) -> Player {
 }
 
 /// Returns the content of the file of entries.
-fn kept(player: &Player) -> Entries {
+fn saved_entries(player: &Player) -> Entries {
     Entries::parse(&fs::read_to_string(player.path("calibration.toml")).unwrap_or_default()).unwrap()
 }
 
@@ -36,7 +36,7 @@ fn measured() -> Player {
 }
 
 #[test]
-fn what_each_test_is_for_is_shown_whole_at_80_columns() {
+fn the_title_of_every_test_fits_80_columns() {
     PROTOCOL.iter().fold(new(), |player, test| {
         let text = player.text(80, 24);
         assert!(text.contains(test.title), "{}: {text}", test.title);
@@ -45,14 +45,14 @@ fn what_each_test_is_for_is_shown_whole_at_80_columns() {
 }
 
 #[test]
-fn what_is_to_be_marked_is_shown_whole_in_a_form_at_80_columns() {
+fn mark_descriptions_in_the_form_fit_80_columns() {
     let text = new().press("Down Down Down Down Down Enter").text(80, 24);
     let row = text.lines().find(|row| row.contains("c fourth")).unwrap();
     assert!(row.contains("meets your own short rail") && !row.contains('…'), "{row}");
 }
 
 #[test]
-fn the_tests_are_shown_with_where_balls_lie_how_to_strike_and_what_they_tell() {
+fn each_test_shows_ball_positions_stroke_and_information() {
     let player = new();
     assert_eq!(player.app.screen, PageId::Calibration);
     player.shows(&["slow-roll", "0/2", "put: any ball in the middle of your end", "strike: straight", "time", "bits"]);
@@ -71,7 +71,7 @@ fn the_tests_are_shown_with_where_balls_lie_how_to_strike_and_what_they_tell() {
 }
 
 #[test]
-fn every_mark_of_a_form_has_a_row_while_it_is_asked_for_at_80_columns() {
+fn every_mark_of_a_form_has_a_row_at_80_columns() {
     for (n, test) in PROTOCOL.iter().enumerate() {
         let rows: Vec<String> =
             test.field_names().zip('a'..).map(|(name, letter)| format!("{letter} {name:<7} -")).collect();
@@ -86,7 +86,7 @@ fn every_mark_of_a_form_has_a_row_while_it_is_asked_for_at_80_columns() {
 }
 
 #[test]
-fn constants_are_called_by_words_where_the_long_ones_have_no_room() {
+fn constants_have_short_names_where_long_ones_do_not_fit() {
     let player = measured();
     player.says("rolling mu_r");
     let values = player.press("Tab");
@@ -98,43 +98,43 @@ fn constants_are_called_by_words_where_the_long_ones_have_no_room() {
 }
 
 #[test]
-fn the_tip_is_told_in_the_unit_of_the_settings() {
+fn the_tip_offset_uses_the_unit_of_the_settings() {
     let mm = Player::with_settings(TRUE_COLOUR, "tip_unit = \"mm\"\n").press("F7").press("Down Down Down Down");
     mm.shows(&["9.2 mm right"]);
 }
 
 #[test]
-fn the_speed_of_a_stroke_is_told_in_the_unit_of_the_settings() {
+fn the_stroke_speed_uses_the_unit_of_the_settings() {
     new().shows(&["at 0.3 m/s"]);
     let feet = Player::with_settings(TRUE_COLOUR, "length_unit = \"feet\"\n").press("F7");
-    feet.shows(&["at 1.0 ft/s"]).is_silent_on("m/s");
+    feet.shows(&["at 1.0 ft/s"]).does_not_show("m/s");
 }
 
 #[test]
-fn no_name_runs_into_its_value() {
+fn names_are_separated_from_their_values() {
     let form = enter(new().press("Down Down Down"), &["1.3"]);
     let values = enter(Player::with(ASCII).press("F7"), &ROLL);
     for (width, height) in [(80, 24), (120, 40), (200, 60)] {
         let text = form.text(width, height);
         assert!(text.contains("a lengths 1.3 s"), "{text}");
         let text = values.text(width, height);
-        let said: Vec<&str> = text.lines().filter_map(|row| Some(row.split_once(" +-")?.0)).collect();
+        let names: Vec<&str> = text.lines().filter_map(|row| Some(row.split_once(" +-")?.0)).collect();
         let is_apart =
             |before: &&str| before.split_whitespace().last().is_some_and(|value| value.parse::<f64>().is_ok());
-        assert!(said.len() > 1 && said.iter().all(is_apart), "{text}");
+        assert!(names.len() > 1 && names.iter().all(is_apart), "{text}");
     }
     assert!(values.text(80, 24).contains("rolling mu_r 0.00"), "{}", values.text(80, 24));
 }
 
 #[test]
-fn a_stroke_is_kept_at_once_and_its_values_are_shown_with_how_sure_they_are() {
+fn an_entered_stroke_is_saved_and_updates_the_estimates() {
     let player = enter(new(), &ROLL);
-    assert_eq!(kept(&player).trials.len(), 1);
+    assert_eq!(saved_entries(&player).trials.len(), 1);
     player.shows(&["1/2", "9.6, 5.4, 725 mm", "mu_r"]);
     let values = player.press("Tab");
     values.shows(&["mu_r", "well", "no better", "all marks agree with each other", "helps most"]);
     let again = enter(values, &["9.3", "5.1 ~ 0.2", "2", ""]);
-    assert_eq!(kept(&again).trials[1].field_text("stop"), "5.1 ~ 0.2");
+    assert_eq!(saved_entries(&again).trials[1].field_text("stop"), "5.1 ~ 0.2");
     // Both strokes are entered: the next test is selected.
     again.shows(&["2/2", "Strokes of slow-back"]);
     let rolled = again.press("Home");
@@ -143,13 +143,13 @@ fn a_stroke_is_kept_at_once_and_its_values_are_shown_with_how_sure_they_are() {
 }
 
 #[test]
-fn odd_marks_are_named_and_what_is_typed_stays() {
+fn invalid_marks_are_named_and_remain_editable() {
     let player = new().press("Enter").type_in("9.6").press("Enter").type_in("99").press("Enter");
     player.warns("slow-roll: stop = 99: no ball can be there; accepted is 0 to 8 diamonds");
     assert_eq!(player.app.place(), KeyContext::Calibration(CalibrationContext::Marks));
-    assert!(kept(&player).trials.is_empty());
+    assert!(saved_entries(&player).trials.is_empty());
     let player = player.press("Backspace Backspace").type_in("5.4").press("Enter Enter Enter");
-    assert_eq!(kept(&player).trials[0].field_text("stop"), "5.4");
+    assert_eq!(saved_entries(&player).trials[0].field_text("stop"), "5.4");
     for (marks, says) in [
         (["240", "", "", ""], "was the stopwatch left running?"),
         (["abc", "", "", ""], "time = \"abc\" is no time; accepted is a number of"),
@@ -161,58 +161,58 @@ fn odd_marks_are_named_and_what_is_typed_stays() {
     let taped = new().press("Enter Down").type_in("5.4").press("C-t");
     taped.says("by tape, right to 5 mm");
     let taped = taped.press("Enter Enter Enter");
-    assert_eq!(kept(&taped).trials[0].field_text("stop"), "5.4 ~ 5 mm");
+    assert_eq!(saved_entries(&taped).trials[0].field_text("stop"), "5.4 ~ 5 mm");
     let left = new().press("Enter").type_in("9").press("Esc");
     assert_eq!(
-        (left.app.place(), kept(&left)),
+        (left.app.place(), saved_entries(&left)),
         (KeyContext::Calibration(CalibrationContext::Tests), Entries::default())
     );
 }
 
 #[test]
-fn a_stroke_may_be_said_to_have_been_played_from_the_far_end() {
+fn a_stroke_can_be_marked_as_played_from_the_far_end() {
     let form = new().press("Enter C-e");
     form.says("far end; time: seconds from the stroke until the ball stops");
     let form = form.type_in("9.6").press("Enter").type_in("5.4").press("Enter Enter Enter");
-    assert!(kept(&form).trials[0].far_end);
+    assert!(saved_entries(&form).trials[0].far_end);
     form.shows(&["far end: 9.6, 5.4"]);
     let edited = form.press("Home e C-e Enter Enter Enter Enter");
-    assert_eq!(kept(&edited).trials.iter().map(|entry| entry.far_end).collect::<Vec<_>>(), [false]);
+    assert_eq!(saved_entries(&edited).trials.iter().map(|entry| entry.far_end).collect::<Vec<_>>(), [false]);
 }
 
 #[test]
-fn strokes_are_edited_deleted_and_come_back() {
+fn strokes_can_be_edited_deleted_and_restored() {
     let player = measured().press("Home");
     let edited = player.press("e Down Backspace").type_in("5").press("Enter Enter Enter");
-    assert_eq!(kept(&edited).trials[0].field_text("stop"), "5.5");
+    assert_eq!(saved_entries(&edited).trials[0].field_text("stop"), "5.5");
     let out = edited.press("Home Delete");
-    assert_eq!(kept(&out).trials.len(), 1);
+    assert_eq!(saved_entries(&out).trials.len(), 1);
     let back = out.press("u");
-    assert_eq!(kept(&back).trials[0].field_text("stop"), "5.5");
+    assert_eq!(saved_entries(&back).trials[0].field_text("stop"), "5.5");
     let back = back.press("u");
-    assert_eq!(kept(&back).trials[0].field_text("stop"), "5.4");
+    assert_eq!(saved_entries(&back).trials[0].field_text("stop"), "5.4");
     let none = back.press("u u");
-    assert!(kept(&none).trials.is_empty());
+    assert!(saved_entries(&none).trials.is_empty());
     none.press("u").warns("nothing to undo yet");
     let anew = measured().press("N y");
     anew.says("u takes this back");
-    assert!(kept(&anew).trials.is_empty() && anew.path("calibration.before.toml").exists());
-    assert_eq!(kept(&anew.press("u")).trials.len(), 2);
+    assert!(saved_entries(&anew).trials.is_empty() && anew.path("calibration.before.toml").exists());
+    assert_eq!(saved_entries(&anew.press("u")).trials.len(), 2);
 }
 
 #[test]
-fn a_test_that_is_left_out_counts_no_more_until_that_is_taken_back() {
+fn a_skipped_test_does_not_count_until_undo() {
     let out = measured().press("Home x");
     out.says("slow-roll is left out, with what is entered of it");
     out.shows(&["1 of 18 strokes"]);
     let back = out.press("u");
     back.says("slow-roll counts again");
     back.shows(&["2 of 20 strokes"]);
-    assert_eq!(kept(&back).trials.len(), 2);
+    assert_eq!(saved_entries(&back).trials.len(), 2);
 }
 
 #[test]
-fn what_the_marks_say_is_turned_to_where_the_values_leave_no_room() {
+fn long_reports_on_the_marks_are_paged() {
     let odd = |player: Player, stop: &str| enter(player.press("Home"), &["9.6", stop, "2", ""]);
     let values = ["1", "2", "7"].into_iter().fold(measured(), odd).press("Tab");
     let first = values.text(80, 24);
@@ -223,14 +223,14 @@ fn what_the_marks_say_is_turned_to_where_the_values_leave_no_room() {
 }
 
 #[test]
-fn the_command_and_the_page_share_the_file_and_what_cannot_be_read_is_not_written_over() {
+fn command_and_page_share_the_file_without_overwriting_damage() {
     let player = enter(new(), &ROLL);
     let path = player.path("calibration.toml");
     let mut other = Entry { test: "lag".into(), ..Entry::default() };
     other.set_field("lap", "4.4").unwrap();
     edit_entries(&path, &Edit::Add(other.clone())).unwrap();
     let player = enter(player, &ROLL);
-    assert_eq!((kept(&player).trials.len(), &kept(&player).trials[1]), (3, &other));
+    assert_eq!((saved_entries(&player).trials.len(), &saved_entries(&player).trials[1]), (3, &other));
     fs::write(&path, "[[trial]]\ntest = \"lag\"\nrest = 240\n").unwrap();
     let odd = player.press("F2 F7 Tab");
     odd.says("trial 1 (lag): rest = 240: no ball rolls that long");
@@ -243,7 +243,7 @@ fn the_command_and_the_page_share_the_file_and_what_cannot_be_read_is_not_writte
 }
 
 #[test]
-fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
+fn a_table_is_saved_selected_and_checked_daily() {
     let player = measured();
     player.press("p").warns("save the table first");
     let player = measured().press("s");
@@ -277,7 +277,7 @@ fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
     player.says("you now play on our club 2, at every start too");
     assert_eq!(player.app.coach.table().rolling_friction, 0.0123, "{}", fs::read_to_string(&file).unwrap());
     let player = player.press("d");
-    player.shows(&["lag", "corner-five", "0/1"]).is_silent_on("slow-roll");
+    player.shows(&["lag", "corner-five", "0/1"]).does_not_show("slow-roll");
     // A table without doubts has no daily check: typed marks of it wait, and are not used for another test.
     let player = player.press("Enter").type_in("4.6").press("F2");
     let mut elsewhere = Player::new();
@@ -289,32 +289,32 @@ fn a_table_is_saved_and_played_on_and_a_check_of_the_day_follows() {
     let player = player.press("F7 C-u Esc");
     let checked = enter(player, &["4.6", "7.4", "3.2", ""]).press("Tab");
     checked.says("today a lag rolls");
-    assert!(kept(&checked).trials.len() == 2 && checked.path("calibration-daily.toml").exists());
+    assert!(saved_entries(&checked).trials.len() == 2 && checked.path("calibration-daily.toml").exists());
     checked.press("d").shows(&["slow-roll"]);
     Player::new().press("F7 d").warns("a check of the day needs a calibrated table");
 }
 
 #[test]
-fn a_table_that_cannot_be_played_on_is_not_said_to_be() {
+fn a_table_that_cannot_be_loaded_is_not_selected() {
     let player = measured().press("s C-u").type_in("gone").press("Enter");
     fs::remove_file(player.path("tables/gone.toml")).unwrap();
     let player = player.press("p");
     player.warns("gone.toml");
-    player.is_silent_on("you now play on");
+    player.does_not_show("you now play on");
     assert_ne!(player.app.coach.table().name, "gone");
     // If the settings cannot be changed, another table is used at the next start.
     let player = measured().press("s C-u").type_in("short").press("Enter");
     fs::write(player.path("config.toml"), "speed = = 2\n").unwrap();
     let player = player.press("p");
-    player.says("you now play on short until the program ends").is_silent_on("at every start");
+    player.says("you now play on short until the program ends").does_not_show("at every start");
     assert_eq!(player.app.coach.table().name, "short");
 }
 
 #[test]
-fn strokes_that_contradict_each_other_are_named_and_make_no_table() {
+fn contradictory_strokes_are_named_and_prevent_saving() {
     let player = ["5", "9", "16"].iter().fold(new(), |player, time| enter(player.press("Home"), &[time, "5", "", ""]));
     let values = player.press("Tab");
-    values.shows(&["contradict", "unsure", "of slow-roll"]).is_silent_on(" better").is_silent_on(" well");
+    values.shows(&["contradict", "unsure", "of slow-roll"]).does_not_show(" better").does_not_show(" well");
     values.press("s").warns("strokes contradict each other");
 }
 
@@ -327,11 +327,11 @@ fn a_stroke_can_be_entered_before_the_file_was_read() {
     player.warns_nothing();
     assert_eq!(player.app.place(), KeyContext::Calibration(CalibrationContext::Marks));
     let player = ROLL.iter().fold(player, |player, mark| player.type_in(mark).press("Enter"));
-    assert_eq!(kept(&player).trials.len(), 1);
+    assert_eq!(saved_entries(&player).trials.len(), 1);
 }
 
 #[test]
-fn a_file_that_cannot_be_read_is_kept_aside_on_demand() {
+fn an_unreadable_file_is_moved_aside_on_request() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("calibration.toml"), "half").unwrap();
     let player = Player::in_folder(TRUE_COLOUR, folder).press("F7");
@@ -342,11 +342,11 @@ fn a_file_that_cannot_be_read_is_kept_aside_on_demand() {
     anew.says("the file that cannot be read is kept as");
     assert_eq!(fs::read_to_string(anew.path("calibration.before.toml")).unwrap(), "half");
     let entered = enter(anew, &ROLL);
-    assert_eq!(kept(&entered).trials.len(), 1);
+    assert_eq!(saved_entries(&entered).trials.len(), 1);
 }
 
 #[test]
-fn what_is_typed_in_part_is_there_at_the_next_start() {
+fn partly_typed_strokes_are_restored_at_the_next_start() {
     let player = new().press("Enter").type_in("9.6").press("Enter").type_in("5").press("F2");
     let draft = player.app.calibration.draft();
     let mut next = new();
@@ -357,11 +357,11 @@ fn what_is_typed_in_part_is_there_at_the_next_start() {
     later.app = later.app.with_draft(next.app.draft());
     later.warns_nothing();
     let next = next.press("F7");
-    assert!(!next.text(80, 24).contains("typed in part"), "the sentence would lie on the form");
+    assert!(!next.text(80, 24).contains("typed in part"), "the notice would cover the form");
     assert_eq!(next.app.place(), KeyContext::Calibration(CalibrationContext::Marks));
     assert_eq!(next.app.calibration.draft(), draft);
     let next = next.type_in(".4").press("Enter").type_in("725 mm").press("Enter Enter");
-    assert_eq!(kept(&next), kept(&enter(new(), &ROLL)), "as if it had been typed at once");
+    assert_eq!(saved_entries(&next), saved_entries(&enter(new(), &ROLL)), "as if it had been typed at once");
     assert_eq!(next.app.calibration.draft(), None);
     // A change of a stroke is restored as a change.
     let changed = enter(new(), &ROLL).press("Up e 9");

@@ -20,25 +20,25 @@ use proptest::prelude::*;
 use ratatui::{layout::Size, style::Color};
 
 #[test]
-fn for_whom_and_by_which_rule_the_coach_answers_is_said_until_there_is_a_shot() {
+fn skill_and_rule_are_explained_until_a_shot_is_shown() {
     let player = Player::new();
     for part in ["Its shots are for an expert at", "straight rail.", "S: how well you play; R: the rule."] {
         assert!(player.text(80, 24).contains(part), "{part}");
     }
     let player = player.press("R R S");
-    assert!(player.text(80, 24).contains("S: how well you play; R: the rule."), "the longest names leave it room");
+    assert!(player.text(80, 24).contains("S: how well you play; R: the rule."), "it fits next to the longest names");
     assert!(player.text(80, 24).contains("Its shots are for a world-class"));
     player.shows(&["three-cushion."]);
-    player.press("Enter").answer().is_silent_on("Its shots are for");
+    player.press("Enter").answer().does_not_show("Its shots are for");
 }
 
 #[test]
-fn the_start() {
+fn the_start_screen() {
     check("start", &Player::new());
 }
 
 #[test]
-fn a_ball_moved_by_plain_coarse_and_fine_steps() {
+fn balls_move_by_plain_coarse_and_fine_steps() {
     let player = Player::new().press("2 Right S-Right C-Up l L");
     player.shows(&["▸● yellow  -490.0    1.0", "● white   -710.0  182.5", "223.7 mm from white; step 10 mm"]);
     let text = player.text(80, 24);
@@ -46,7 +46,7 @@ fn a_ball_moved_by_plain_coarse_and_fine_steps() {
 }
 
 #[test]
-fn places_gaps_and_steps_are_told_in_inches_where_lengths_are_told_in_feet() {
+fn positions_gaps_and_steps_are_in_inches_with_feet() {
     let player = Player::with_settings(TRUE_COLOUR, "length_unit = \"feet\"\n");
     player.says("white at x -27.95 in, y 7.19 in, 4.76 in from yellow; step 0.39 in");
     player.shows(&["x in", "y in"]);
@@ -56,24 +56,24 @@ fn places_gaps_and_steps_are_told_in_inches_where_lengths_are_told_in_feet() {
 }
 
 #[test]
-fn an_overlap_is_refused_at_contact_with_the_same_sentence_as_everywhere() {
+fn a_moved_ball_stops_in_contact_with_another() {
     let player = Player::new().press("S-Down S-Down");
     player.warns("white stops in contact with yellow");
-    player.is_silent_on("beyond");
+    player.does_not_show("beyond");
     let text = player.text(80, 24);
     assert!(text.contains("y 61.5 mm"), "the white ball touches the yellow one\n{text}");
 }
 
 #[test]
-fn the_rail_stops_a_ball_and_says_where_it_is() {
+fn a_moved_ball_stops_at_the_rail() {
     let player = Player::new().press("+ + S-Left");
     player.shows(&["x -1389.2 mm, y 182.5 mm"]);
     player.warns("white stops at the rail");
-    player.is_silent_on("beyond");
+    player.does_not_show("beyond");
 }
 
 #[test]
-fn without_a_shot_the_panel_tells_where_the_balls_lie_wherever_it_was_left() {
+fn without_a_shot_the_panel_shows_the_ball_positions() {
     let placing = Player::new().press("Enter").answer().press("v Esc Left");
     let text = placing.text(80, 24);
     assert!(text.contains("Balls") && !text.contains("Chances"), "{text}");
@@ -82,15 +82,15 @@ fn without_a_shot_the_panel_tells_where_the_balls_lie_wherever_it_was_left() {
 }
 
 #[test]
-fn the_coach_thinks_and_can_be_stopped() {
+fn the_thinking_coach_can_be_stopped() {
     let player = Player::new().press("Enter").wait(0.35);
     player.shows(&["thinking ", "⠸ the coach is thinking; Esc stops it", "Esc cancel", "no shot yet"]);
     let player = player.press("Left");
     player.warns("the coach is thinking; Esc stops it");
-    let late = player.asked.clone().unwrap();
+    let late = player.advice_job.clone().unwrap();
     let mut player = player.press("Esc");
     assert!(late.cancel.load(Ordering::Relaxed));
-    player.asked = Some(late);
+    player.advice_job = Some(late);
     assert!(player.answer().app.coach.shot().is_none(), "a late answer is dropped");
 }
 
@@ -118,13 +118,13 @@ fn a_shot_is_recommended() {
 }
 
 #[test]
-fn a_long_way_of_the_cue_ball_is_told_to_its_end_at_80_columns() {
+fn long_cue_ball_courses_are_complete_at_80_columns() {
     let shots = ["-0.25,0.35,2,10.15,6", "-0.35,0.3,2,10.56,6", "0.35,-0.3,2,7.58,6"];
     for settings in ["", "place_unit = \"mm\"\ntip_unit = \"mm\"\n"] {
         for cue in shots {
             let player = Player::with_settings(TRUE_COLOUR, settings).press("p").type_in("4d,2d 4.4d,2d 7d,3d");
             let mut player = player.press("Enter Enter");
-            let job = player.asked.take().unwrap();
+            let job = player.advice_job.take().unwrap();
             let shot = proposal(&job.table, &job.layout, cue, 490);
             let (words, units) = (shot.shot.words.clone(), player.app.coach.units);
             assert!(words.between.len() >= 5, "{cue}: {words:?}");
@@ -140,7 +140,7 @@ fn a_long_way_of_the_cue_ball_is_told_to_its_end_at_80_columns() {
 }
 
 #[test]
-fn why_a_shot_leads_is_told_to_its_end_and_the_kiss_is_marked_on_the_table_before_the_stroke() {
+fn reasons_are_shown_and_the_likely_kiss_is_marked() {
     let second = Difference {
         next_probability: None,
         pattern: Some("one cushion, reverse"),
@@ -156,7 +156,7 @@ fn why_a_shot_leads_is_told_to_its_end_and_the_kiss_is_marked_on_the_table_befor
     why.kiss = Some(Kiss { share: 0.07, balls: [0, 2], place: DVec2::new(0.4, 0.3) });
     for caps in [TRUE_COLOUR, NO_COLOUR, ASCII] {
         let mut player = Player::with(caps).press("Enter").answer();
-        let job = player.study.take().unwrap();
+        let job = player.analysis_job.take().unwrap();
         let player = player.tell(job.id, CoachNews::Why(Box::new(why.clone())));
         let text = player.text(120, 40);
         // Its lines may break anywhere; the last words are present.
@@ -171,23 +171,23 @@ fn why_a_shot_leads_is_told_to_its_end_and_the_kiss_is_marked_on_the_table_befor
             if is_marked {
                 player.shows(&["kiss with red 7 %"]);
             } else {
-                player.is_silent_on("kiss with");
+                player.does_not_show("kiss with");
             }
         }
     }
 }
 
 #[test]
-fn the_screen_says_how_long_a_tip_is_where_tips_are_counted() {
+fn the_tip_length_is_shown_with_the_unit_tips() {
     let player = Player::new().press("Enter").answer();
     assert!(player.text(80, 24).contains(" 1 tip = 3 mm ") && player.text(120, 40).contains(" Tip = 3 mm "));
-    player.press("N").is_silent_on("ip = 3 mm");
+    player.press("N").does_not_show("ip = 3 mm");
     let mm = Player::with_settings(TRUE_COLOUR, "tip_unit = \"mm\"\n").press("Enter").answer();
-    mm.is_silent_on("ip = 3 mm");
+    mm.does_not_show("ip = 3 mm");
 }
 
 #[test]
-fn the_corners_say_from_where_diamonds_are_counted() {
+fn the_corners_show_the_origin_of_the_diamonds() {
     for caps in [TRUE_COLOUR, NO_COLOUR, ASCII] {
         let player = Player::with(caps);
         let text = player.text(80, 24);
@@ -211,20 +211,20 @@ fn the_cushions_of_the_cue_ball_are_numbered_on_the_rails() {
 }
 
 #[test]
-fn contacts_are_listed_and_stepped_through_and_all_events_on_demand() {
+fn contacts_or_all_events_are_listed_and_stepped_through() {
     let player = Player::new().press("Enter").answer().press(". . .");
     let shot = player.app.coach.shot().unwrap();
     let third = shot.recording.events().iter().filter(|event| event.kind.is_contact()).nth(2).unwrap().time;
     assert_eq!(player.app.coach.playback.time, third);
     player.shows(&["Contacts 3/"]);
-    player.is_silent_on("yellow rolls");
+    player.does_not_show("yellow rolls");
     player.press("E").shows(&["Events ", "/29"]);
 }
 
 #[test]
-fn a_shot_without_a_point_is_said_to_be_one() {
+fn a_recommended_miss_is_labelled_as_best_attempt() {
     let mut player = Player::new().press("Enter");
-    let job = player.asked.take().unwrap();
+    let job = player.advice_job.take().unwrap();
     let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(SHOT).unwrap(), false, "policy").unwrap();
     let attempt = Proposal { shot: Arc::new(shot), made: None, risk: None, next: None, is_early: false };
     let effort = Some(Effort { simulations: 4321, elapsed: Duration::from_secs(2) });
@@ -235,9 +235,9 @@ fn a_shot_without_a_point_is_said_to_be_one() {
 }
 
 #[test]
-fn what_the_coach_refuses_is_said_in_its_words() {
+fn a_refusal_of_the_coach_is_shown_verbatim() {
     let mut player = Player::new().press("Enter");
-    let job = player.asked.take().unwrap();
+    let job = player.advice_job.take().unwrap();
     let player = player.tell(job.id, CoachNews::Refused("the weights file is corrupt".to_owned()));
     player.warns("the weights file is corrupt");
 }
@@ -256,14 +256,18 @@ fn stepping_stops_at_events() {
 }
 
 #[test]
-fn the_end_of_a_shot_is_a_new_beginning() {
+fn the_next_shot_starts_from_the_end_positions() {
     let player = Player::new().press("Enter").answer().press("E End");
     player.shows(&["Events 29/29", "white stops", "Point: yellow, ", "● white    -95.9  -94.1  0.00"]);
     let end = player.app.coach.shot().unwrap().recording.final_layout();
     let player = player.press("n");
     assert_eq!(*player.app.coach.layout(), end);
     assert!(player.app.coach.shot().is_none());
-    assert_eq!(player.asked.as_ref().unwrap().layout, end, "the next shot is not known yet, so the coach is asked");
+    assert_eq!(
+        player.advice_job.as_ref().unwrap().layout,
+        end,
+        "the next shot is not known yet, so the coach is asked"
+    );
     let player = player.press("Esc u");
     assert!(player.app.coach.shot().is_some(), "undo brings the shot back as well");
 }
@@ -281,7 +285,7 @@ fn undo_and_redo_walk_through_all_changes() {
 }
 
 #[test]
-fn a_key_that_does_nothing_now_says_why() {
+fn an_unavailable_key_explains_why() {
     for (keys, reason) in [("Space", "there is no shot yet; Enter asks the coach"), ("U", "nothing was taken back")] {
         Player::new().press(keys).warns(reason);
     }
@@ -299,7 +303,7 @@ fn the_help_lists_every_key() {
 }
 
 #[test]
-fn without_colours_letters_tell_everything() {
+fn the_coach_screens_are_complete_without_colours() {
     for caps in [NO_COLOUR, ASCII] {
         let player = Player::with(caps).press("Enter").answer().press("E . .");
         if caps == NO_COLOUR {
@@ -310,7 +314,7 @@ fn without_colours_letters_tell_everything() {
         player.is_plain().shows(&["Events 4/29", "W white", "Y yellow", "R red"]);
         let player = player.press("2");
         player.is_plain().shows(&["Y yellow  -710.0    0.0", "121.0 mm from white; step 10 mm", "Enter ask"]);
-        let player = player.press("v v").studied();
+        let player = player.press("v v").finish_analysis();
         let signs = [
             "Margins",
             "4.33 right  2.31 left",
@@ -323,7 +327,7 @@ fn without_colours_letters_tell_everything() {
         assert!(signs.iter().all(|sign| text.contains(sign)), "{text}");
         let text = player.text(80, 24);
         assert!(text.contains("side  R4.33  L2.31") && text.contains("# point - one ball"), "{text}");
-        player.is_silent_on("too few");
+        player.does_not_show("too few");
         let plan = player.press("v");
         plan.is_plain().shows(&["now  94 % yellow, ", "next 100 % very hard"]);
         // At 80 columns there is no room to explain the distances below them.
@@ -339,14 +343,14 @@ fn without_colours_letters_tell_everything() {
         assert!(['w', 'r'].into_iter().all(ends), "{text}");
     }
     for views in ["v", "v v", "v v v"] {
-        let player = Player::with(ASCII).press("Enter").answer().studied().press(views);
+        let player = Player::with(ASCII).press("Enter").answer().finish_analysis().press(views);
         player.is_plain();
     }
 }
 
 #[test]
-fn monochrome_pictures_hold_no_colour_at_all() {
-    let mut player = Player::with(NO_COLOUR).press("Enter").answer().studied();
+fn monochrome_pictures_contain_no_colour() {
+    let mut player = Player::with(NO_COLOUR).press("Enter").answer().finish_analysis();
     for _ in 0..4 {
         player.is_plain();
         player = player.press("v");
@@ -363,7 +367,7 @@ fn half_blocks_draw_the_same_table() {
 }
 
 #[test]
-fn too_small_a_terminal_names_both_sizes() {
+fn a_too_small_terminal_names_both_sizes() {
     let player = Player::new();
     check_at(&[(79, 24)], "too_small", &player);
     for (width, height) in [(80, 23), (20, 5), (1, 1), (0, 0)] {
@@ -374,18 +378,18 @@ fn too_small_a_terminal_names_both_sizes() {
 }
 
 #[test]
-fn keys_do_nothing_that_nobody_can_see() {
+fn keys_are_ignored_while_the_terminal_is_too_small() {
     let mut player = Player::new();
     player.app.resize(Size::new(60, 20));
     let before = *player.app.coach.layout();
     let mut player = player.press("Right Enter d F5 :");
     assert_eq!((*player.app.coach.layout(), player.app.screen), (before, PageId::Coach));
-    assert!(player.asked.is_none());
+    assert!(player.advice_job.is_none());
     player.event(&key("q"));
-    assert!(matches!(player.effects.pop(), Some(Effect::Quit)), "but one can leave");
+    assert!(matches!(player.effects.pop(), Some(Effect::Quit)), "quitting still works");
     player.app.paste("2d,0.5d");
     player.app.resize(Size::new(80, 24));
-    assert_eq!(*player.app.coach.layout(), before, "nor a paste");
+    assert_eq!(*player.app.coach.layout(), before, "a paste is ignored, too");
     assert_ne!(*player.press("Right").app.coach.layout(), before);
 }
 
@@ -393,14 +397,14 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(32))]
 
     #[test]
-    fn no_series_of_keys_breaks_the_program(keys in prop::collection::vec(0..KEYS.len(), 1..60), width in 60_u16..200) {
+    fn random_keys_keep_the_layout_valid(keys in prop::collection::vec(0..KEYS.len(), 1..60), width in 60_u16..200) {
         let mut player = Player::new();
         for key in keys {
             player = player.press(KEYS[key]).wait(0.2);
-            if player.asked.is_some() && key % 3 > 0 {
+            if player.advice_job.is_some() && key % 3 > 0 {
                 player = player.answer();
             }
-            if let Some(job) = player.study.take_if(|_| key % 5 == 0) {
+            if let Some(job) = player.analysis_job.take_if(|_| key % 5 == 0) {
                 player = player.tell(job.id, CoachNews::Next(Some(advice(&job))));
             }
         }
@@ -417,7 +421,7 @@ const KEYS: &[&str] = &[
 ];
 
 #[test]
-fn the_balls_have_their_colours_where_they_lie() {
+fn the_balls_are_drawn_in_their_colours() {
     let picture = Player::new().picture(120, 40);
     // Bed of 108 by 27 cells from (6, 2): yellow at a quarter, white above it, red at three quarters, half way down.
     assert_eq!(picture[(33, 15)].fg, Color::Rgb(0xf6, 0xc3, 0x24));
@@ -427,7 +431,7 @@ fn the_balls_have_their_colours_where_they_lie() {
 }
 
 #[test]
-fn the_tip_is_drawn_on_the_side_that_the_shooter_sees() {
+fn the_tip_is_drawn_as_the_shooter_sees_it() {
     // Positive a is left of the centre, as in the recommended shot.
     let picture = Player::new().press("Enter").answer().picture(120, 40);
     let blue = Color::Rgb(0x1f, 0x63, 0xc8);
@@ -437,7 +441,7 @@ fn the_tip_is_drawn_on_the_side_that_the_shooter_sees() {
 }
 
 #[test]
-fn nothing_moves_by_itself_while_nothing_plays() {
+fn no_frames_are_scheduled_while_nothing_moves() {
     let player = Player::new();
     assert_eq!(player.app.frame_interval(), None);
     let player = player.press("Enter");
@@ -450,7 +454,7 @@ fn nothing_moves_by_itself_while_nothing_plays() {
 }
 
 #[test]
-fn what_lies_over_the_page_stops_it_until_it_is_closed() {
+fn overlays_pause_the_page_until_they_are_closed() {
     for over in ["?", "F6", ":"] {
         let player = Player::new().press("Enter").answer().press("Space").wait(0.1).press(over);
         let time = player.app.coach.playback.time;
@@ -461,19 +465,19 @@ fn what_lies_over_the_page_stops_it_until_it_is_closed() {
 }
 
 #[test]
-fn a_shot_that_is_asked_for_again_elsewhere_is_looked_at_when_one_comes_back() {
+fn a_pending_analysis_restarts_when_the_page_is_reopened() {
     let mut player = Player::new().press("Enter").answer();
     let skill = player.app.coach.query.skill;
     player.app.coach.take_skill(Skill::CLUB);
     // Meanwhile, news from the coach arrives and ends the analysis of a shot that is not shown.
     let mut player = player.tell(0, CoachNews::Refused(String::new()));
     player.app.coach.take_skill(skill);
-    player.study = None;
-    assert!(player.press("F5 F2").study.is_some());
+    player.analysis_job = None;
+    assert!(player.press("F5 F2").analysis_job.is_some());
 }
 
 #[test]
-fn a_shot_that_is_left_does_not_play_on_unseen() {
+fn leaving_a_shot_stops_its_playback() {
     for leave in ["Esc", "Tab", "2"] {
         let player = Player::new().press("Enter").answer().press("Space").wait(0.5).press(leave);
         assert_eq!(player.app.frame_interval(), None, "{leave}");

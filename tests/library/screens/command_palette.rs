@@ -9,7 +9,7 @@ fn opened(caps: Capabilities) -> Player {
 }
 
 #[test]
-fn it_lists_what_the_keys_do_and_what_they_may_not_do_now() {
+fn the_palette_lists_available_and_unavailable_commands() {
     check_at(&[(80, 24)], "command_palette", &opened(TRUE_COLOUR));
     opened(NO_COLOUR).is_plain().shows(&["▸ Enter            ask the coach", "Enter do it"]);
     let text = opened(ASCII).press("s h o t").text(80, 24);
@@ -17,22 +17,22 @@ fn it_lists_what_the_keys_do_and_what_they_may_not_do_now() {
 }
 
 #[test]
-fn words_narrow_it_and_enter_does_what_is_marked() {
+fn typing_filters_commands_and_enter_runs_the_selected_one() {
     let player = opened(TRUE_COLOUR).press("c h a n g e Space B A C K");
-    player.shows(&["Placing the balls: take the last change back"]).is_silent_on("ask the coach");
+    player.shows(&["Placing the balls: take the last change back"]).does_not_show("ask the coach");
     let moved = *player.app.coach.layout();
     let player = player.press("Enter");
     assert_ne!(*player.app.coach.layout(), moved, "the move was taken back");
     assert_eq!(player.app.command_palette.as_ref().map(|_| ()), None);
     let player = player.press("C-p r e c o m m Esc u");
     player.warns("there is nothing to take back");
-    assert!(player.press("C-p C-p").app.command_palette.is_none(), "what opens it closes it");
+    assert!(player.press("C-p C-p").app.command_palette.is_none(), "the same key closes the palette");
 }
 
 #[test]
-fn what_may_not_be_used_now_says_why_and_stays() {
+fn an_unavailable_command_explains_why_and_keeps_the_palette_open() {
     let player = opened(TRUE_COLOUR);
-    assert!(player.text(80, 24).contains("▸ Enter            ask the coach"), "what may be used comes first");
+    assert!(player.text(80, 24).contains("▸ Enter            ask the coach"), "available commands come first");
     let player = player.press("p l a y Space p a u s e Enter");
     player.warns("there is no shot yet; Enter asks the coach");
     assert!(player.app.command_palette.is_some() && player.app.coach.shot().is_none());
@@ -43,7 +43,7 @@ fn what_may_not_be_used_now_says_why_and_stays() {
 }
 
 #[test]
-fn what_a_key_does_before_and_in_a_shot_is_listed_once_in_the_words_of_now() {
+fn a_key_with_two_contexts_is_listed_once() {
     let placing = Player::new().press(": y e l l o w").text(80, 24);
     assert!(
         placing.contains("1 of 69")
@@ -59,14 +59,14 @@ fn what_a_key_does_before_and_in_a_shot_is_listed_once_in_the_words_of_now() {
 }
 
 #[test]
-fn letters_of_the_users_own_are_typed_and_their_keys_are_shown() {
+fn remapped_letters_are_typed_and_shown_as_keys() {
     let player = Player::with_settings(TRUE_COLOUR, "[keys]\n\"x\" = \"u\"\n");
     let text = player.press("Left : x").text(120, 40);
     assert!(text.contains("x u ") && text.contains("take the last change back"), "{text}");
 }
 
 #[test]
-fn hints_name_no_letters_of_the_users_own_where_these_are_typed() {
+fn hints_omit_remapped_letters_in_text_fields() {
     let player = Player::with_settings(TRUE_COLOUR, "[keys]\nz = \"Enter\"\nF9 = \"Esc\"\n");
     let hints = |player: &Player| player.text(80, 24).lines().last().unwrap().trim_matches('"').to_owned();
     assert!(hints(&player).starts_with(" z ask"), "{}", hints(&player));
@@ -76,7 +76,7 @@ fn hints_name_no_letters_of_the_users_own_where_these_are_typed() {
 }
 
 #[test]
-fn the_help_goes_to_its_end_and_back_to_its_beginning() {
+fn the_help_scrolls_to_its_end_and_back() {
     let is_at_the_end = |player: &Player| !player.text(80, 24).contains("more lines below");
     let player = Player::new().press("?");
     assert!(!is_at_the_end(&player));
@@ -88,7 +88,7 @@ fn the_help_goes_to_its_end_and_back_to_its_beginning() {
 }
 
 #[test]
-fn the_mark_can_be_seen_without_colours_wherever_it_is() {
+fn the_selected_row_is_visible_without_colours() {
     for (width, height) in [(80, 24), (200, 60)] {
         let mut player = opened(NO_COLOUR);
         for _ in 0..60 {

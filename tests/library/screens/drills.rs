@@ -3,7 +3,7 @@
 use super::{
     keys::key,
     player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_at, places},
-    practice::{exercise, history, many, session},
+    practice::{exercise, many_positions, session, three_sessions},
 };
 use carom::{
     coach::Skill,
@@ -23,29 +23,29 @@ pub fn check(name: &str, player: &Player) {
 
 /// Returns a player at the library who has 37 attempts at the opening.
 pub fn played() -> Player {
-    Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &history())
+    Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &three_sessions())
 }
 
 #[test]
-fn the_library_of_own_positions() {
+fn the_library_lists_the_users_positions() {
     let none = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left");
     none.shows(&["0: My positions", "You have saved no position yet.", "a adds a position"]);
     check("library_played", &played().press("Left"));
-    let long = Player::at_library(TRUE_COLOUR, &many(), &[]).press("Left End");
+    let long = Player::at_library(TRUE_COLOUR, &many_positions(), &[]).press("Left End");
     long.shows(&["60: My positions", "▸ Position number 60 of a", "you: not tried yet", "#opening"]);
     assert!(!long.text(80, 24).contains("Position number 40 of"), "the list is scrolled");
-    let plain = Player::at_library(ASCII, &many(), &[]).press("Left End Up");
+    let plain = Player::at_library(ASCII, &many_positions(), &[]).press("Left End Up");
     plain.is_plain().shows(&["> Position number 59 of", "Position number 60 of"]);
 }
 
 #[test]
-fn attempts_that_were_noted_together_have_no_best_run() {
+fn attempts_logged_as_totals_have_no_best_run() {
     let mut noted = session(1, "opening", Goal::Free, "xxx--");
     let positions = [exercise("opening", "From the opening")];
     Player::at_library(TRUE_COLOUR, &positions, &[noted.clone()]).press("Left").shows(&["3 of 5, 60 %, best run 3"]);
     noted.unordered = true;
     let player = Player::at_library(TRUE_COLOUR, &positions, &[noted]).press("Left");
-    player.shows(&["3/5", "table: 3 of 5, 60 %"]).is_silent_on("best run");
+    player.shows(&["3/5", "table: 3 of 5, 60 %"]).does_not_show("best run");
     player.press("r").shows(&["high run  -"]);
 }
 
@@ -70,16 +70,16 @@ fn every_bundled_exercise_is_listed_and_can_be_opened() {
 }
 
 #[test]
-fn words_are_looked_for_while_they_are_typed() {
-    let player = Player::at_library(TRUE_COLOUR, &many(), &[]).press("Left /").type_in("number 17");
+fn the_search_filters_while_typing() {
+    let player = Player::at_library(TRUE_COLOUR, &many_positions(), &[]).press("Left /").type_in("number 17");
     check("search", &player);
     let found = player.press("Enter");
     assert_eq!(found.app.place(), KeyContext::Drill(DrillContext::Library));
-    found.says("Position number 17").is_silent_on("Position number 18");
+    found.says("Position number 17").does_not_show("Position number 18");
     let none = found.press("/").type_in("zzz");
     none.says("No exercise matches. 0 lists all.");
     let before = none.press("Esc");
-    before.says("Position number 17").is_silent_on("Position number 18");
+    before.says("Position number 17").does_not_show("Position number 18");
     before.press("0").says("Position number 18");
 }
 
@@ -92,11 +92,11 @@ fn a_stroke_is_set_with_keys() {
     set.shows(&["aim    bottom ", "left   0.3 tip", "up     1.1 tips", " lengths", "2.3° up"]);
     set.says("275.59°").says("3.10 m/s");
     let numbers = set.press("N");
-    numbers.shows(&["aim    275.59°", "speed  3.10 m/s"]).is_silent_on(" lengths");
+    numbers.shows(&["aim    275.59°", "speed  3.10 m/s"]).does_not_show(" lengths");
     let set = numbers.press("N");
     assert!(set.text(80, 24).contains("1 tip = 3 mm") && set.text(120, 40).contains("Tip = 3 mm"));
     let in_mm = Player::with_settings(TRUE_COLOUR, "tip_unit = \"mm\"\n").press("F3 Enter h");
-    in_mm.says("left   0.5 mm").is_silent_on("= 3 mm");
+    in_mm.says("left   0.5 mm").does_not_show("= 3 mm");
     let full = set.press("Tab 0");
     full.says("270.00°").says("side   middle");
     let plain = Player::practising(NO_COLOUR).press("S-Left");
@@ -113,7 +113,7 @@ fn a_stroke_is_set_with_keys() {
 }
 
 #[test]
-fn a_text_that_has_no_room_is_read_page_by_page() {
+fn long_texts_are_paged() {
     let is_page = |player: &Player, title: &str, end: bool| {
         let text = player.text(80, 24);
         assert!(text.contains(title) && text.contains("cue at least") == end, "{text}");
@@ -134,7 +134,7 @@ fn a_text_that_has_no_room_is_read_page_by_page() {
 }
 
 #[test]
-fn the_hint_shows_the_shot_and_the_attempt_is_counted_as_helped() {
+fn the_hint_shows_the_shot_and_marks_the_attempt_helped() {
     let player = Player::practising(TRUE_COLOUR).press("v");
     check("hint", &player);
     let player = player.press("Space Space").wait(60.0);
@@ -155,26 +155,26 @@ fn aimed_as_the_model_shot(player: Player) -> Player {
 }
 
 #[test]
-fn a_stroke_is_played_with_errors_told_at_its_end_and_compared() {
+fn a_stroke_is_played_with_errors_and_compared() {
     let player = aimed_as_the_model_shot(Player::practising(TRUE_COLOUR)).press("Space");
     let attempt = player.store().sessions().items[0].attempts[0].clone();
     assert!(attempt.intended != attempt.played && attempt.chance.is_some() && attempt.advised.is_some());
     let half = player.wait(0.4);
     assert!(half.app.frame_interval().is_some());
-    half.says("the shot is running").says("no attempt yet").is_silent_on("Yours makes");
+    half.says("the shot is running").says("no attempt yet").does_not_show("Yours makes");
     let ended = half.wait(60.0);
     check("played", &ended);
     ended.says("Yours makes").says("your hand: ");
     ended.says(if attempt.made { "1 of 1 made" } else { "0 of 1 made" });
-    let told = ended.press("v");
-    told.shows(&["model shot makes ", "three tips above centre", "v hint"]);
-    assert!(told.press("PageDown").text(80, 24).contains("your hand: "), "the comparison is on another page");
+    let hinted = ended.press("v");
+    hinted.shows(&["model shot makes ", "three tips above centre", "v hint"]);
+    assert!(hinted.press("PageDown").text(80, 24).contains("your hand: "), "the comparison is on another page");
     let plain = Player::practising(NO_COLOUR).press("Right Space").wait(60.0);
     plain.is_plain().shows(&["your hand: ", "1 made", "Enter next"]);
 }
 
 #[test]
-fn a_miss_says_what_was_missing_and_the_first_press_goes_to_the_end() {
+fn a_miss_is_explained_and_enter_skips_to_the_end() {
     let player = Player::practising(TRUE_COLOUR).press("S-Right S-Right S-Right S-Right Space");
     player.says("the shot is running");
     let ended = player.press("Enter");
@@ -182,24 +182,24 @@ fn a_miss_says_what_was_missing_and_the_first_press_goes_to_the_end() {
     assert_eq!(ended.app.frame_interval(), None);
     let next = ended.press("Enter");
     next.says("set the stroke").says("0 of 1 made");
-    assert_eq!(next.kept(), 1);
+    assert_eq!(next.attempt_count(), 1);
 }
 
 #[test]
-fn the_result_of_a_free_stroke_is_seen_before_a_key_begins_another_session() {
+fn a_new_session_starts_only_after_the_result_is_seen() {
     for key in ["x", "o", "p", "m", "n"] {
         let watched = Player::practising(TRUE_COLOUR).press("S-Right S-Right S-Right S-Right Space").wait(0.1);
         let refused = watched.press(key);
         refused.says("the shot is running; Enter skips to its end").says("no attempt yet");
         let ended = refused.press("Enter");
         ended.says("No point: ").says("0 of 1 made");
-        assert_eq!((ended.kept(), ended.store().sessions().items.len()), (1, 1), "{key}");
-        ended.press(key).is_silent_on("No point: ");
+        assert_eq!((ended.attempt_count(), ended.store().sessions().items.len()), (1, 1), "{key}");
+        ended.press(key).does_not_show("No point: ");
     }
 }
 
 #[test]
-fn makes_and_misses_at_a_real_table_are_noted_and_taken_back() {
+fn results_from_a_real_table_are_noted_and_undone() {
     let player = Player::practising(TRUE_COLOUR).press("m m n m");
     player.says("Real table: free repetition").says("3 of 4 made").says("noted: made, 3 of 4 now");
     player.shows(&["3 of 4 made, 75 % (30-95)", "run 1, best 2, average 1.50", "noted: made, 3 of 4 now"]);
@@ -217,7 +217,7 @@ fn makes_and_misses_at_a_real_table_are_noted_and_taken_back() {
 }
 
 #[test]
-fn a_run_is_over_when_it_is_reached_and_the_next_note_begins_another() {
+fn a_reached_run_ends_and_the_next_note_starts_another() {
     let player = Player::practising(TRUE_COLOUR).press("o < < m n m m");
     player.says("run of 3").says("3 of 4 made");
     check("run", &player);
@@ -225,11 +225,11 @@ fn a_run_is_over_when_it_is_reached_and_the_next_note_begins_another() {
     over.says("done: 4 of 5 made");
     let again = over.press("n");
     again.says("0 of 1 made");
-    assert_eq!((again.kept(), again.store().sessions().items.len()), (6, 2));
+    assert_eq!((again.attempt_count(), again.store().sessions().items.len()), (6, 2));
 }
 
 #[test]
-fn a_game_plays_on_from_where_the_balls_stop_and_shifted_balls_lie_elsewhere() {
+fn games_continue_from_end_positions_and_repetitions_can_shift() {
     let at = |player: &Player| player.app.drills.turn.as_ref().unwrap().layout;
     let game = Player::practising(TRUE_COLOUR).press("o o Space Space Enter");
     let opening: Layout = exercise("opening", "").layout;
@@ -279,7 +279,7 @@ fn an_exam_has_twenty_exercises_and_a_grade() {
 }
 
 #[test]
-fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_them() {
+fn drills_keep_the_coachs_player_unless_another_is_chosen() {
     let folder = tempfile::tempdir().unwrap();
     Store::new(&places(folder.path())).save_skill(Skill::level(4.35)).unwrap();
     let player = Player::in_folder(TRUE_COLOUR, folder).press("d");
@@ -298,7 +298,7 @@ fn the_coachs_player_stays_unless_another_is_chosen_and_the_own_skill_is_one_of_
 }
 
 #[test]
-fn a_position_of_the_coachs_table_is_saved_shared_added_and_removed() {
+fn a_coach_position_is_saved_shared_added_and_removed() {
     let player = Player::new().press("Right s");
     let saved = player.type_in("My corner #draw #hard").press("Enter d Left");
     saved.says("My corner").says("#draw #hard");
@@ -328,7 +328,7 @@ fn a_position_of_the_coachs_table_is_saved_shared_added_and_removed() {
 }
 
 #[test]
-fn a_code_that_was_cut_is_refused_and_can_be_mended() {
+fn a_truncated_code_is_refused_and_remains_editable() {
     let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left a");
     let code = carom::drills::encode(&exercise("opening", "From the opening")).unwrap();
     player.app.paste(&code[..code.len() - 3]);
@@ -340,7 +340,7 @@ fn a_code_that_was_cut_is_refused_and_can_be_mended() {
 }
 
 #[test]
-fn what_the_disk_refuses_is_said_and_nothing_is_lost() {
+fn write_errors_are_reported_and_nothing_is_lost() {
     let player = Player::practising(TRUE_COLOUR).press("m");
     // The folder of sessions is a file: nothing can be written there.
     std::fs::remove_dir_all(player.path("sessions")).unwrap();
@@ -363,7 +363,7 @@ fn check_unsaved(player: &Player, sentence: &str) {
 }
 
 #[test]
-fn files_that_cannot_be_read_are_named_and_left_alone() {
+fn unreadable_files_are_named_and_unchanged() {
     let folder = tempfile::tempdir().unwrap();
     let write = |path: &str, text: &str| {
         let path = folder.path().join(path);
@@ -383,7 +383,7 @@ fn files_that_cannot_be_read_are_named_and_left_alone() {
 }
 
 #[test]
-fn an_exercise_goes_to_the_coachs_table() {
+fn an_exercise_can_be_opened_at_the_coach() {
     let player = Player::practising(TRUE_COLOUR).press("x Space Space Enter Enter");
     let layout = player.app.drills.turn.as_ref().unwrap().layout;
     let coach = player.press("c");
@@ -396,7 +396,7 @@ fn an_exercise_goes_to_the_coachs_table() {
 }
 
 #[test]
-fn the_help_tells_every_key() {
+fn the_help_lists_every_key() {
     for (name, keys) in [("help_library", ""), ("help_exercise", "Left Enter"), ("help_record", "r")] {
         let player = Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &[]).press(keys);
         check_at(&[(100, 60)], name, &player.press("?"));
@@ -406,8 +406,8 @@ fn the_help_tells_every_key() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
     #[test]
-    fn no_keys_whatever_break_the_screens(keys in prop::collection::vec(0..54_usize, 1..60)) {
-        let mut player = Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &history()).press("Left");
+    fn random_keys_keep_the_sessions_readable(keys in prop::collection::vec(0..54_usize, 1..60)) {
+        let mut player = Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &three_sessions()).press("Left");
         for key in keys {
             let code = match key {
                 0..=25 => KeyCode::Char(char::from(b'a' + key as u8)),
@@ -436,7 +436,7 @@ proptest! {
 }
 
 /// Returns the tasks that a key requests, without running them.
-fn asked(player: &mut Player, name: &str) -> Vec<DrillTask> {
+fn requested_tasks(player: &mut Player, name: &str) -> Vec<DrillTask> {
     match player.app.handle(&key(name)) {
         Some(Effect::Drill(tasks)) => tasks,
         other => panic!("{name} gives {other:?}"),
@@ -444,10 +444,10 @@ fn asked(player: &mut Player, name: &str) -> Vec<DrillTask> {
 }
 
 #[test]
-fn a_note_that_was_corrected_before_it_was_on_the_disk_stays_corrected() {
+fn an_undo_before_the_save_completes_is_kept() {
     let mut player = Player::practising(TRUE_COLOUR);
     let noted = |player: &mut Player, name: &str| {
-        let saved = asked(player, name).into_iter().find_map(|task| match task {
+        let saved = requested_tasks(player, name).into_iter().find_map(|task| match task {
             DrillTask::Save(session, _) => Some(session),
             _ => None,
         });
@@ -461,26 +461,26 @@ fn a_note_that_was_corrected_before_it_was_on_the_disk_stays_corrected() {
 }
 
 #[test]
-fn a_stroke_that_fails_when_another_exercise_is_open_changes_nothing_there() {
+fn a_late_failure_does_not_affect_another_exercise() {
     let mut player = Player::practising(TRUE_COLOUR).press("Right");
     let session = |player: &Player| player.app.drills.turn.as_ref().unwrap().session.id.clone();
     let first = session(&player);
-    drop(asked(&mut player, "Space"));
+    drop(requested_tasks(&mut player, "Space"));
     let mut player = player.press("Esc Enter Right");
     let second = session(&player);
-    let tasks = asked(&mut player, "Space");
+    let tasks = requested_tasks(&mut player, "Space");
     player.app.receive_drill(DrillReport::Played(first, Err("the first has failed".to_owned()), Ok(())));
     player.run(tasks);
     player.says("the shot is running");
     let mut player = player.press("Enter Enter");
-    drop(asked(&mut player, "Space"));
+    drop(requested_tasks(&mut player, "Space"));
     player.app.receive_drill(DrillReport::Played(second, Err("the second has failed".to_owned()), Ok(())));
     player.warns("the second has failed");
     player.says("set the stroke");
 }
 
 #[test]
-fn no_two_questions_to_the_coach_have_the_same_number_and_they_are_about_whoever_plays() {
+fn advice_requests_have_unique_ids_and_the_current_skill() {
     let mut player = Player::practising(TRUE_COLOUR);
     let position = |tasks: Vec<DrillTask>| {
         let asked = tasks.into_iter().find_map(|task| match task {
@@ -492,7 +492,7 @@ fn no_two_questions_to_the_coach_have_the_same_number_and_they_are_about_whoever
     let other = position(player.app.receive_drill(DrillReport::SkillKept(Skill::BEGINNER, Ok(()))));
     assert_eq!(other.1, Skill::BEGINNER);
     let mut player = player.press("Esc");
-    let again = position(asked(&mut player, "Enter"));
+    let again = position(requested_tasks(&mut player, "Enter"));
     assert_eq!(again.1, Skill::BEGINNER);
     assert_ne!(again.0, other.0);
 }

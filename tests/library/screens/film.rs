@@ -25,7 +25,7 @@ fn status(player: &Player, word: &str) -> String {
 }
 
 /// Returns the distance of white from the film, cm.
-fn white(player: &Player) -> f64 {
+fn white_distance_cm(player: &Player) -> f64 {
     let line = status(player, "white ");
     line.split_whitespace().find_map(|word| word.parse().ok()).unwrap_or_else(|| panic!("{line}"))
 }
@@ -48,7 +48,7 @@ fn a_filmed_shot_and_its_simulation_move_together() {
     assert!(player.app.frame_interval().is_some(), "it plays at once");
     let early = player.wait(1.5);
     early.says("within the fitted 2 s");
-    assert!(white(&early) < 2.0, "{} cm on the part that was fitted", white(&early));
+    assert!(white_distance_cm(&early) < 2.0, "{} cm on the part that was fitted", white_distance_cm(&early));
     let late = early.wait(4.0);
     late.says("predicted from the first 2 s");
     let paused = late.press("Space");
@@ -60,7 +60,7 @@ fn a_filmed_shot_and_its_simulation_move_together() {
 }
 
 #[test]
-fn the_film_shows_in_letters_and_in_half_blocks_too() {
+fn the_film_is_drawn_without_colours_and_with_half_blocks() {
     for (name, caps) in [("no_colour", NO_COLOUR), ("ascii", ASCII), ("half_blocks", HALF_BLOCKS)] {
         let player = watching(caps).wait(5.5).press("Space");
         player.shows(&["white 6.0 cm, yellow 0.0 cm, red", "Events 11/19", "predicted from the first 2 s"]);
@@ -77,7 +77,7 @@ fn the_film_shows_in_letters_and_in_half_blocks_too() {
 #[test]
 fn shots_are_stepped_through_and_a_late_fit_is_dropped() {
     let player = watching(TRUE_COLOUR).wait(1.0).press("]");
-    player.says("filmed shot 4").is_silent_on("filmed shot 2 ");
+    player.says("filmed shot 4").does_not_show("filmed shot 2 ");
     let player = player.press("[ [ [");
     player.says("filmed shot 0").says("this is the first filmed shot");
     list(TRUE_COLOUR).press("End Enter ]").says("filmed shot 180").says("this is the last filmed shot");
@@ -101,7 +101,7 @@ fn shots_are_stepped_through_and_a_late_fit_is_dropped() {
 }
 
 #[test]
-fn a_fit_that_fails_is_said_to_have_failed_until_another_is_asked_for() {
+fn a_failed_fit_is_shown_until_the_next_request() {
     let mut player = list(TRUE_COLOUR);
     let Some(Effect::Drill(tasks)) = player.app.handle(&key("Enter")) else { panic!("nothing is fitted") };
     let [DrillTask::Film(filmed)] = &tasks[..] else { panic!("{tasks:?}") };
@@ -109,12 +109,12 @@ fn a_fit_that_fails_is_said_to_have_failed_until_another_is_asked_for() {
     player.warns("the balls overlap");
     let failed = player.wait(60.0);
     failed.warns_nothing();
-    failed.says("the balls overlap").is_silent_on("is being fitted");
-    failed.press("] [").says("white is ").is_silent_on("the balls overlap");
+    failed.says("the balls overlap").does_not_show("is being fitted");
+    failed.press("] [").says("white is ").does_not_show("the balls overlap");
 }
 
 #[test]
-fn events_and_speeds_are_those_of_any_shot_and_back_leads_to_the_library() {
+fn film_playback_has_event_steps_and_esc_leads_back() {
     let player = watching(TRUE_COLOUR).press(". .");
     assert_eq!(player.app.frame_interval(), None, "stepping pauses");
     player.says("Events 2/");
@@ -125,6 +125,6 @@ fn events_and_speeds_are_those_of_any_shot_and_back_leads_to_the_library() {
     let player = player.press("F2 f");
     assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films), "from the coach's table as well");
     let player = player.press("Enter F2 f");
-    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films), "not the page over itself");
+    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films), "the page is not opened on top of itself");
     player.press("Esc").says("choose an exercise");
 }

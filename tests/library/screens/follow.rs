@@ -43,7 +43,7 @@ fn picture(app: &mut App, (width, height): (u16, u16)) -> String {
 }
 
 #[test]
-fn nobody_is_shown_who_does_not_say_so_and_who_does_is_told_all_the_time() {
+fn a_table_is_shown_only_on_request_with_a_notice() {
     let player = anna().press("Right Enter").answer();
     assert!(player.app.shown_table().is_none());
     let player = player.press("F");
@@ -65,7 +65,7 @@ fn nobody_is_shown_who_does_not_say_so_and_who_does_is_told_all_the_time() {
 }
 
 #[test]
-fn whoever_looks_on_sees_the_same_table_and_shot_and_cannot_touch_them() {
+fn a_spectator_sees_the_same_table_and_cannot_change_it() {
     let mut player = anna().press("F Enter").answer();
     for caps in [TRUE_COLOUR, NO_COLOUR, ASCII] {
         let mut app = following(caps);
@@ -105,7 +105,7 @@ fn whoever_looks_on_sees_the_same_table_and_shot_and_cannot_touch_them() {
 }
 
 #[test]
-fn the_shot_plays_on_where_it_is_seen_and_goes_when_it_is_shown_no_more() {
+fn a_followed_shot_plays_and_disappears_with_the_table() {
     let player = anna().press("F Enter").answer().press("Space");
     let mut app = following(TRUE_COLOUR);
     app.coach.see(seen(&player.app.shown_table().unwrap()));

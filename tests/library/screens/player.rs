@@ -28,7 +28,7 @@ use tempfile::TempDir;
 use super::{
     keys::key,
     practice::exercise,
-    runs::{NAME, OTHER, RUNS, known, listing, status},
+    runs::{OTHER_RUN, RUN, RUNS, full_update, listing, status},
 };
 
 pub const TRUE_COLOUR: Capabilities = Capabilities::TRUE_COLOUR;
@@ -41,16 +41,16 @@ pub const SIZES: [(u16, u16); 2] = [(80, 24), (120, 40)];
 /// A shot that makes the point from the opening position, so that the pictures do not depend on the coach; two others; and one that makes
 /// the point from the end positions of the first.
 pub const SHOT: &str = "0.2,0.3,6,-72,2.5";
-pub const OTHERS: [&str; 2] = ["0.4,-0.22,2.37,-104.8,4.84", "0.09,0.35,2,-73.3,2.58"];
-pub const NEXT: &str = "-0.353,0.054,3.2,87.8,5.07";
+pub const OTHER_SHOTS: [&str; 2] = ["0.4,-0.22,2.37,-104.8,4.84", "0.09,0.35,2,-73.3,2.58"];
+pub const NEXT_SHOT: &str = "-0.353,0.054,3.2,87.8,5.07";
 
 pub struct Player {
     pub app: App,
     /// The request to the coach, which a test answers at any time.
-    pub asked: Option<Box<CoachJob>>,
-    pub study: Option<Box<CoachJob>>,
+    pub advice_job: Option<Box<CoachJob>>,
+    pub analysis_job: Option<Box<CoachJob>>,
     /// The request to estimate how often the player's own stroke succeeds.
-    pub judged: Option<Box<CoachJob>>,
+    pub success_rate_job: Option<Box<CoachJob>>,
     /// The coach's model shot in the drills; `None` by default, because the coach's result depends on the speed of the machine.
     pub model_shot: Option<&'static str>,
     pub copied: Vec<String>,
@@ -82,7 +82,7 @@ pub fn proposal(table: &Table, layout: &Layout, cue: &str, made: usize) -> Propo
 pub fn advice(job: &CoachJob) -> Advice {
     let proposal = |cue, made| proposal(&job.table, &job.layout, cue, made);
     let best = proposal(SHOT, 940);
-    let others = OTHERS.into_iter().zip([893, 620]).map(|(cue, made)| proposal(cue, made));
+    let others = OTHER_SHOTS.into_iter().zip([893, 620]).map(|(cue, made)| proposal(cue, made));
     Advice { proposals: std::iter::once(best).chain(others).collect(), seed: 1, effort: None, found: None }
 }
 
@@ -108,9 +108,9 @@ impl Player {
         let told = DataPaths { settings: "/home/player/.config/carom/config.toml".into(), ..places(folder.path()) };
         Self {
             app: app.with_places(told).with_settings(&settings).with_complaints(&file, &complaints),
-            asked: None,
-            study: None,
-            judged: None,
+            advice_job: None,
+            analysis_job: None,
+            success_rate_job: None,
             model_shot: None,
             copied: Vec::new(),
             effects: Vec::new(),
@@ -166,7 +166,7 @@ impl Player {
 
     /// At a run that has played 1.2 of 5 million shots.
     pub fn watching(caps: Capabilities) -> Self {
-        Self::listing(caps).press("Enter").has_policy(true).update(FollowSlot::Main, NAME, known()).quiet()
+        Self::listing(caps).press("Enter").has_policy(true).update(FollowSlot::Main, RUN, full_update()).finish_replay()
     }
 }
 
@@ -185,7 +185,7 @@ impl Player {
     /// Presses one key and runs the requested task.
     pub fn event(&mut self, event: &KeyEvent) {
         if let Some(effect) = self.app.handle(event) {
-            self.take(effect);
+            self.run_effect(effect);
         }
     }
 
@@ -203,38 +203,38 @@ impl Player {
     }
 
     /// Waits for the end of the replay.
-    pub fn quiet(mut self) -> Self {
+    pub fn finish_replay(mut self) -> Self {
         for _ in 0..2000 {
             if self.app.frame_interval().is_none() {
                 break;
             }
             self.app.tick(0.1);
         }
-        assert_eq!(self.app.frame_interval(), None, "it rests");
+        assert_eq!(self.app.frame_interval(), None, "the replay has ended");
         self
     }
 }
 
 /// Effects.
 impl Player {
-    fn take(&mut self, effect: Effect) {
+    fn run_effect(&mut self, effect: Effect) {
         match effect {
-            Effect::Ask(job) if job.stroke.is_some() => self.judged = Some(job),
-            Effect::Ask(job) if job.shot.is_some() => self.study = Some(job),
-            Effect::Ask(job) => self.asked = Some(job),
+            Effect::Ask(job) if job.stroke.is_some() => self.success_rate_job = Some(job),
+            Effect::Ask(job) if job.shot.is_some() => self.analysis_job = Some(job),
+            Effect::Ask(job) => self.advice_job = Some(job),
             Effect::Copy(text) => self.copied.push(text),
             Effect::Drill(tasks) => self.run(tasks),
             Effect::Settings(mut task) => {
                 task.places.settings = self.path("config.toml");
                 let report = self.settings.run(&task);
                 if let Some(effect) = self.app.receive_settings(report) {
-                    self.take(effect);
+                    self.run_effect(effect);
                 }
             }
             Effect::Calibrate(tasks) => {
                 for task in tasks {
                     if let Some(effect) = self.app.receive_calibration(task.run()) {
-                        self.take(effect);
+                        self.run_effect(effect);
                     }
                 }
             }
@@ -262,29 +262,29 @@ impl Player {
 
     pub fn tell(mut self, id: u64, news: CoachNews) -> Self {
         if let Some(effect) = self.app.receive(CoachAnswer { id, news }) {
-            self.take(effect);
+            self.run_effect(effect);
         }
         self
     }
 
-    /// Lets the coach answer with [`SHOT`] and [`OTHERS`].
+    /// Lets the coach answer with [`SHOT`] and [`OTHER_SHOTS`].
     pub fn answer(mut self) -> Self {
-        let job = self.asked.take().expect("the coach was asked");
+        let job = self.advice_job.take().expect("the coach was asked");
         let advice = advice(&job);
         self.tell(job.id, CoachNews::Advice(advice))
     }
 
     /// Lets the coach report this shot as the best so far, with `made` of 1000 attempts.
-    pub fn better(self, cue: &str, made: usize) -> Self {
-        let job = self.asked.clone().expect("the coach was asked");
+    pub fn report_better(self, cue: &str, made: usize) -> Self {
+        let job = self.advice_job.clone().expect("the coach was asked");
         let so_far = proposal(&job.table, &job.layout, cue, made);
         self.tell(job.id, CoachNews::Better(Proposal { is_early: true, ..so_far }))
     }
 
-    /// Runs the analysis of the displayed shot with the real coach, except for the next shot, which is [`NEXT`].
-    pub fn studied(mut self) -> Self {
+    /// Runs the analysis of the displayed shot with the real coach, except for the next shot, which is [`NEXT_SHOT`].
+    pub fn finish_analysis(mut self) -> Self {
         // Even if the result is no longer awaited.
-        let job = CoachJob { cancel: Arc::default(), ..*self.study.take().expect("a closer look is wanted") };
+        let job = CoachJob { cancel: Arc::default(), ..*self.analysis_job.take().expect("a closer look is wanted") };
         let mut study = None;
         CoachWorker::unhurried(1).answer(&job, |answer| {
             if let CoachNews::Study(found) = answer.news {
@@ -292,7 +292,7 @@ impl Player {
             }
         });
         let end = self.app.coach.shot().unwrap().recording.final_layout();
-        let next = proposal(&job.table, &end, NEXT, 1000);
+        let next = proposal(&job.table, &end, NEXT_SHOT, 1000);
         self.tell(job.id, CoachNews::Study(study.unwrap()))
             .tell(job.id, CoachNews::Next(Some(Advice { proposals: vec![next], seed: 1, effort: None, found: None })))
     }
@@ -317,11 +317,11 @@ impl Player {
         let phase = if let Condition::InPhase(phase) = condition { phase } else { Phase::Training };
         let status = RunStatus { phase, reason: reason.map(str::to_owned), ..status() };
         let update = Update { condition: Some(condition), status: Some(status), ..Update::default() };
-        self.update(FollowSlot::Main, NAME, update)
+        self.update(FollowSlot::Main, RUN, update)
     }
 
     pub fn has_policy(self, has_policy: bool) -> Self {
-        self.report(TrainingReport::HasPolicy(Path::new(RUNS).join(NAME), has_policy))
+        self.report(TrainingReport::HasPolicy(Path::new(RUNS).join(RUN), has_policy))
     }
 }
 
@@ -342,14 +342,14 @@ impl Player {
     }
 
     /// Whether a toast contains `part`.
-    pub fn is_toast(&self, part: &str) -> bool {
+    pub fn has_toast(&self, part: &str) -> bool {
         self.app.toasts.shown.iter().any(|toast| toast.text.contains(part))
     }
 
     /// Asserts that a toast contains `part`.
     #[track_caller]
     pub fn warns(&self, part: &str) {
-        assert!(self.is_toast(part), "{part}\n{}", self.text(120, 40));
+        assert!(self.has_toast(part), "{part}\n{}", self.text(120, 40));
     }
 
     /// Asserts that no toast is shown: nothing was refused.
@@ -361,7 +361,7 @@ impl Player {
     #[track_caller]
     pub fn says(&self, part: &str) -> &Self {
         let text = self.text(120, 40);
-        assert!(text.contains(part) || self.is_toast(part), "{part}\n{text}");
+        assert!(text.contains(part) || self.has_toast(part), "{part}\n{text}");
         self
     }
 
@@ -391,7 +391,7 @@ impl Player {
     }
 
     #[track_caller]
-    pub fn is_silent_on(&self, part: &str) -> &Self {
+    pub fn does_not_show(&self, part: &str) -> &Self {
         let text = self.text(120, 40);
         assert!(!text.contains(part), "{part}\n{text}");
         self
@@ -406,7 +406,7 @@ impl Player {
     }
 
     /// Returns the number of attempts on the disk.
-    pub fn kept(&self) -> usize {
+    pub fn attempt_count(&self) -> usize {
         self.store().sessions().items.iter().map(|session| session.attempts.len()).sum()
     }
 
@@ -424,7 +424,7 @@ pub fn check(name: &str, player: &Player) {
 pub fn check_at(sizes: &[(u16, u16)], name: &str, player: &Player) {
     let screen = player.app.screen.title().to_lowercase();
     for &(width, height) in sizes {
-        check_text(&format!("{screen}_{name}_{width}x{height}"), &without_moments(&player.text(width, height)));
+        check_text(&format!("{screen}_{name}_{width}x{height}"), &without_timestamps(&player.text(width, height)));
     }
 }
 
@@ -435,14 +435,14 @@ pub fn check_text(name: &str, text: &str) {
 }
 
 /// Returns the text with recent timestamps of the form 20261120-143005 replaced.
-fn without_moments(text: &str) -> String {
+fn without_timestamps(text: &str) -> String {
     let mut text = text.to_owned();
-    let is_moment = |part: &[u8]| {
+    let is_timestamp = |part: &[u8]| {
         part.iter().enumerate().all(|(n, byte)| if n == 8 { *byte == b'-' } else { byte.is_ascii_digit() })
     };
     for start in 0..text.len().saturating_sub(15) {
         let part = &text.as_bytes()[start..start + 15];
-        if is_moment(part) && !NAME.as_bytes().starts_with(part) && !OTHER.as_bytes().starts_with(part) {
+        if is_timestamp(part) && !RUN.as_bytes().starts_with(part) && !OTHER_RUN.as_bytes().starts_with(part) {
             text.replace_range(start..start + 15, "yyyymmdd-hhmmss");
         }
     }

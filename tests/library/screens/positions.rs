@@ -13,7 +13,7 @@ fn layout(text: &str) -> Layout {
 }
 
 #[test]
-fn all_balls_are_typed_in_diamonds_and_taken_back_as_one_step() {
+fn a_typed_layout_in_diamonds_is_one_undo_step() {
     let player = Player::new().press("p").type_in("2d,0.5d 6d,2d 4d,3.5d");
     assert_eq!(*player.app.coach.layout(), Layout::opening(&Table::default()), "nothing moves before Enter");
     let player = player.press("Enter");
@@ -24,7 +24,7 @@ fn all_balls_are_typed_in_diamonds_and_taken_back_as_one_step() {
 }
 
 #[test]
-fn one_ball_is_typed_for_the_selected_one_or_by_its_colour() {
+fn one_position_is_typed_for_the_selected_or_named_ball() {
     let player = Player::new().press("3 p").type_in("4d,3.5d").press("Enter");
     assert_eq!(player.app.coach.layout().balls[2], layout("2d,0.5d 6d,2d 4d,3.5d").balls[2]);
     let player = player.press("p").type_in("yellow 1d,1d").press("Enter");
@@ -32,7 +32,7 @@ fn one_ball_is_typed_for_the_selected_one_or_by_its_colour() {
 }
 
 #[test]
-fn numbers_are_taken_as_people_write_them() {
+fn decimal_commas_and_plain_diamonds_are_accepted() {
     let player = Player::new().press("p").type_in("1d 1d 5d 0,5d 7d 3.5d").press("Enter");
     assert_eq!(*player.app.coach.layout(), layout("1d,1d 5d,0.5d 7d,3.5d"));
     let player = player.press("3 p").type_in("6,2").press("Enter");
@@ -40,7 +40,7 @@ fn numbers_are_taken_as_people_write_them() {
 }
 
 #[test]
-fn what_cannot_be_taken_is_said_and_stays_to_be_mended() {
+fn an_invalid_position_is_refused_and_remains_editable() {
     let player = Player::new().press("p").type_in("2d,9d").press("Enter");
     player.warns("outside the table");
     player.shows(&["2d,9d"]);
@@ -54,7 +54,7 @@ fn what_cannot_be_taken_is_said_and_stays_to_be_mended() {
 }
 
 #[test]
-fn a_layout_and_a_share_code_are_pasted_over_the_table() {
+fn layouts_and_share_codes_can_be_pasted() {
     let mut player = Player::new();
     player.app.paste("2d,0.5d 6d,2d 4d,3.5d\n");
     assert_eq!(*player.app.coach.layout(), layout("2d,0.5d 6d,2d 4d,3.5d"));
@@ -76,7 +76,7 @@ fn a_layout_and_a_share_code_are_pasted_over_the_table() {
 }
 
 #[test]
-fn steps_go_from_one_quarter_of_a_diamond_to_the_next() {
+fn diamond_steps_snap_to_quarter_diamonds() {
     let player = Player::new().press("D Down");
     assert_eq!(player.app.coach.layout().balls[0], layout("2d,2.5d 6d,2d 4d,3.5d").balls[0]);
     player.shows(&["white at 2.00d,2.50d", "step 1/4 diamond"]);

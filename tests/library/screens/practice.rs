@@ -39,12 +39,12 @@ pub fn session(number: u64, name: &str, goal: Goal, results: &str) -> Session {
 }
 
 /// Returns more positions than fit on a screen.
-pub fn many() -> Vec<Exercise> {
+pub fn many_positions() -> Vec<Exercise> {
     (1..=60).map(|n| exercise(&format!("position-{n:02}"), &format!("Position number {n} of a long list"))).collect()
 }
 
 /// Returns three sessions at one position.
-pub fn history() -> Vec<Session> {
+pub fn three_sessions() -> Vec<Session> {
     vec![
         session(1, "opening", Goal::Free, "x-x--x-x--"),
         session(2, "opening", Goal::Run(5), "xx-xxx-xxxxx"),

@@ -2,35 +2,35 @@
 
 use super::{
     drills::{check, played},
-    player::{ASCII, OTHERS, Player, TRUE_COLOUR},
-    practice::{exercise, history, session},
+    player::{ASCII, OTHER_SHOTS, Player, TRUE_COLOUR},
+    practice::{exercise, session, three_sessions},
 };
 use carom::{drills::Goal, physics::CueInputs};
 
 #[test]
-fn the_records() {
+fn the_record_of_a_player() {
     let none = Player::at_library(TRUE_COLOUR, &[], &[]).press("r");
     // The reason why there is no estimate yet is displayed completely.
-    let told = played().press("r").text(80, 24);
-    assert!(told.contains("no games"), "{told}");
+    let text = played().press("r").text(80, 24);
+    assert!(text.contains("no games"), "{text}");
     none.shows(&["all exercises", "attempts  0", "0 of 20", "nothing is played yet"]);
     // 37 attempts at one shot are enough for the rate of this shot, and too few for the skill of the player.
     let few = played().press("r");
     few.shows(&["enough, but at 1 of 3"]);
     few.press("w").says("no estimate of your skill yet");
-    let others = OTHERS.iter().zip([7, 8]).map(|(shot, number)| {
+    let others = OTHER_SHOTS.iter().zip([7, 8]).map(|(shot, number)| {
         let mut other = session(number, "other", Goal::Free, "x-x");
         other.exercises[0].shot = Some(CueInputs::parse(shot).unwrap());
         other
     });
-    let sessions: Vec<_> = history().into_iter().chain(others).collect();
+    let sessions: Vec<_> = three_sessions().into_iter().chain(others).collect();
     let one =
         Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &sessions).press("Left Enter r");
     check("record", &one);
     one.says("37").says("high run").says("7");
     let figures = ["table     27 of 37, 73 % (57-85)", "average   2.25 an inning", "high run  7"];
     played().press("r").shows(&figures).shows(&["all exercises", "by session, last:"]);
-    Player::at_library(ASCII, &[exercise("opening", "x")], &history()).press("r").is_plain().shows(&figures);
+    Player::at_library(ASCII, &[exercise("opening", "x")], &three_sessions()).press("r").is_plain().shows(&figures);
     let large = played().press("r").text(200, 60);
     assert!(figures.iter().all(|part| large.contains(part)), "{large}");
     one.says("you play like an average of");
@@ -43,14 +43,14 @@ fn the_records() {
 }
 
 #[test]
-fn the_record_has_what_another_program_has_noted_meanwhile() {
+fn the_record_includes_attempts_noted_by_another_program() {
     let player = played();
     player.store().save(&session(7, "opening", Goal::Free, "xxx"), &[], 0).unwrap();
     player.press("r").shows(&[" of 40, "]);
 }
 
 #[test]
-fn grade_and_score_stay_apart_however_many_attempts_there_are() {
+fn grade_and_score_stay_separated_with_many_attempts() {
     let row = |tried: usize| {
         let mut graded = exercise("opening", "From the opening");
         graded.grade = 3;
@@ -66,9 +66,9 @@ fn grade_and_score_stay_apart_however_many_attempts_there_are() {
 }
 
 #[test]
-fn a_record_of_all_exercises_alone_says_so() {
+fn a_record_of_all_exercises_cannot_be_narrowed() {
     let game = Player::practising(TRUE_COLOUR).press("o o r");
-    game.is_silent_on("all or one");
+    game.does_not_show("all or one");
     game.press("a").warns("this record is of all exercises");
     let one = Player::practising(TRUE_COLOUR).press("r");
     one.shows(&["all or one"]);
@@ -76,9 +76,9 @@ fn a_record_of_all_exercises_alone_says_so() {
 }
 
 #[test]
-fn a_shot_does_not_play_on_behind_the_record() {
+fn a_shot_pauses_behind_the_record() {
     let watched = Player::practising(TRUE_COLOUR).press("S-Right S-Right S-Right S-Right Space").wait(0.1);
     let back = watched.press("r a a").wait(60.0).press("Esc");
-    back.says("the shot is running").is_silent_on("No point: ");
+    back.says("the shot is running").does_not_show("No point: ");
     back.wait(60.0).says("No point: ");
 }

@@ -19,8 +19,8 @@ use serde_json::json;
 use super::player::SHOT;
 
 pub const RUNS: &str = "/runs";
-pub const NAME: &str = "20261120-091500-ddpg-match-r3-1";
-pub const OTHER: &str = "20261119-180102-ddpg-match-r3-2";
+pub const RUN: &str = "20261120-091500-ddpg-match-r3-1";
+pub const OTHER_RUN: &str = "20261119-180102-ddpg-match-r3-2";
 
 pub fn summary(name: &str, shots: u64, best: Option<f64>, state: Condition) -> Summary {
     Summary {
@@ -42,8 +42,8 @@ pub fn summary(name: &str, shots: u64, best: Option<f64>, state: Condition) -> S
 
 pub fn listing() -> Listing {
     let runs = vec![
-        summary(OTHER, 5_000_000, Some(0.931), Condition::InPhase(Phase::Finished)),
-        summary(NAME, 1_200_000, Some(0.874), Condition::InPhase(Phase::Training)),
+        summary(OTHER_RUN, 5_000_000, Some(0.931), Condition::InPhase(Phase::Finished)),
+        summary(RUN, 1_200_000, Some(0.874), Condition::InPhase(Phase::Training)),
         summary("20261118-three-cushions/seed-1", 40_000, None, Condition::InPhase(Phase::Stopped)),
     ];
     Listing { runs, ..Listing::default() }
@@ -104,7 +104,7 @@ pub fn examples(after: u64) -> Examples {
 }
 
 /// Returns a full update of a run in progress.
-pub fn known() -> Update {
+pub fn full_update() -> Update {
     Update {
         config: Some(Box::new(config("r3"))),
         records: (1..=60).map(record).collect(),

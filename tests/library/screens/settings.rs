@@ -24,7 +24,7 @@ fn new() -> Player {
 }
 
 #[test]
-fn every_setting_is_listed_with_its_value_and_the_marked_one_in_words() {
+fn every_setting_is_listed_and_the_selected_one_explained() {
     let player = with(TRUE_COLOUR, "skill = \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\"\nspeed = 2.0\n");
     check("values", &player);
     let skill = player.press("Down Down Down Down Down");
@@ -44,7 +44,7 @@ fn every_setting_is_listed_with_its_value_and_the_marked_one_in_words() {
 }
 
 #[test]
-fn a_value_that_is_changed_holds_at_once_and_stands_in_the_file() {
+fn a_changed_value_takes_effect_and_is_saved() {
     let player = with(TRUE_COLOUR, "# mine\ntheme = \"dark\" # at night\n").press("Right");
     assert_eq!(player.picture(80, 24)[(79, 23)].bg, Color::Rgb(0xf6, 0xf5, 0xf0), "the light theme's paper");
     assert_eq!(player.settings_text(), "# mine\ntheme = \"light\" # at night\n");
@@ -69,7 +69,7 @@ fn a_value_that_is_changed_holds_at_once_and_stands_in_the_file() {
 }
 
 #[test]
-fn the_table_comes_back_with_a_step_back() {
+fn undo_restores_the_previous_table() {
     let player = new().press("Down Down Down Right F2");
     assert_eq!(player.app.coach.table().name, "textbook");
     let player = player.press("Left u u");
@@ -81,7 +81,7 @@ fn the_table_comes_back_with_a_step_back() {
 }
 
 #[test]
-fn tables_of_ones_own_are_stepped_through_and_typed_by_their_names() {
+fn user_tables_are_selected_by_key_or_name() {
     let folder = tempfile::tempdir().unwrap();
     let tables = folder.path().join("tables");
     fs::create_dir(&tables).unwrap();
@@ -101,7 +101,7 @@ fn tables_of_ones_own_are_stepped_through_and_typed_by_their_names() {
 }
 
 #[test]
-fn a_value_is_typed_and_what_is_refused_is_named_and_can_be_mended() {
+fn a_typed_value_is_checked_and_remains_editable() {
     let player = new().press("Down Down Down Down Down Down Down Down Down Enter").type_in("5");
     player.shows(&["think_ms = 5", "Accepted: 10 to 60000.", "Enter take it"]);
     assert_eq!(player.app.place(), KeyContext::Question { is_typed: true });
@@ -134,12 +134,12 @@ fn a_value_is_typed_and_what_is_refused_is_named_and_can_be_mended() {
 }
 
 #[test]
-fn what_somebody_else_writes_meanwhile_is_read_and_not_lost() {
+fn external_changes_of_the_file_are_kept() {
     let player = with(TRUE_COLOUR, "theme = \"dark\"\n");
     fs::write(player.path("config.toml"), "theme = \"dark\"\nspeed = 4.0\n").unwrap();
     let player = player.press("Right");
     assert_eq!(player.settings_text(), "theme = \"light\"\nspeed = 4.0\n");
-    assert_eq!(player.app.coach.playback.speed(), 1.0, "what holds here is not changed by others");
+    assert_eq!(player.app.coach.playback.speed(), 1.0, "external changes do not alter values in use");
     player.shows(&["2 changed", "theme       •◂ light ▸", "speed       •  1.0"]);
     let player = with(TRUE_COLOUR, "theme = \"dark\"\n");
     fs::write(player.path("config.toml"), "theme = \n").unwrap();
@@ -152,11 +152,11 @@ fn what_somebody_else_writes_meanwhile_is_read_and_not_lost() {
     assert_eq!(player.app.settings.settings.theme.name(), "light");
     fs::remove_file(player.path("config.toml")).unwrap();
     let player = player.press("Right");
-    assert_eq!(Settings::load(&player.path("config.toml")).0.theme.name(), "high-contrast", "made anew");
+    assert_eq!(Settings::load(&player.path("config.toml")).0.theme.name(), "high-contrast", "created again");
 }
 
 #[test]
-fn placed_balls_stay_where_they_lie_on_another_table_and_others_go_to_its_spots() {
+fn placed_balls_stay_when_the_table_changes() {
     let to_textbook = |player: Player| player.press("F5 Home Down Down Down Right F2");
     let begun = with(TRUE_COLOUR, "").press("F2");
     let spots = to_textbook(begun);
@@ -168,7 +168,7 @@ fn placed_balls_stay_where_they_lie_on_another_table_and_others_go_to_its_spots(
 }
 
 #[test]
-fn what_holds_for_the_session_is_shown_and_gone_on_from() {
+fn session_values_are_shown_and_used_as_starting_points() {
     let text = "# mine\nrule = \"straight\" # at home\n";
     let player = with(TRUE_COLOUR, text).press("F2 R R S P + F5");
     player.says("three-cushion now; the file has straight");
@@ -202,7 +202,7 @@ fn what_holds_for_the_session_is_shown_and_gone_on_from() {
 }
 
 #[test]
-fn themes_and_characters_of_the_session_are_shown_too() {
+fn session_themes_and_glyphs_are_shown() {
     let player = new().press("F2 T");
     player.says("theme: light, for this session; F5 keeps it");
     let player = player.press("g F5");
@@ -219,16 +219,16 @@ fn themes_and_characters_of_the_session_are_shown_too() {
 }
 
 #[test]
-fn every_mistake_of_the_file_is_kept_to_be_read() {
+fn every_error_in_the_file_is_listed_in_the_messages() {
     let player = with(TRUE_COLOUR, "speed = 9.5\nskill = 3\ntempo = 1\n");
-    assert!(player.is_toast("speed = 9.5") && player.is_toast("; and 2 more: F6"));
+    assert!(player.has_toast("speed = 9.5") && player.has_toast("; and 2 more: F6"));
     let past: Vec<&str> = player.app.toasts.past().collect();
     assert_eq!(past.len(), 3, "{past:?}");
     assert!(past[1].contains("skill = 3") && past[2].contains("tempo"), "{past:?}");
 }
 
 #[test]
-fn colours_and_characters_are_found_out_anew() {
+fn changed_settings_detect_terminal_capabilities_again() {
     fn detect(settings: &Settings) -> Capabilities {
         let variable = |name: &str| (name == "LANG").then(|| "C.UTF-8".to_owned());
         Capabilities::detect(variable, (settings.depth, settings.glyphs))
@@ -243,7 +243,7 @@ fn colours_and_characters_are_found_out_anew() {
 }
 
 #[test]
-fn a_key_is_given_other_work_and_gets_its_own_back() {
+fn a_key_is_remapped_and_reset() {
     let player = new().press("Tab");
     check("keys", &player);
     let own = "[keys]\nx = \"Enter\"\n";
@@ -275,7 +275,7 @@ fn a_key_is_given_other_work_and_gets_its_own_back() {
 }
 
 #[test]
-fn a_question_is_answered_by_its_own_letters_whatever_else_they_do() {
+fn y_and_n_answer_questions_even_when_remapped() {
     let given = new().press("Tab Enter y y");
     assert!(given.settings_text().contains("y = \"Left\""), "{}", given.settings_text());
     let asked = given.press("Down Enter a");
@@ -287,7 +287,7 @@ fn a_question_is_answered_by_its_own_letters_whatever_else_they_do() {
 }
 
 #[test]
-fn keys_of_the_header_and_the_hints_are_the_users_own() {
+fn the_header_shows_remapped_keys() {
     let player = with(TRUE_COLOUR, "[keys]\nx = \"R\"\nF7 = \"F2\"\n").press("F7");
     let first = |width| player.text(width, 40).lines().next().unwrap().to_owned();
     assert!(first(80).contains(" x straight S expert P plan"), "{}", first(80));
@@ -297,7 +297,7 @@ fn keys_of_the_header_and_the_hints_are_the_users_own() {
 }
 
 #[test]
-fn escape_goes_back_to_the_screen_before() {
+fn escape_returns_to_the_previous_screen() {
     for (keys, screen) in [("F2 F5 Tab Esc", PageId::Coach), ("F4 F5 Esc", PageId::Training)] {
         assert_eq!(new().press(keys).app.screen, screen, "{keys}");
     }
@@ -346,7 +346,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
-    fn whatever_is_pressed_the_file_says_what_holds(
+    fn random_keys_keep_file_and_settings_equal(
         keys in prop::collection::vec(0..KEYS.len(), 1..60), width in 40_u16..200, height in 10_u16..60,
     ) {
         let mut player = with(TRUE_COLOUR, "# mine\nodd = 1\nplan = false # behind\n[keys]\n\"Hyper-x\" = \"q\"\n");

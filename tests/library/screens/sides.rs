@@ -10,7 +10,7 @@ use carom::{drills::Record, physics::CueInputs};
 const FIRST_SPEED: f64 = 2.5;
 
 /// Returns the positions of the brackets around each ball's letter in the picture.
-fn places(text: &str) -> Vec<Option<(usize, usize)>> {
+fn letter_positions(text: &str) -> Vec<Option<(usize, usize)>> {
     let find = |sign: &str| {
         text.lines().enumerate().find_map(|(row, line)| Some((row, line.chars().collect::<String>().find(sign)?)))
     };
@@ -18,14 +18,14 @@ fn places(text: &str) -> Vec<Option<(usize, usize)>> {
 }
 
 #[test]
-fn taking_the_other_ball_moves_and_repaints_none() {
+fn switching_the_cue_ball_moves_and_repaints_no_ball() {
     let before = Player::with(NO_COLOUR).press("r");
     let white = before.text(120, 40);
     let layout = *before.app.coach.layout();
     let after = before.press("x");
     let yellow = after.text(120, 40);
-    assert!(places(&white).iter().all(Option::is_some), "{white}");
-    assert_eq!(places(&white), places(&yellow), "{white}\n{yellow}");
+    assert!(letter_positions(&white).iter().all(Option::is_some), "{white}");
+    assert_eq!(letter_positions(&white), letter_positions(&yellow), "{white}\n{yellow}");
     assert_eq!(*after.app.coach.layout(), layout.for_the_opponent());
     assert!(yellow.contains("yellow is the cue ball now"), "{yellow}");
     // In true colours, too: the same cells have the same colours.
@@ -49,17 +49,17 @@ fn taking_the_other_ball_moves_and_repaints_none() {
 
 impl Player {
     /// Plays softly away from everything, and goes to the end of the shot.
-    fn misses(self) -> Self {
+    fn miss(self) -> Self {
         (0..23).fold(self, |player, _| player.press("Down")).press("S-Left Space Enter")
     }
 }
 
 #[test]
-fn in_a_match_of_two_the_turn_passes_with_a_miss_and_the_score_is_each_sides_own() {
+fn in_a_match_a_miss_passes_the_turn() {
     let player = Player::practising(NO_COLOUR).press("o o o");
     player.says("Score: match").says("inning 1 of 10");
     player.says("Stroke of white");
-    let missed = player.misses();
+    let missed = player.miss();
     missed.says("white: 0, best 0").says("inning 1 of 10");
     let next = missed.press("Enter");
     next.says("Stroke of yellow");
@@ -67,8 +67,8 @@ fn in_a_match_of_two_the_turn_passes_with_a_miss_and_the_score_is_each_sides_own
 }
 
 #[test]
-fn filmed_shots_have_the_films_colours_whoever_is_to_strike_in_a_match() {
-    let yellow = Player::practising(NO_COLOUR).press("o o o").misses().press("Enter");
+fn filmed_shots_keep_their_colours_during_a_match() {
+    let yellow = Player::practising(NO_COLOUR).press("o o o").miss().press("Enter");
     assert_eq!(yellow.app.page().cue_ball().name(), "yellow");
     let list = yellow.press("F2 f");
     assert_eq!(list.app.page().cue_ball().name(), "white");
@@ -78,12 +78,12 @@ fn filmed_shots_have_the_films_colours_whoever_is_to_strike_in_a_match() {
 }
 
 #[test]
-fn balls_of_the_drills_keep_their_colours_on_the_coachs_table() {
+fn exercise_balls_keep_their_colours_at_the_coach() {
     let listed = Player::at_library(NO_COLOUR, &[exercise("opening", "x")], &[]).press("F2 x F3 Left c");
     assert_eq!(listed.app.coach.cue_ball().name(), "white", "as in the list");
     listed.says("the balls of the exercise");
     assert_eq!(listed.press("u").app.coach.cue_ball().name(), "yellow");
-    let turn = Player::practising(NO_COLOUR).press("o o o").misses().press("Enter");
+    let turn = Player::practising(NO_COLOUR).press("o o o").miss().press("Enter");
     let layout = turn.app.drills.turn.as_ref().unwrap().layout;
     let coach = turn.press("c");
     assert_eq!((*coach.app.coach.layout(), coach.app.coach.cue_ball().name()), (layout, "yellow"));
@@ -97,13 +97,13 @@ fn against_the_coach(model_shot: Option<&'static str>, shorter: &str) -> Player 
     }
     player.says("Score: against the coach");
     player.model_shot = model_shot;
-    player.misses().press("Enter")
+    player.miss().press("Enter")
 }
 
 const SHOT: &str = "0,0.2,2,140,3";
 
 #[test]
-fn in_a_match_against_the_coach_it_makes_the_strokes_of_the_other_ball_and_they_count_on_its_side_alone() {
+fn the_coachs_strokes_in_a_match_count_only_for_it() {
     for (model_shot, meant) in [(Some(SHOT), CueInputs::parse(SHOT).unwrap().speed), (None, FIRST_SPEED)] {
         let turn = against_the_coach(model_shot, "");
         let words = if model_shot.is_some() {
@@ -125,14 +125,14 @@ fn in_a_match_against_the_coach_it_makes_the_strokes_of_the_other_ball_and_they_
         assert_eq!((by_coach, session.attempts[1].helped), (vec![false, true], false));
         assert!(
             (session.attempts[1].intended.unwrap().speed - meant).abs() < 1e-9,
-            "what the coach has shown is played"
+            "the displayed model shot is played"
         );
         assert_eq!(Record::of([session], |_, _| true).tried, 1, "the record is the player's");
     }
 }
 
 #[test]
-fn a_match_against_the_coach_is_left_gone_on_with_and_ends_with_its_score() {
+fn a_match_against_the_coach_is_resumed_and_finished() {
     let turn = against_the_coach(Some(SHOT), "< < < < < < < < <");
     turn.says("inning 1 of 1");
     turn.says("coach makes 40 %");

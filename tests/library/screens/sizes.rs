@@ -3,7 +3,7 @@
 use super::{
     player::{Player, TRUE_COLOUR},
     practice::exercise,
-    toasts::refused,
+    toasts::with_refusals,
 };
 
 fn draw(players: impl IntoIterator<Item = Player>) {
@@ -18,7 +18,7 @@ fn draw(players: impl IntoIterator<Item = Player>) {
 
 #[test]
 fn the_coach_can_be_drawn_at_every_size() {
-    let shot = |views: &str| Player::new().press("Enter").answer().studied().press(".").press(views);
+    let shot = |views: &str| Player::new().press("Enter").answer().finish_analysis().press(".").press(views);
     draw(["", "v", "v v", "v v v"].map(shot));
 }
 
@@ -29,11 +29,11 @@ fn the_drills_can_be_drawn_at_every_size() {
 }
 
 #[test]
-fn the_training_and_what_lies_over_a_page_can_be_drawn_at_every_size() {
+fn training_and_overlays_can_be_drawn_at_every_size() {
     draw(vec![
         Player::listing(TRUE_COLOUR),
         Player::watching(TRUE_COLOUR).press("5 6 7 8 9"),
-        refused(Player::new(), &[3, 60, 9]),
+        with_refusals(Player::new(), &[3, 60, 9]),
         Player::new().press("Left :").press(&"w ".repeat(120)),
         Player::new().press("?"),
     ]);

@@ -13,11 +13,11 @@ fn advised(player: Player, balls: &str, words: &str) -> Player {
     let mut player = player.press("p");
     player.app.paste(balls);
     let mut player = player.press("Enter R R Enter");
-    let job = player.asked.take().expect("the coach was asked");
+    let job = player.advice_job.take().expect("the coach was asked");
     let best = proposal(&job.table, &job.layout, words, 900);
     player
         .tell(job.id, CoachNews::Advice(Advice { proposals: vec![best], seed: 1, effort: None, found: None }))
-        .studied()
+        .finish_analysis()
 }
 
 /// The same with the shot and the balls of a bundled exercise.
@@ -32,7 +32,7 @@ fn with_model_shot(player: Player, name: &str) -> Player {
 }
 
 #[test]
-fn the_systems_are_gone_through_with_their_numbers_at_the_rails() {
+fn systems_are_cycled_with_their_numbers_at_the_rails() {
     let player = Player::new().press("y");
     player.shows(&["Corner-5", "50 - 30 = 20: aim at 20", "on this table"]);
     for size in [(80, 24), (120, 40)] {
@@ -46,12 +46,12 @@ fn the_systems_are_gone_through_with_their_numbers_at_the_rails() {
     let player = player.press("y");
     player.shows(&["Seven", "4 x 6 = 24: aim at 24"]);
     // The shot is not drawn with an example; the example ends when the shot is played.
-    player.press("Enter").answer().press("Space").is_silent_on("aim at 24");
-    Player::new().press("y y y y").is_silent_on("aim at");
+    player.press("Enter").answer().press("Space").does_not_show("aim at 24");
+    Player::new().press("y y y y").does_not_show("aim at");
 }
 
 #[test]
-fn the_system_of_the_shot_comes_first_with_the_shots_own_numbers() {
+fn the_system_of_the_shot_is_shown_first() {
     for (name, system) in
         [("corner-5-from-the-corner", "Corner-5"), ("plus-from-three", "Plus"), ("seven-from-four", "Seven")]
     {
@@ -60,16 +60,16 @@ fn the_system_of_the_shot_comes_first_with_the_shots_own_numbers() {
         player.shows(&[&format!("{system} - for this shot")]);
         // Without the shot, its numbers are gone, too, and the moved balls are visible.
         let moved = player.press("1 S-Up");
-        moved.is_silent_on(&format!("{system} - "));
+        moved.does_not_show(&format!("{system} - "));
         let mut player = moved.press("u y");
         player.shows(&[&format!("{system} - for this shot")]);
         player.app.paste("2d,0.5d 6d,2d 4d,3.5d");
-        player.is_silent_on(&format!("{system} - "));
+        player.does_not_show(&format!("{system} - "));
     }
 }
 
 #[test]
-fn an_example_is_without_the_players_balls_and_a_shot_that_no_system_describes_is_told_so() {
+fn examples_hide_the_balls_and_unmatched_shots_are_reported() {
     let yellow = Color::Rgb(0xf6, 0xc3, 0x24);
     let is_there = |player: &Player| {
         let picture = player.picture(120, 40);
@@ -83,27 +83,27 @@ fn an_example_is_without_the_players_balls_and_a_shot_that_no_system_describes_i
     player.shows(&["Corner-5 \u{b7} an example", "No system describes this shot."]);
     assert!(!is_there(&player), "{}", player.text(120, 40));
     // Before any shot there is no message about it.
-    Player::new().press("y").is_silent_on("No system describes");
+    Player::new().press("y").does_not_show("No system describes");
 }
 
 #[test]
-fn the_line_below_tells_the_number_of_the_shot_itself_too() {
+fn the_text_includes_the_number_of_the_shot() {
     let balls = "0.840,-0.320 -0.270,-0.550 -0.180,-0.630";
     let text = advised(Player::with(ASCII), balls, "0.25,0.3,3,146.4,2.4").press("y").text(200, 60);
     assert!(text.contains("the same on this table, this shot at 17"), "{text}");
 }
 
 #[test]
-fn beside_another_systems_example_the_line_below_names_no_system_of_the_shot() {
+fn an_example_of_another_system_hides_the_shots_system() {
     let player = with_model_shot(Player::with(ASCII), "corner-5-from-the-corner").press("y");
     player.shows(&["Corner-5 - for this shot", " Corner-5: ", " on the wood"]);
     let player = player.press("y");
     player.shows(&["Plus - an example", "Cue from "]);
-    player.is_silent_on("Corner-5: ");
+    player.does_not_show("Corner-5: ");
 }
 
 #[test]
-fn a_parallel_shift_is_drawn_before_the_systems_and_is_of_its_shot_alone() {
+fn a_parallel_shift_is_shown_first_for_its_shot_only() {
     let player = advised(Player::with(ASCII), "-0.6035,-0.355 0.165,0.42 0,0.3", "0,0.2,2,75,4").press("Esc y");
     player.shows(&["- Parallel shift - for this shot -", "Aimed at diamond 3 of the top rail", "as here, to 4.3"]);
     assert!(player.text(120, 40).contains("The dots are the line to the"));
@@ -113,11 +113,11 @@ fn a_parallel_shift_is_drawn_before_the_systems_and_is_of_its_shot_alone() {
     let mut shift = next.press("y y y y");
     shift.shows(&["Parallel shift - for this shot"]);
     shift.app.paste("2d,0.5d 6d,2d 4d,3.5d");
-    shift.is_silent_on("- Parallel shift");
+    shift.does_not_show("- Parallel shift");
 }
 
 #[test]
-fn a_parallel_shift_has_room_with_what_the_table_says_and_a_sentence_that_is_cut_says_so() {
+fn a_parallel_shift_fits_and_cut_sentences_end_with_dots() {
     let (balls, cue) = ("1.117,0.53 -0.405,-0.174 0.064,0.331", "-0.079,0.425,0.3,-156.5,2.82");
     let player = advised(Player::with(ASCII), balls, cue).press("Esc y");
     let [small, large] = [(80, 24), (120, 40)].map(|(width, height)| player.text(width, height));

@@ -13,9 +13,9 @@ use super::player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, check, check_a
 const OCTANTS: Capabilities = Capabilities { glyphs: Glyphs::Octant, ..TRUE_COLOUR };
 
 /// Returns a player to whom the coach has shown this shot.
-fn shown(caps: Capabilities, cue: &str) -> Player {
+fn advised(caps: Capabilities, cue: &str) -> Player {
     let mut player = Player::with(caps).press("Enter");
-    let job = player.asked.take().unwrap();
+    let job = player.advice_job.take().unwrap();
     let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(cue).unwrap(), true, "policy").unwrap();
     let proposal = Proposal { shot: Arc::new(shot), made: None, risk: None, next: None, is_early: false };
     player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![proposal], seed: 1, effort: None, found: None }))
@@ -27,7 +27,7 @@ fn count(picture: &Buffer, color: Color) -> usize {
 }
 
 #[test]
-fn octants_are_drawn_only_where_they_were_asked_for() {
+fn octants_are_drawn_only_on_request() {
     let is_octant = |text: &str| text.chars().any(|one| ('\u{1CD00}'..='\u{1CDE5}').contains(&one));
     let asked = Player::with(OCTANTS).press("Enter").answer();
     check_at(&[(120, 40)], "octants", &asked);
@@ -43,7 +43,7 @@ fn octants_are_drawn_only_where_they_were_asked_for() {
 }
 
 #[test]
-fn the_way_that_a_ball_has_run_fades_behind_its_trail() {
+fn the_travelled_path_fades_behind_the_trail() {
     // The yellow ball's path, the same path blended into the cloth, and the ball itself.
     let (path, past, ball) = (Color::Rgb(0xd8, 0xc0, 0x5a), Color::Rgb(0x79, 0x96, 0x6e), Color::Rgb(0xf6, 0xc3, 0x24));
     let start = Player::new().press("Enter").answer();
@@ -56,9 +56,9 @@ fn the_way_that_a_ball_has_run_fades_behind_its_trail() {
 }
 
 #[test]
-fn the_hit_gives_way_to_the_spin_while_the_shot_plays() {
+fn the_spin_replaces_the_hit_during_playback() {
     for caps in [TRUE_COLOUR, NO_COLOUR, ASCII] {
-        let player = shown(caps, "0.3,-0.3,0,90,3").press("Space").wait(0.15);
+        let player = advised(caps, "0.3,-0.3,0,90,3").press("Space").wait(0.15);
         if caps == TRUE_COLOUR {
             check("spin", &player);
         } else {
@@ -74,22 +74,22 @@ fn the_hit_gives_way_to_the_spin_while_the_shot_plays() {
 }
 
 #[test]
-fn draw_is_told_from_follow_and_both_from_rolling() {
+fn draw_follow_sliding_and_rolling_are_labelled() {
     for (cue, wait, word) in [
         ("0,-0.4,0,0,3", 0.11, "draw"),
         ("0,0.49,0,0,8", 0.11, "follow"),
         ("0,0,0,0,3", 0.11, "slides"),
         ("0,0.4,0,0,1", 0.25, "rolls"),
     ] {
-        let text = shown(TRUE_COLOUR, cue).press("Space").wait(wait).text(120, 40);
+        let text = advised(TRUE_COLOUR, cue).press("Space").wait(wait).text(120, 40);
         let ball = text.lines().find(|line| line.contains("● white")).unwrap();
         assert!(ball.contains(word) && text.matches(word).count() >= 2, "{cue}: {word}\n{text}");
     }
 }
 
 #[test]
-fn a_cushion_that_is_met_before_a_ball_is_named_instead_of_the_fullness() {
-    let bank = shown(TRUE_COLOUR, "0,0,3,-173,4");
+fn a_first_cushion_is_named_instead_of_the_fullness() {
+    let bank = advised(TRUE_COLOUR, "0,0,3,-173,4");
     let contact = bank.app.coach.shot().unwrap().words.first;
     assert_eq!(contact.map(|hit| hit.ball), Some(1), "back from the short rail to the yellow ball");
     for (width, height) in SIZES {
@@ -98,6 +98,6 @@ fn a_cushion_that_is_met_before_a_ball_is_named_instead_of_the_fullness() {
             assert!(text.contains(words), "{words}\n{text}");
         }
     }
-    let nothing = shown(TRUE_COLOUR, "0,0,0,-45,0.2").text(120, 40);
+    let nothing = advised(TRUE_COLOUR, "0,0,0,-45,0.2").text(120, 40);
     assert!(nothing.contains("nothing"), "{nothing}");
 }

@@ -12,7 +12,7 @@ fn first_row(text: &str) -> String {
 }
 
 #[test]
-fn every_screen_has_the_tabs_and_what_has_to_be_known_beside_them() {
+fn the_header_of_every_screen() {
     let mut rows = Vec::new();
     for (width, height) in [(80, 24), (100, 30), (120, 40), (200, 60)] {
         let coach = Player::new().press("S S").press("Enter");
@@ -30,7 +30,7 @@ fn every_screen_has_the_tabs_and_what_has_to_be_known_beside_them() {
 }
 
 #[test]
-fn the_open_tab_is_told_without_colours_too() {
+fn the_open_tab_is_visible_without_colours() {
     for caps in [TRUE_COLOUR, NO_COLOUR] {
         for (keys, screen) in
             [("F2", "Coach"), ("F3", "Drills"), ("F4", "Training"), ("F5", "Settings"), ("F7", "Calibration")]
@@ -49,7 +49,7 @@ fn the_open_tab_is_told_without_colours_too() {
 }
 
 #[test]
-fn a_coach_that_thinks_goes_on_and_its_shot_is_there_when_one_comes_back() {
+fn the_coach_continues_thinking_on_other_screens() {
     let player = Player::new().press("Enter F4").wait(0.5);
     assert_eq!(player.app.frame_interval(), None, "nobody looks at the spinner");
     let player = player.answer().press("F2");
@@ -62,7 +62,7 @@ fn a_coach_that_thinks_goes_on_and_its_shot_is_there_when_one_comes_back() {
 }
 
 #[test]
-fn a_shot_is_paused_on_every_way_to_another_screen_and_on_no_way_to_its_own() {
+fn a_shot_pauses_only_when_the_screen_changes() {
     let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter Esc y F2");
     let playing = left.press("Enter").answer().press("Space").wait(0.5);
     let resumed = playing.press("c");
@@ -75,7 +75,7 @@ fn a_shot_is_paused_on_every_way_to_another_screen_and_on_no_way_to_its_own() {
 }
 
 #[test]
-fn an_exercise_an_exam_and_what_is_typed_stay_as_they_are() {
+fn exercises_exams_and_typed_text_survive_switching_screens() {
     let player = Player::practising(TRUE_COLOUR).press("S-Left k Space").wait(0.3);
     let time = |player: &Player| player.app.drills.turn.as_ref().unwrap().watched().unwrap().playback.time;
     let before = time(&player);
@@ -96,7 +96,7 @@ fn an_exercise_an_exam_and_what_is_typed_stay_as_they_are() {
 }
 
 #[test]
-fn a_match_against_the_coach_begins_from_anywhere_and_goes_on_where_it_was_left() {
+fn a_match_against_the_coach_starts_or_resumes_from_anywhere() {
     let player = Player::new().press("F9");
     assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Exercise));
     let session = |player: &Player| player.app.drills.turn.as_ref().unwrap().session.clone();
@@ -104,7 +104,7 @@ fn a_match_against_the_coach_begins_from_anywhere_and_goes_on_where_it_was_left(
     assert!(matches!(begun.goal, Goal::Match { against_coach: true, .. }), "{begun:?}");
     let again = player.press("F5 F9");
     assert_eq!(session(&again).id, begun.id);
-    Player::new().press(": a g a i n s t Enter").is_silent_on(" Commands ");
+    Player::new().press(": a g a i n s t Enter").does_not_show(" Commands ");
     let left = again.press("Left Enter Enter");
     let mut next = Player::new();
     next.app = next.app.with_saved_session(left.app.saved_session());
@@ -115,7 +115,7 @@ fn a_match_against_the_coach_begins_from_anywhere_and_goes_on_where_it_was_left(
 }
 
 #[test]
-fn the_glossary_is_read_wherever_one_is() {
+fn the_glossary_opens_everywhere() {
     for keys in ["F8", ": g l o s s Enter", "p F8", "F5 F8"] {
         Player::new().press(keys).shows(&["Tip: how far the tip of the cue is"]);
     }
@@ -125,7 +125,7 @@ fn the_glossary_is_read_wherever_one_is() {
 }
 
 #[test]
-fn palette_and_help_close_on_the_way() {
+fn switching_screens_closes_palette_and_help() {
     for keys in [": x F3", "? F3", "F6 F3", "F8 F3"] {
         let player = Player::new().press(keys);
         assert_eq!((player.app.screen, player.app.overlay), (PageId::Drills, None), "{keys}");
@@ -134,7 +134,7 @@ fn palette_and_help_close_on_the_way() {
 }
 
 #[test]
-fn help_and_messages_open_where_letters_are_typed_and_lead_back_there() {
+fn help_and_messages_open_over_text_fields() {
     let typing = Player::at_library(TRUE_COLOUR, &[], &[]).press("a x F1");
     typing.says("The library");
     let back = typing.press("Esc y F6");
@@ -156,7 +156,7 @@ fn carom_watch_has_no_tabs() {
 }
 
 #[test]
-fn another_player_on_the_coachs_page_leaves_a_stroke_that_is_watched_its_result() {
+fn changing_the_player_keeps_the_result_being_watched() {
     let watched = Player::practising(TRUE_COLOUR).press("S-Right S-Right S-Right S-Right Space").wait(0.1);
     let first = watched.app.drills.turn.as_ref().unwrap().session.skill;
     let back = watched.press("F2 S").press("F3");

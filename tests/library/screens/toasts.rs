@@ -4,16 +4,16 @@ use std::path::Path;
 
 use super::{
     player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, check, check_at},
-    runs::{NAME, RUNS},
+    runs::{RUN, RUNS},
 };
 use carom::terminal::{CoachNews, TrainerFailure, TrainingReport};
 use ratatui::style::Color;
 
 /// Returns a player whose coach has refused with sentences of these numbers of words.
-pub fn refused(mut player: Player, words: &[usize]) -> Player {
+pub fn with_refusals(mut player: Player, words: &[usize]) -> Player {
     for count in words {
         player = player.press("Enter");
-        let id = player.asked.take().unwrap().id;
+        let id = player.advice_job.take().unwrap().id;
         let sentence = format!("the weights are damaged{}", ", and so is all else".repeat(*count));
         player = player.tell(id, CoachNews::Refused(sentence));
     }
@@ -21,22 +21,22 @@ pub fn refused(mut player: Player, words: &[usize]) -> Player {
 }
 
 #[test]
-fn they_stand_over_the_picture_and_long_ones_are_broken() {
-    let player = refused(Player::new(), &[0, 5]).press("u");
+fn toasts_overlay_the_picture_and_wrap() {
+    let player = with_refusals(Player::new(), &[0, 5]).press("u");
     check("toasts", &player);
     let picture = player.picture(80, 24);
     let warning = Color::Rgb(0xff, 0x8a, 0x70);
     assert!((0..24).any(|y| picture[(79, y)].fg == warning && picture[(79, y)].symbol() == "│"));
     for caps in [NO_COLOUR, ASCII] {
-        let player = refused(Player::with(caps), &[0, 5]).press("u");
+        let player = with_refusals(Player::with(caps), &[0, 5]).press("u");
         player.is_plain().shows(&["the weights are damaged", "there is nothing to take back"]);
     }
-    let long = refused(Player::new(), &[60]);
+    let long = with_refusals(Player::new(), &[60]);
     assert!(long.text(80, 24).contains("F6 shows all of it"));
 }
 
 #[test]
-fn they_go_in_their_time_by_one_picture_and_answers_with_the_next_key() {
+fn toasts_expire_and_answers_vanish_with_the_next_key() {
     let player = Player::new().press("u");
     player.warns("there is nothing to take back");
     assert_eq!(player.app.frame_interval(), None, "nothing moves while it is read");
@@ -45,19 +45,19 @@ fn they_go_in_their_time_by_one_picture_and_answers_with_the_next_key() {
     let gone = player.wait(time);
     assert_eq!((gone.app.toasts.left(), gone.app.toasts.shown.len()), (None, 0));
     assert_eq!(gone.picture(80, 24), Player::new().picture(80, 24), "nothing is left of it");
-    let player = refused(gone.press("u"), &[0]).press("Left");
-    assert!(!player.is_toast("there is nothing to take back"));
+    let player = with_refusals(gone.press("u"), &[0]).press("Left");
+    assert!(!player.has_toast("there is nothing to take back"));
     player.warns("the weights are damaged");
     assert!(player.press("Esc").app.toasts.shown.iter().all(|toast| !toast.text.contains("weights")));
 }
 
 #[test]
-fn what_fails_elsewhere_is_told_wherever_one_is_and_can_be_read_again() {
+fn background_failures_are_shown_and_stay_in_the_messages() {
     let mut player = Player::new().press("F5");
     let failure = TrainerFailure { process: None, sentence: "the disk is full".to_owned() };
-    player.app.receive_training(TrainingReport::TrainerFailed(Path::new(RUNS).join(NAME), failure));
+    player.app.receive_training(TrainingReport::TrainerFailed(Path::new(RUNS).join(RUN), failure));
     player.warns("the disk is full");
-    assert_eq!(player.app.toasts.take_unwritten().len(), 1, "it goes to the log, once");
+    assert_eq!(player.app.toasts.take_unwritten().len(), 1, "the failure is logged once");
     assert!(player.app.toasts.take_unwritten().is_empty());
     let player = player.wait(60.0).press("F6");
     let text = player.text(120, 40);
@@ -67,11 +67,11 @@ fn what_fails_elsewhere_is_told_wherever_one_is_and_can_be_read_again() {
 }
 
 #[test]
-fn nothing_lies_over_the_page_of_messages() {
+fn no_toast_covers_the_messages_page() {
     let mistakes: Vec<String> = (1..=7).map(|n| format!("mistake{n} = 1")).collect();
     let player = Player::with_settings(TRUE_COLOUR, &mistakes.join("\n"));
     player.warns("and 6 more: F6");
-    let player = refused(player, &[0]).press("F6");
+    let player = with_refusals(player, &[0]).press("F6");
     player.warns_nothing();
     let text = player.text(120, 40);
     assert!((1..=7).all(|n| text.contains(&format!("\"mistake{n}\""))), "{text}");
@@ -79,7 +79,7 @@ fn nothing_lies_over_the_page_of_messages() {
 }
 
 #[test]
-fn the_key_that_opens_the_messages_closes_them_and_what_is_refused_over_them_is_none() {
+fn refusals_over_the_messages_page_are_not_recorded() {
     let refused = Player::new().press("F6 x");
     for (width, height) in SIZES {
         let text = refused.text(width, height);
@@ -91,11 +91,11 @@ fn the_key_that_opens_the_messages_closes_them_and_what_is_refused_over_them_is_
 }
 
 #[test]
-fn what_fails_while_the_page_of_messages_is_open_is_told_there_once() {
+fn a_failure_appears_once_on_the_open_messages_page() {
     let count = |player: &Player, (width, height)| player.text(width, height).matches("the disk is full").count();
     let fail = |player: &mut Player| {
         let failure = TrainerFailure { process: None, sentence: "the disk is full".to_owned() };
-        player.app.receive_training(TrainingReport::TrainerFailed(Path::new(RUNS).join(NAME), failure));
+        player.app.receive_training(TrainingReport::TrainerFailed(Path::new(RUNS).join(RUN), failure));
     };
     let mut open = Player::new().press("F6");
     fail(&mut open);
@@ -104,14 +104,14 @@ fn what_fails_while_the_page_of_messages_is_open_is_told_there_once() {
     open.press("q").warns_nothing();
     // If the first lines are out of sight, the failure is shown in a toast over the others.
     let many: Vec<usize> = (1..=40).collect();
-    let mut scrolled = refused(Player::new(), &many).press("F6 Down");
+    let mut scrolled = with_refusals(Player::new(), &many).press("F6 Down");
     fail(&mut scrolled);
     assert!(scrolled.text(80, 24).contains('┌'), "{}", scrolled.text(80, 24));
     scrolled.press("q").warns("the disk is full");
 }
 
 #[test]
-fn questions_are_never_hidden() {
+fn toasts_never_hide_questions() {
     let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left a");
     player.app.paste(&"half a code ".repeat(40));
     let player = player.press("Enter");
@@ -122,5 +122,5 @@ fn questions_are_never_hidden() {
     }
     let name = Player::watching(TRUE_COLOUR).press("k Backspace / Enter");
     let text = name.text(80, 24);
-    assert!(text.contains("keep the networks under the name") && name.is_toast("is no name"), "{text}");
+    assert!(text.contains("keep the networks under the name") && name.has_toast("is no name"), "{text}");
 }

@@ -5,7 +5,7 @@ use std::{path::Path, sync::Arc, time::Duration};
 use super::{
     keys::key,
     player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check, check_at},
-    runs::{NAME, OTHER, RUNS, config, examples, known, listing, record, status, summary},
+    runs::{OTHER_RUN, RUN, RUNS, config, examples, full_update, listing, record, status, summary},
 };
 use carom::{
     game::Rule,
@@ -53,12 +53,12 @@ fn the_list_of_runs() {
 }
 
 #[test]
-fn the_newest_run_comes_first_and_the_mark_stays_at_its_run() {
+fn the_newest_run_is_first_and_the_selection_stays() {
     let player = Player::listing(TRUE_COLOUR).press("Down");
     let mut more = listing();
     more.runs.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Condition::InPhase(Phase::Training)));
     let player = player.report(TrainingReport::Runs(Ok(more))).press("Enter");
-    assert_eq!(player.app.subscriptions().followed[0].as_deref(), Some(Path::new(RUNS).join(OTHER).as_path()));
+    assert_eq!(player.app.subscriptions().followed[0].as_deref(), Some(Path::new(RUNS).join(OTHER_RUN).as_path()));
 }
 
 #[test]
@@ -71,18 +71,18 @@ fn an_empty_list_says_what_to_press() {
 }
 
 #[test]
-fn a_new_run_is_filled_in_and_started() {
+fn a_new_run_is_configured_and_started() {
     let player = Player::listing(TRUE_COLOUR).press("n");
     check("form", &player);
     let player = player.press("Down Right Right Down Right Down Backspace Backspace 7 Down Right Down Right");
-    player.shows(&["one-cushion", "textbook", "500,007", "measured every 10,000 shots", NAME]);
+    player.shows(&["one-cushion", "textbook", "500,007", "measured every 10,000 shots", RUN]);
     let mut player = player.press("Enter");
     let Some(Effect::Train(launch)) = player.effects.pop() else { panic!("Enter starts nothing") };
     let arguments: Vec<_> = launch.arguments.iter().map(|argument| argument.to_str().unwrap()).collect();
     let folder = launch.folder.to_str().unwrap();
     let wanted = ["train", "--agent", "ddpg", "--reward", "one-cushion", "--table", "textbook", "--steps", "500007"];
     assert_eq!(arguments[..9], wanted);
-    assert_eq!(arguments[9..], ["--seed", "2", "--from", &format!("{RUNS}/{NAME}"), "--run", folder]);
+    assert_eq!(arguments[9..], ["--seed", "2", "--from", &format!("{RUNS}/{RUN}"), "--run", folder]);
     assert!(folder.starts_with("/runs/20") && folder.ends_with("-ddpg-textbook-one-cushion-2"), "{folder}");
     assert_eq!(player.app.subscriptions().followed[0].as_deref(), Some(launch.folder.as_path()));
     let missing = Update { condition: Some(Condition::Missing), ..Update::default() };
@@ -93,7 +93,7 @@ fn a_new_run_is_filled_in_and_started() {
 }
 
 #[test]
-fn numbers_that_start_nothing_are_refused_with_what_is_accepted() {
+fn an_empty_number_of_shots_is_refused() {
     let empty = Player::at_runs(TRUE_COLOUR)
         .press("n Down Down Down Backspace Backspace Backspace Backspace Backspace Backspace");
     let player = empty.press("Backspace Enter");
@@ -102,7 +102,7 @@ fn numbers_that_start_nothing_are_refused_with_what_is_accepted() {
 }
 
 #[test]
-fn a_run_that_trains() {
+fn the_view_of_a_training_run() {
     let player = Player::watching(TRUE_COLOUR);
     check("watch", &player);
     for part in
@@ -125,11 +125,11 @@ fn a_run_that_trains() {
     scrolled.shows(&["q Ctrl-c              quit", "Ctrl-z                back to the shell; fg continues"]);
     let end = scrolled.text(80, 24);
     let back = scrolled.press("Up");
-    assert_ne!(back.text(80, 24), end, "what is beyond the end is not counted");
+    assert_ne!(back.text(80, 24), end, "scrolling stops at the end");
 }
 
 #[test]
-fn every_condition_says_what_it_is_and_what_to_do() {
+fn every_condition_of_a_run_is_explained() {
     let watching = || Player::watching(TRUE_COLOUR);
     for (condition, parts) in [
         (Condition::InPhase(Phase::Paused), ["paused ", "paused and saved; p lets it go on", "p go on"]),
@@ -156,32 +156,32 @@ fn every_condition_says_what_it_is_and_what_to_do() {
 }
 
 #[test]
-fn what_is_wrong_with_the_files_is_said() {
+fn problems_with_run_files_are_shown() {
     let notices = Some(vec!["metrics.jsonl has been emptied".to_owned(), "3 lines are no records".to_owned()]);
     let player = Player::watching(TRUE_COLOUR);
-    let player = player.update(FollowSlot::Main, NAME, Update { notices, ..Update::default() });
+    let player = player.update(FollowSlot::Main, RUN, Update { notices, ..Update::default() });
     player.says("metrics.jsonl has been emptied; 3 lines are no records");
 }
 
 #[test]
-fn a_run_of_which_nothing_is_known_yet() {
+fn a_run_without_data_yet() {
     let player = Player::listing(TRUE_COLOUR).press("Enter");
     player.shows(&["looking ", "no data yet", "4 held-out reward", "looking for the run"]);
     player.press("w").says("there is no run yet");
 }
 
 #[test]
-fn charts_are_chosen_and_enlarged() {
+fn charts_are_selected_and_enlarged() {
     let player = Player::watching(TRUE_COLOUR).press("Tab Tab z l s");
     check("watch_enlarged", &player);
     let player = player.press("z 1 2 4 9");
-    player.shows(&["3 critic loss · log", "9 exploration"]).is_silent_on("1 mean reward");
+    player.shows(&["3 critic loss · log", "9 exploration"]).does_not_show("1 mean reward");
     let player = player.press("3 9");
     player.says("No chart is shown");
     player.press("z").says("no chart is shown; 1 to 9 show some");
     // Esc leaves the chart, not the run. A key that arrives together with it is a separate key, not one with Alt.
     let player = Player::watching(TRUE_COLOUR).press("z");
-    player.is_silent_on("3 critic loss");
+    player.does_not_show("3 critic loss");
     player.press("Esc").shows(&["1 mean reward", "3 critic loss"]);
     let mut player = Player::watching(TRUE_COLOUR).press("z");
     player.event(&KeyEvent::new(KeyCode::Char('c'), KeyModifiers::ALT));
@@ -192,12 +192,12 @@ fn charts_are_chosen_and_enlarged() {
 fn a_run_is_compared_with_another() {
     let player = Player::watching(TRUE_COLOUR).press("c");
     // The nearest other run is selected.
-    player.shows(&["compare with", NAME, OTHER, "Run 2 of 3", "Enter compare"]);
+    player.shows(&["compare with", RUN, OTHER_RUN, "Run 2 of 3", "Enter compare"]);
     let player = player.press("Enter");
-    assert_eq!(player.app.subscriptions().followed[1].as_deref(), Some(Path::new(RUNS).join(OTHER).as_path()));
-    let mut other = known();
+    assert_eq!(player.app.subscriptions().followed[1].as_deref(), Some(Path::new(RUNS).join(OTHER_RUN).as_path()));
+    let mut other = full_update();
     other.records = (1..=250).map(record).collect();
-    let player = player.update(FollowSlot::Compared, OTHER, other);
+    let player = player.update(FollowSlot::Compared, OTHER_RUN, other);
     check("compare", &player);
     player.says("success 0.874 after 5,000,000 shots");
     let player = player.press("c");
@@ -208,8 +208,8 @@ fn a_run_is_compared_with_another() {
 }
 
 #[test]
-fn a_run_is_steered_by_requests() {
-    let folder = Path::new(RUNS).join(NAME);
+fn a_run_is_controlled_by_requests() {
+    let folder = Path::new(RUNS).join(RUN);
     let player = Player::watching(TRUE_COLOUR).press("p");
     let paused = player.report(TrainingReport::Sent(Request::Pause, Ok(())));
     paused.says("the run is asked to pause");
@@ -235,7 +235,7 @@ fn a_run_is_steered_by_requests() {
 }
 
 #[test]
-fn a_question_ends_with_what_it_is_about() {
+fn a_question_closes_when_it_no_longer_applies() {
     for (keys, condition) in
         [("A", Condition::InPhase(Phase::Stopped)), ("S", Condition::Died), ("k", Condition::Removed)]
     {
@@ -251,26 +251,26 @@ fn a_question_ends_with_what_it_is_about() {
 }
 
 #[test]
-fn a_run_is_started_once_however_long_the_key_is_held() {
+fn a_held_key_starts_a_run_only_once() {
     let died = || Player::watching(TRUE_COLOUR).condition(Condition::Died, None);
     let player = died().press("r r r");
     assert_eq!(player.effects.len(), 1);
     player.says("the run is being started");
     let listed =
-        Listing { runs: vec![summary(NAME, 9, None, Condition::InPhase(Phase::Stopped))], ..Listing::default() };
+        Listing { runs: vec![summary(RUN, 9, None, Condition::InPhase(Phase::Stopped))], ..Listing::default() };
     let player = player.press("Esc").report(TrainingReport::Runs(Ok(listed)));
-    assert_eq!(player.press("r r").effects.len(), 1, "nor from the list");
+    assert_eq!(player.press("r r").effects.len(), 1, "also from the list, only once");
     let again = died().press("r").condition(Condition::InPhase(Phase::Training), None).condition(Condition::Died, None);
-    assert_eq!(again.press("r").effects.len(), 2, "it has come and gone");
-    let folder = Path::new(RUNS).join(NAME);
+    assert_eq!(again.press("r").effects.len(), 2, "the run has trained and died again");
+    let folder = Path::new(RUNS).join(RUN);
     let failed = died().press("r").report(TrainingReport::TrainerFailed(folder, failure(Some(7), "the disk is full")));
     failed.says("the disk is full");
     assert_eq!(failed.press("r").effects.len(), 2);
 }
 
 #[test]
-fn a_second_process_that_is_refused_is_no_news_of_the_run() {
-    let folder = || Path::new(RUNS).join(NAME);
+fn a_refused_second_trainer_is_not_reported() {
+    let folder = || Path::new(RUNS).join(RUN);
     let refused =
         |process| TrainingReport::TrainerFailed(folder(), failure(Some(process), "another process is training"));
     let silent = |player: &Player| player.app.toasts.shown.is_empty();
@@ -282,7 +282,7 @@ fn a_second_process_that_is_refused_is_no_news_of_the_run() {
 }
 
 #[test]
-fn weights_that_are_not_there_are_not_offered() {
+fn missing_weights_are_not_offered() {
     let finished = || Player::watching(TRUE_COLOUR).condition(Condition::InPhase(Phase::Finished), None);
     finished().says("w uses these networks in the coach");
     let without = finished().has_policy(false);
@@ -297,28 +297,28 @@ fn weights_that_are_not_there_are_not_offered() {
 }
 
 #[test]
-fn shots_that_were_seen_do_not_play_again_when_one_comes_back_to_them() {
+fn seen_example_shots_do_not_play_again() {
     // A follower reads the whole run again; a stopped run has measured itself after its last line.
     for after in [1_200_000, 1_210_000] {
-        let news = || Update { replaces_records: true, examples: Some(examples(after)), ..known() };
-        let seen = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, NAME, news()).quiet().press("F2 F4");
-        let again = seen.update(FollowSlot::Main, NAME, news());
+        let news = || Update { replaces_records: true, examples: Some(examples(after)), ..full_update() };
+        let seen = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, RUN, news()).finish_replay().press("F2 F4");
+        let again = seen.update(FollowSlot::Main, RUN, news());
         assert_eq!(again.app.frame_interval(), None, "{after}");
         // A run that was resumed from an earlier checkpoint reaches the same number with other shots.
         let mut other = examples(1_100_000);
         other.shots.pop();
-        let fresh = Update { replaces_records: true, examples: Some(other), ..known() };
-        assert!(again.update(FollowSlot::Main, NAME, fresh).app.frame_interval().is_some(), "{after}");
+        let fresh = Update { replaces_records: true, examples: Some(other), ..full_update() };
+        assert!(again.update(FollowSlot::Main, RUN, fresh).app.frame_interval().is_some(), "{after}");
     }
 }
 
 #[test]
-fn a_run_whose_configuration_cannot_be_read_is_shown_all_the_same() {
+fn a_run_with_unreadable_configuration_is_shown() {
     let broken = || {
         let notices = Some(vec!["config.json cannot be read; the charts are shown without it".to_owned()]);
-        let update = Update { config: None, examples: None, notices, ..known() };
+        let update = Update { config: None, examples: None, notices, ..full_update() };
         let list = Player::listing(TRUE_COLOUR).press("Enter").has_policy(true);
-        list.update(FollowSlot::Main, NAME, update)
+        list.update(FollowSlot::Main, RUN, update)
     };
     broken().shows(&["training ", "1 mean reward", "3 critic loss"]);
     broken().says("4 held-out reward");
@@ -331,15 +331,15 @@ fn a_run_whose_configuration_cannot_be_read_is_shown_all_the_same() {
 }
 
 #[test]
-fn the_coach_takes_the_bundled_weights_again() {
-    let folder = Path::new(RUNS).join(NAME);
+fn the_coach_returns_to_the_bundled_weights() {
+    let folder = Path::new(RUNS).join(RUN);
     let table = Table::default();
     let policy = Policy::bundled(&table, Rule::ThreeCushion).unwrap().unwrap();
     let config = Some(Box::new(config("three-cushion")));
-    let player = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, NAME, Update { config, ..Update::default() });
+    let player = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, RUN, Update { config, ..Update::default() });
     let player = player.report(TrainingReport::Policy(folder, Ok(Arc::new(policy))));
     let asked = |player: &Player| (player.app.coach.query.name().to_owned(), player.app.coach.query.rule);
-    assert_eq!(asked(&player), (NAME.to_owned(), Rule::ThreeCushion));
+    assert_eq!(asked(&player), (RUN.to_owned(), Rule::ThreeCushion));
     player.says("b bundled");
     let player = player.press("b");
     assert_eq!(asked(&player), ("the bundled networks".to_owned(), Rule::ThreeCushion), "the rule stays");
@@ -348,26 +348,26 @@ fn the_coach_takes_the_bundled_weights_again() {
 }
 
 #[test]
-fn a_reward_that_is_no_success_is_not_called_one() {
+fn only_success_rewards_are_called_success() {
     let config = Some(Box::new(config("r1-difficulty")));
-    let player = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, NAME, Update { config, ..Update::default() });
+    let player = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, RUN, Update { config, ..Update::default() });
     player.says("4 held-out reward");
     let text = player.text(120, 40);
     assert!(!text.contains("success") && !text.contains("95 %") && !text.contains("point"), "{text}");
 }
 
 #[test]
-fn abandoning_asks_first_and_says_what_is_lost() {
+fn abandoning_needs_confirmation_and_states_the_loss() {
     let player = Player::watching(TRUE_COLOUR).press("A");
     player.shows(&["delete its folder?", "1,200,000 shots are lost", "held-out reward of 0.874", "y yes   n no"]);
     assert_eq!(player.app.place(), KeyContext::Question { is_typed: false });
     let player = player.press("x q");
-    assert!(player.effects.is_empty(), "q is no here, and leaves nothing");
+    assert!(player.effects.is_empty(), "q answers no and does not leave the page");
     assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Watch));
 }
 
 #[test]
-fn a_policy_is_kept_under_a_name() {
+fn a_policy_is_saved_under_a_name() {
     let player = Player::watching(TRUE_COLOUR).press("k");
     player.shows(&["keep the networks under the name: 20261120-091500-ddpg-match-r3-1", "Enter take it"]);
     let mut player = player;
@@ -381,7 +381,7 @@ fn a_policy_is_kept_under_a_name() {
     let mut player = player.press("Backspace Backspace q Enter");
     let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
     assert_eq!((keeping.folder.as_path(), keeping.name.as_str()), (Path::new("/policies"), "aq"));
-    assert_eq!(keeping.from, Path::new(RUNS).join(NAME).join("policy.safetensors"));
+    assert_eq!(keeping.from, Path::new(RUNS).join(RUN).join("policy.safetensors"));
     let player = player.report(TrainingReport::Kept(*keeping, Ok(false)));
     player.says("there are networks called aq already; replace them?");
     let mut player = player.press("y");
@@ -391,7 +391,7 @@ fn a_policy_is_kept_under_a_name() {
 }
 
 #[test]
-fn a_name_that_is_taken_is_told_where_something_else_is_asked_meanwhile() {
+fn a_taken_name_is_reported_over_another_question() {
     let mut player = Player::watching(TRUE_COLOUR).press("k Enter S");
     let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
     let player = player.report(TrainingReport::Kept(*keeping, Ok(false)));
@@ -401,34 +401,34 @@ fn a_name_that_is_taken_is_told_where_something_else_is_asked_meanwhile() {
 
 #[test]
 fn a_policy_is_used_in_the_coach_with_its_rule() {
-    let folder = Path::new(RUNS).join(NAME);
+    let folder = Path::new(RUNS).join(RUN);
     let thesis = Table::preset("thesis").unwrap();
     let mut config = config("three-cushion");
     config.table = thesis.clone();
     let update = Update { config: Some(Box::new(config)), ..Update::default() };
-    let mut player = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, NAME, update).press("w");
+    let mut player = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, RUN, update).press("w");
     assert!(matches!(player.effects.pop(), Some(Effect::LoadPolicy(from)) if from == folder));
     let none = player.report(TrainingReport::Policy(folder.clone(), Err("the run has no policy".into())));
     none.says("the run has no policy");
     let policy = Policy::bundled(&thesis, Rule::ThreeCushion).unwrap().unwrap();
     let mut player = none.report(TrainingReport::Policy(folder, Ok(Arc::new(policy))));
     assert_eq!((player.app.place(), player.app.coach.table()), (KeyContext::Coach, &thesis));
-    player.shows(&["no shot yet", "Enter ask", "b bundled", NAME]);
+    player.shows(&["no shot yet", "Enter ask", "b bundled", RUN]);
     player = player.press("Enter");
-    let job = player.asked.take().expect("the coach is asked");
+    let job = player.advice_job.take().expect("the coach is asked");
     assert_eq!(job.query.rule, Rule::ThreeCushion);
     CoachWorker::unhurried(20_000).answer(&job, |answer| drop(player.app.receive(answer)));
     assert!(player.app.coach.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
 }
 
 #[test]
-fn escape_goes_back_page_by_page_to_the_coach_or_to_the_shell() {
+fn escape_goes_back_page_by_page() {
     let player = Player::watching(TRUE_COLOUR).press("c Esc Esc n Esc");
     assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Runs));
     assert_eq!(player.app.subscriptions().followed, [None, None], "nobody watches any more");
     let player = player.press("Esc");
     assert_eq!((player.app.place(), player.app.subscriptions().runs), (KeyContext::Coach, None));
-    let mut alone = App::watching(TRUE_COLOUR, Some(Path::new(RUNS).join(NAME)), None).unwrap();
+    let mut alone = App::watching(TRUE_COLOUR, Some(Path::new(RUNS).join(RUN)), None).unwrap();
     assert_eq!(alone.place(), KeyContext::Training(TrainingContext::Watch));
     let escape = KeyEvent::from(KeyCode::Esc);
     assert!(alone.handle(&escape).is_none());
@@ -437,7 +437,7 @@ fn escape_goes_back_page_by_page_to_the_coach_or_to_the_shell() {
 }
 
 #[test]
-fn without_colours_letters_tell_everything() {
+fn the_training_screens_are_complete_without_colours() {
     let plain = Player::watching(ASCII);
     check_at(&[(120, 40)], "watch_ascii", &plain);
     plain.is_plain();
@@ -449,12 +449,12 @@ fn without_colours_letters_tell_everything() {
 }
 
 #[test]
-fn numbers_that_change_keep_their_places() {
+fn changing_numbers_keep_their_columns() {
     let columns = |shots: u64, speed: f64| {
         let mut status = status();
         (status.shots, status.shots_per_second) = (shots, speed);
         let update = Update { status: Some(status), ..Update::default() };
-        let player = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, NAME, update);
+        let player = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, RUN, update);
         player.picture(120, 40).content().to_vec()
     };
     let (before, after) = (columns(1_200_000, 433.0), columns(1_200_433, 1298.0));
@@ -470,7 +470,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(48))]
 
     #[test]
-    fn no_series_of_keys_and_news_breaks_the_program(
+    fn random_keys_and_reports_do_not_panic(
         steps in prop::collection::vec((0..KEYS.split(' ').count(), 0_u8..12), 1..60),
         width in 20_u16..220,
         height in 5_u16..70,
@@ -481,11 +481,11 @@ proptest! {
             player = match news {
                 0 => player.report(TrainingReport::Runs(Ok(listing()))),
                 1 => player.report(TrainingReport::Runs(Ok(Listing::default()))),
-                2 => player.update(FollowSlot::Main, NAME, known()),
-                3 => player.update(FollowSlot::Compared, OTHER, known()),
+                2 => player.update(FollowSlot::Main, RUN, full_update()),
+                3 => player.update(FollowSlot::Compared, OTHER_RUN, full_update()),
                 4 => player.condition(Condition::Died, None),
                 5 => player.condition(Condition::InPhase(Phase::Finished), None),
-                6 => player.report(TrainingReport::TrainerFailed(Path::new(RUNS).join(NAME), failure(None, "it failed"))),
+                6 => player.report(TrainingReport::TrainerFailed(Path::new(RUNS).join(RUN), failure(None, "it failed"))),
                 7 => player.has_policy(true),
                 _ => player,
             };

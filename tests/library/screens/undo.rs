@@ -1,13 +1,13 @@
 //! Undo and redo: strokes that are set, and balls that come from elsewhere, also on another table.
 
 use super::{
-    player::{OTHERS, Player, SHOT, TRUE_COLOUR},
+    player::{OTHER_SHOTS, Player, SHOT, TRUE_COLOUR},
     practice::exercise,
 };
 use carom::{drills::Exercise, game::Rule, physics::CueInputs, table::Layout, terminal::Mode};
 
 #[test]
-fn changes_of_the_stroke_are_taken_back_input_by_input() {
+fn changes_of_the_stroke_are_undone_one_by_one() {
     let stroke = |player: &Player| *player.app.drills.turn.as_ref().unwrap().stroke();
     let player = Player::practising(TRUE_COLOUR);
     let start = stroke(&player);
@@ -26,7 +26,7 @@ fn changes_of_the_stroke_are_taken_back_input_by_input() {
 }
 
 #[test]
-fn balls_that_come_from_an_exercise_on_another_table_are_one_step() {
+fn balls_from_another_table_are_one_undo_step() {
     let thesis = Exercise { table: "thesis".to_owned(), ..exercise("small", "On the other table") };
     let player = Player::at_library(TRUE_COLOUR, &[thesis], &[]).press("Left c");
     let place = |player: &Player| (player.app.coach.table().name.clone(), *player.app.coach.layout());
@@ -40,7 +40,7 @@ fn balls_that_come_from_an_exercise_on_another_table_are_one_step() {
 }
 
 #[test]
-fn the_rule_of_an_exercise_goes_with_its_balls_when_they_are_taken_back() {
+fn undo_restores_balls_and_rule_together() {
     let exercise = Exercise { rule: Rule::OneCushion, ..exercise("other", "Under another rule") };
     let rule = |player: &Player| player.app.coach.query.rule;
     let taken = Player::at_library(TRUE_COLOUR, &[exercise], &[]).press("Left c");
@@ -61,7 +61,7 @@ fn the_rule_of_an_exercise_goes_with_its_balls_when_they_are_taken_back() {
 }
 
 #[test]
-fn who_takes_the_opponents_ball_back_still_has_the_same_ball_selected() {
+fn undoing_the_switch_of_balls_keeps_the_selection() {
     let places = |player: &Player| player.app.coach.layout().balls;
     let player = Player::new();
     let before = places(&player);
@@ -70,10 +70,10 @@ fn who_takes_the_opponents_ball_back_still_has_the_same_ball_selected() {
 }
 
 #[test]
-fn another_player_rule_or_plan_is_a_step_and_the_shot_comes_back_with_the_one_before() {
+fn undoing_a_change_of_terms_restores_the_shot() {
     let cue = |player: &Player| player.app.coach.shot().map(|shot| shot.cue);
     let known = CueInputs::parse(SHOT).unwrap();
-    for (key, said) in [
+    for (key, message) in [
         ("S", "the player: expert (average above 2.5); its shot is shown"),
         ("R", "what counts: straight; its shot is shown"),
         ("P", "the next point counts too; its shot is shown"),
@@ -84,7 +84,7 @@ fn another_player_rule_or_plan_is_a_step_and_the_shot_comes_back_with_the_one_be
         let back = changed.press("u");
         assert_eq!(cue(&back), Some(known), "{key}");
         assert_eq!(back.app.coach.mode, Mode::Watching, "{key}: told as it was");
-        back.says(said);
+        back.says(message);
         let again = back.press("U");
         assert_eq!(cue(&again), None, "{key}");
         again.press("u u").says("there is nothing to take back");
@@ -92,13 +92,13 @@ fn another_player_rule_or_plan_is_a_step_and_the_shot_comes_back_with_the_one_be
 }
 
 #[test]
-fn the_shots_for_several_players_are_all_kept_for_these_balls() {
+fn shots_are_remembered_for_several_players() {
     let cue = |player: &Player| player.app.coach.shot().map(|shot| shot.cue);
-    let others = Player::new().press("Enter").answer().press("S Enter").better(OTHERS[0], 893).press("Esc");
+    let others = Player::new().press("Enter").answer().press("S Enter").report_better(OTHER_SHOTS[0], 893).press("Esc");
     let other = cue(&others);
-    assert_eq!(other, Some(CueInputs::parse(OTHERS[0]).unwrap()));
+    assert_eq!(other, Some(CueInputs::parse(OTHER_SHOTS[0]).unwrap()));
     let back = others.press("u");
-    assert_eq!(cue(&back), Some(CueInputs::parse(SHOT).unwrap()), "the answer for another player has replaced nothing");
+    assert_eq!(cue(&back), Some(CueInputs::parse(SHOT).unwrap()), "the answer for another player replaces nothing");
     let again = back.press("U");
     assert_eq!(cue(&again), other);
     let round = again.press("S S S S S");

@@ -1,6 +1,6 @@
 //! What-if mode: the coach's shot is taken over as the player's own stroke, changed, played and left, at the coach and in an exercise.
 
-use super::player::{ASCII, NO_COLOUR, OTHERS, Player, SHOT, TRUE_COLOUR};
+use super::player::{ASCII, NO_COLOUR, OTHER_SHOTS, Player, SHOT, TRUE_COLOUR};
 use carom::{
     physics::CueInputs,
     statistics::SuccessRate,
@@ -8,26 +8,26 @@ use carom::{
 };
 
 /// Returns a player at the coach who has taken over the coach's shot.
-fn taken_over(caps: Capabilities) -> Player {
+fn in_what_if_mode(caps: Capabilities) -> Player {
     Player::with(caps).press("Enter").answer().press("w")
 }
 
 /// Reports how often the last stroke that was asked about succeeds.
-fn judged(mut player: Player, made: usize) -> Player {
-    let job = player.judged.take().expect("it is asked how often the stroke is made");
+fn report_success_rate(mut player: Player, made: usize) -> Player {
+    let job = player.success_rate_job.take().expect("it is asked how often the stroke is made");
     player.tell(job.id, CoachNews::Judged(SuccessRate::new(made, 1000)))
 }
 
 #[test]
-fn the_coachs_shot_is_taken_over_changed_played_and_left() {
-    let player = taken_over(TRUE_COLOUR);
+fn the_coachs_shot_is_copied_changed_and_played() {
+    let player = in_what_if_mode(TRUE_COLOUR);
     assert_eq!(player.app.place(), KeyContext::OwnStroke);
     player.shows(&["You … % · coach 94 %", "You: as the coach", "Esc leave"]);
     assert_eq!(
-        player.judged.as_ref().unwrap().stroke.as_ref().map(|(cue, _)| *cue),
+        player.success_rate_job.as_ref().unwrap().stroke.as_ref().map(|(cue, _)| *cue),
         Some(CueInputs::parse(SHOT).unwrap())
     );
-    let player = judged(player, 880);
+    let player = report_success_rate(player, 880);
     player.shows(&["You 88 % · coach 94 %", "Point, if played exactly: "]);
     let player = player.press("S-Up l l S-Right");
     player.shows(&["You … % · coach 94 %", "No point, if played exactly: ", "You: "]);
@@ -37,7 +37,7 @@ fn the_coachs_shot_is_taken_over_changed_played_and_left() {
     }
     let small = player.text(80, 24);
     assert!(small.contains("harder by ") && small.contains(" lengths "), "{small}");
-    let player = judged(player, 20).press("Space");
+    let player = report_success_rate(player, 20).press("Space");
     assert!(
         player.app.coach.playback.playing && player.app.coach.watched().unwrap().cue.speed == 3.0,
         "the own stroke is played"
@@ -48,27 +48,27 @@ fn the_coachs_shot_is_taken_over_changed_played_and_left() {
     let player = player.press("U Esc");
     assert_eq!(player.app.place(), KeyContext::Coach);
     assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap());
-    player.is_silent_on("You 2").is_silent_on("You: ");
-    assert!(player.study.is_some(), "the closer look at the coach's shot goes on");
+    player.does_not_show("You 2").does_not_show("You: ");
+    assert!(player.analysis_job.is_some(), "the closer look at the coach's shot goes on");
     let other = player.press("] w");
     assert_eq!(
         other.app.coach.shot().unwrap().cue,
-        CueInputs::parse(OTHERS[0]).unwrap(),
+        CueInputs::parse(OTHER_SHOTS[0]).unwrap(),
         "whichever is shown is taken over"
     );
 }
 
 #[test]
-fn without_a_shot_of_the_coach_a_stroke_begins_full_at_a_ball_and_one_plays_on_from_where_the_balls_stop() {
+fn without_advice_a_stroke_starts_full_at_a_ball() {
     let player = Player::with(TRUE_COLOUR).press("w");
     assert_eq!(player.app.place(), KeyContext::OwnStroke);
-    player.shows(&["You … %", "if played exactly: ", "Yellow, full;"]).is_silent_on("coach 9");
-    let player = judged(player.press("Right"), 40);
+    player.shows(&["You … %", "if played exactly: ", "Yellow, full;"]).does_not_show("coach 9");
+    let player = report_success_rate(player.press("Right"), 40);
     player.shows(&["You 4 %"]);
     let end = player.app.coach.shot().unwrap().recording.final_layout();
     let on = player.press("Space n");
     assert_eq!((on.app.place(), *on.app.coach.layout()), (KeyContext::OwnStroke, end));
-    assert!(on.judged.is_some(), "the next stroke is there to be set");
+    assert!(on.success_rate_job.is_some(), "the next stroke is there to be set");
     let back = on.press("Esc");
     assert!(back.app.place() == KeyContext::Coach && back.app.coach.shot().is_none());
     let before = back.app.coach.layout().balls[0].x;
@@ -78,7 +78,11 @@ fn without_a_shot_of_the_coach_a_stroke_begins_full_at_a_ball_and_one_plays_on_f
     let undone = back.press("w n n u");
     assert_ne!(*undone.app.coach.layout(), placed);
     let undone = undone.press("z u");
-    assert_eq!((undone.app.place(), *undone.app.coach.layout()), (KeyContext::OwnStroke, placed), "no further back");
+    assert_eq!(
+        (undone.app.place(), *undone.app.coach.layout()),
+        (KeyContext::OwnStroke, placed),
+        "nothing more to undo"
+    );
     undone.warns("the stroke is unchanged");
     let asked = undone.press("Esc Enter").answer();
     assert!(asked.app.coach.what_if().is_none() && asked.app.coach.shot().is_some());
@@ -90,7 +94,7 @@ fn without_a_shot_of_the_coach_a_stroke_begins_full_at_a_ball_and_one_plays_on_f
 }
 
 #[test]
-fn speeds_are_told_in_feet_where_lengths_are() {
+fn speeds_are_in_feet_with_lengths_in_feet() {
     let player = Player::with_settings(TRUE_COLOUR, "length_unit = \"feet\"\n").press("Enter").answer().press("w");
     for (width, height) in [(80, 24), (120, 40), (200, 60)] {
         let text = player.text(width, height);
@@ -106,8 +110,8 @@ fn speeds_are_told_in_feet_where_lengths_are() {
 }
 
 #[test]
-fn the_stroke_is_told_as_the_keys_change_it_and_in_the_thesis_numbers_only_where_the_coachs_is() {
-    let player = taken_over(TRUE_COLOUR);
+fn the_stroke_is_shown_in_the_units_of_the_keys() {
+    let player = in_what_if_mode(TRUE_COLOUR);
     for (width, height) in [(80, 24), (120, 40)] {
         let text = player.text(width, height);
         assert!(["aim ", "288.00°", "2 tips", "2.50 m/s", "6.0° up"].iter().all(|part| text.contains(part)), "{text}");
@@ -123,9 +127,9 @@ fn the_stroke_is_told_as_the_keys_change_it_and_in_the_thesis_numbers_only_where
 }
 
 #[test]
-fn both_ways_are_told_apart_without_colours_too() {
+fn both_paths_are_distinguishable_without_colours() {
     for caps in [NO_COLOUR, ASCII] {
-        let player = taken_over(caps).press("S-Right");
+        let player = in_what_if_mode(caps).press("S-Right");
         let text = player.text(80, 24);
         let table: Vec<&str> = text.lines().skip(2).take(15).collect();
         let (dashes, words) = (table.join("").matches('=').count(), ["you", "coach"]);
@@ -139,32 +143,32 @@ fn both_ways_are_told_apart_without_colours_too() {
 }
 
 #[test]
-fn how_often_a_stroke_is_made_is_the_coachs_answer_for_this_player() {
-    let mut player = taken_over(TRUE_COLOUR);
-    let job = player.judged.take().unwrap();
-    let mut told = Vec::new();
-    CoachWorker::unhurried(1).answer(&job, |answer| told.push(answer));
-    let [answer] = &told[..] else { panic!("{told:?}") };
+fn the_success_rate_of_a_stroke_comes_from_the_coach() {
+    let mut player = in_what_if_mode(TRUE_COLOUR);
+    let job = player.success_rate_job.take().unwrap();
+    let mut answers = Vec::new();
+    CoachWorker::unhurried(1).answer(&job, |answer| answers.push(answer));
+    let [answer] = &answers[..] else { panic!("{answers:?}") };
     let CoachNews::Judged(made) = answer.news else { panic!("{answer:?}") };
     assert!(answer.id == job.id && (0.2..0.8).contains(&made.rate), "{made:?}");
     // The answer to a stroke that has changed since is dropped.
     let player = player.press("Up").tell(job.id, CoachNews::Judged(made));
     player.shows(&["You … % · coach 94 %"]);
     let perfect = Player::new().press("S S S S S Enter").answer().press("w");
-    assert!(perfect.judged.is_none(), "who makes no errors makes what makes the point");
+    assert!(perfect.success_rate_job.is_none(), "no rate is needed without errors");
 }
 
 #[test]
-fn the_model_shot_of_an_exercise_is_taken_over_and_the_attempt_is_one_with_a_hint() {
+fn copying_the_model_shot_marks_the_attempt_helped() {
     let player = Player::practising(TRUE_COLOUR).press("w");
     player.shows(&["You: as the model shot", "model shot", "Esc model shot off"]);
-    assert!(player.text(120, 40).contains("You "), "how often it is made is told");
+    assert!(player.text(120, 40).contains("You "), "the success rate is displayed");
     let player = player.press("S-Left Up");
     player.shows(&["You: ", "harder by "]);
     let back = player.press("z z");
     back.shows(&["You: as the model shot"]);
     let left = back.press("Esc");
-    left.shows(&["From the opening"]).is_silent_on("You: ");
+    left.shows(&["From the opening"]).does_not_show("You: ");
     let ended = left.press("Space").wait(60.0);
     let attempt = &ended.store().sessions().items[0].attempts[0];
     assert!(attempt.helped, "{attempt:?}");
@@ -173,34 +177,34 @@ fn the_model_shot_of_an_exercise_is_taken_over_and_the_attempt_is_one_with_a_hin
 }
 
 #[test]
-fn an_exam_gives_no_shot_to_take_over() {
+fn exams_have_no_shot_to_copy() {
     let player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter w");
     player.says("an exam gives no hints");
 }
 
 #[test]
-fn who_has_no_errors_makes_a_stroke_or_misses() {
+fn a_perfect_player_makes_or_misses_without_a_rate() {
     let player = Player::with_settings(TRUE_COLOUR, "skill = \"perfect\"\n").press("Enter").answer().press("w");
     player.shows(&["You make it"]);
     player.press("S-Up l l S-Right").shows(&["You miss"]);
 }
 
 #[test]
-fn a_stroke_is_said_in_words_and_what_is_not_said_stays() {
-    let player = taken_over(TRUE_COLOUR);
+fn a_stroke_in_words_changes_only_the_stated_values() {
+    let player = in_what_if_mode(TRUE_COLOUR);
     let before = player.app.coach.watched().unwrap().cue;
     let player = player.press("t").type_in("2 lengths").press("Enter");
     let softer = player.app.coach.watched().unwrap().cue;
     assert!(softer.speed < before.speed && (softer.a, softer.b, softer.phi) == (before.a, before.b, before.phi));
     let player = player.press("t").type_in("yellow 1/2 left, 1.5 right, raised 10").press("Enter");
-    let said = player.app.coach.watched().unwrap().cue;
-    assert!((said.a + 0.15).abs() < 1e-9 && (said.theta - 10_f64.to_radians()).abs() < 1e-9);
+    let stated = player.app.coach.watched().unwrap().cue;
+    assert!((stated.a + 0.15).abs() < 1e-9 && (stated.theta - 10_f64.to_radians()).abs() < 1e-9);
     player.shows(&["You: "]);
     let player = player.press("t").type_in("softly").press("Enter");
     player.warns("\"softly\" is not understood; accepted are");
     player.shows(&["softly", "Enter take it"]);
     let player = player.press("Esc u");
-    assert_eq!(player.app.coach.watched().unwrap().cue, softer, "what was said at once is taken back at once");
+    assert_eq!(player.app.coach.watched().unwrap().cue, softer, "one undo takes back all values of one text");
     let drill = Player::practising(TRUE_COLOUR).press("t").type_in("yellow 1/2 left, 2 up, soft").press("Enter");
     assert!((drill.app.drills.turn.as_ref().unwrap().stroke().b - 0.2).abs() < 1e-9);
     drill.shows(&["50 % full"]);

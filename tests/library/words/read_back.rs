@@ -32,13 +32,15 @@ enum Stop {
 /// # Errors
 /// Returns the part that is not understood.
 pub fn stroke(text: &str, reading: Reading, table: &Table, layout: &Layout) -> Result<CueInputs, String> {
-    let [sentence, told, aim] = text.lines().collect::<Vec<_>>()[..] else { return Err("three lines".to_owned()) };
-    let said = |text: &str| {
-        let said = StrokeText::parse(text).and_then(|said| said.stroke(table, layout, CueBall::White, None));
-        said.map_err(|error| error.to_string())
+    let [sentence, course_text, aim] = text.lines().collect::<Vec<_>>()[..] else {
+        return Err("three lines".to_owned());
     };
-    let (by_sentence, by_aim) = (said(sentence)?, said(&format!("{sentence}\n{aim}"))?);
-    let stops = course(told).ok_or("the course")?;
+    let parse = |text: &str| {
+        let stroke = SpokenStroke::read(text).and_then(|spoken| spoken.stroke(table, layout, CueBall::White, None));
+        stroke.map_err(|error| error.to_string())
+    };
+    let (by_sentence, by_aim) = (parse(sentence)?, parse(&format!("{sentence}\n{aim}"))?);
+    let stops = parse_course(course_text).ok_or("the course")?;
     let found = match reading {
         Reading::Sentence => Some(by_sentence),
         Reading::Aim => Some(by_aim),
@@ -64,7 +66,7 @@ fn rail_point((rail, diamond): (&str, &str)) -> Option<RailPoint> {
 
 /// Reads "Red – top 5.1 – left 1.2 – red again – bottom 2.3 – yellow, thin on the left."; the fullness at the second ball and the place of
 /// another contact with the first ball are ignored.
-fn course(text: &str) -> Option<Vec<Stop>> {
+fn parse_course(text: &str) -> Option<Vec<Stop>> {
     let text = text.trim_end_matches('.').to_lowercase();
     let text = text.split_once(", ").map_or(&*text, |(stops, _)| stops);
     let stop = |words: &str| match words.split_once(' ') {
@@ -75,17 +77,17 @@ fn course(text: &str) -> Option<Vec<Stop>> {
 }
 
 /// Of the strokes in directions up to `half` from that of `cue`, rad, returns the one whose shot agrees best with the text: its first ball
-/// is met as in `said`, and its course has these stops.
+/// is met as in `wanted`, and its course has these stops.
 fn nearest(
     cue: CueInputs,
     half: f64,
-    said: &CueInputs,
+    wanted: &CueInputs,
     stops: &[Stop],
     table: &Table,
     layout: &Layout,
 ) -> Option<CueInputs> {
     const STEPS: i32 = 20;
-    let said = Technique::of(table, layout, said).ok()?;
+    let wanted = Technique::of(table, layout, wanted).ok()?;
     let at = |phi: f64| {
         let cue = CueInputs { phi, ..cue };
         raise_to_clear(table, layout, &cue).unwrap_or(cue)
@@ -95,7 +97,7 @@ fn nearest(
         let phis = (-STEPS..=STEPS).map(|step| middle + half * f64::from(step) / f64::from(STEPS));
         let scored = phis.filter_map(|phi| {
             let technique = Technique::of(table, layout, &at(phi)).ok()?;
-            Some((phi, unlike_hit(&technique, &said) + unlike_course(&technique, stops)))
+            Some((phi, hit_deviation(&technique, &wanted) + course_deviation(&technique, stops)))
         });
         middle = scored.min_by(|one, other| one.1.total_cmp(&other.1))?.0;
         half /= f64::from(STEPS);
@@ -104,19 +106,21 @@ fn nearest(
 }
 
 /// Returns the deviation of the first contact, in units of the rounding.
-fn unlike_hit(technique: &Technique, said: &Technique) -> f64 {
+fn hit_deviation(technique: &Technique, wanted: &Technique) -> f64 {
     let left = |technique: &Technique| {
         technique.first.map(|hit| (hit.ball, if hit.left { 1.0 - hit.fullness } else { hit.fullness - 1.0 }))
     };
-    match (left(technique), left(said)) {
-        (Some((ball, left)), Some((wanted, said))) if ball == wanted => beyond((left - said).abs() * 16.0),
+    match (left(technique), left(wanted)) {
+        (Some((ball, left)), Some((wanted_ball, wanted_left))) if ball == wanted_ball => {
+            penalty((left - wanted_left).abs() * 16.0)
+        }
         (None, None) => 0.0,
         _ => 100.0,
     }
 }
 
 /// Returns the deviation of the course, in the same units.
-fn unlike_course(technique: &Technique, stops: &[Stop]) -> f64 {
+fn course_deviation(technique: &Technique, stops: &[Stop]) -> f64 {
     let cushion = |Cushion { rail, diamond, .. }: &Cushion| Stop::Cushion(RailPoint { rail: *rail, diamond: *diamond });
     let mut course: Vec<Stop> = technique.before.iter().map(cushion).collect();
     course.extend(technique.first.map(|hit| Stop::Ball(hit.ball)));
@@ -126,7 +130,7 @@ fn unlike_course(technique: &Technique, stops: &[Stop]) -> f64 {
     }
     let unlike = |(place, stop): (usize, &Stop)| match (stop, course.get(place)) {
         (Stop::Cushion(mark), Some(Stop::Cushion(its))) if mark.rail == its.rail => {
-            beyond((mark.diamond - its.diamond).abs() * 10.0)
+            penalty((mark.diamond - its.diamond).abs() * 10.0)
         }
         (Stop::Ball(ball), Some(Stop::Ball(its))) if ball == its => 0.0,
         _ => 50.0,
@@ -135,6 +139,6 @@ fn unlike_course(technique: &Technique, stops: &[Stop]) -> f64 {
 }
 
 /// A deviation of less than half a unit counts as agreement; a small term prefers the middle of that range.
-fn beyond(units: f64) -> f64 {
+fn penalty(units: f64) -> f64 {
     (units - 0.5).max(0.0) + 0.05 * units
 }

@@ -110,7 +110,7 @@ impl CoachPage {
             }
             Action::TurnPlan => self.choose_terms(Terms { plan: !terms.plan, ..terms }),
             Action::NextFirstMet => {
-                self.choose_terms(Terms { first: neighbour(&FirstMet::ALL, terms.first, 1), ..terms });
+                self.choose_terms(Terms { first: neighbour(&FirstContact::ALL, terms.first, 1), ..terms });
             }
             Action::TurnNumbers => self.is_in_numbers = !self.is_in_numbers,
             Action::TurnEvents => {

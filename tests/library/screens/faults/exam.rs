@@ -8,22 +8,22 @@ const EXERCISE: KeyContext = KeyContext::Drill(DrillContext::Exercise);
 const LIBRARY: KeyContext = KeyContext::Drill(DrillContext::Library);
 
 #[test]
-fn an_exam_begins_with_a_page_that_tells_what_comes() {
+fn an_exam_starts_with_an_introduction() {
     let player = Player::at_library(TRUE_COLOUR, &[], &[]).press("E");
     check("exam_begins", &player);
     player.says("level 2").says("20 exercises of grade 2 to 4").says("one attempt each").says("expert");
     let begun = player.press("Enter");
-    assert_eq!((begun.app.place(), begun.kept()), (EXERCISE, 0), "the first Enter plays nothing");
+    assert_eq!((begun.app.place(), begun.attempt_count()), (EXERCISE, 0), "the first Enter plays nothing");
     begun.says("exercise 1 of 20").says("set the stroke and play it");
     let once_more = begun.press("Enter");
     once_more.says("the stroke is unchanged; Space twice plays it anyway");
-    assert_eq!((once_more.kept(), once_more.press("Left Enter").kept()), (0, 1));
+    assert_eq!((once_more.attempt_count(), once_more.press("Left Enter").attempt_count()), (0, 1));
     let back = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Esc");
     assert_eq!(back.app.place(), LIBRARY, "nothing has begun: nothing is asked");
 }
 
 #[test]
-fn an_exam_that_is_left_is_gone_on_with_from_the_coachs_table() {
+fn a_left_exam_is_resumed_from_the_coach() {
     let player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter Esc");
     player.says("leave the exam after 1 of 20 exercises? c on the coach's page goes on with it.");
     let left = player.press("y");
@@ -34,12 +34,12 @@ fn an_exam_that_is_left_is_gone_on_with_from_the_coachs_table() {
     on.says("exercise 2 of 20");
     let over = (2..=20).fold(on, |player, _| player.press("Space Space Enter Enter"));
     over.says("Grade: ");
-    assert_eq!((over.kept(), over.store().sessions().items.len()), (20, 1), "one exam");
+    assert_eq!((over.attempt_count(), over.store().sessions().items.len()), (20, 1), "one exam");
     over.press("Enter F2 c").says("no unfinished exam or earlier session");
 }
 
 #[test]
-fn an_exam_that_is_open_is_gone_on_with_from_the_coachs_table_too() {
+fn an_open_exam_is_resumed_from_the_coach() {
     for keys in ["F2 c", "Esc F2 c", "r F2 c"] {
         let on = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter").press(keys);
         assert_eq!(on.app.place(), EXERCISE, "{keys}");
@@ -48,14 +48,14 @@ fn an_exam_that_is_open_is_gone_on_with_from_the_coachs_table_too() {
 }
 
 #[test]
-fn an_exam_that_was_left_is_there_at_the_next_start_too() {
+fn a_left_exam_is_saved_for_the_next_start() {
     let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter Esc y F2 Right");
     let practice = left.app.saved_session().and_then(|last| last.practice.map(|session| session.attempts.len()));
     assert_eq!(practice, Some(1));
 }
 
 #[test]
-fn exams_that_were_left_or_are_open_are_all_gone_on_with() {
+fn several_left_exams_can_all_be_resumed() {
     let played = |player: Player, exercises: usize| {
         (0..exercises).fold(player.press("e Enter"), |player, _| player.press("Space Space Enter Enter"))
     };
@@ -78,14 +78,14 @@ fn exams_that_were_left_or_are_open_are_all_gone_on_with() {
 }
 
 #[test]
-fn an_exam_that_has_not_begun_is_left_without_a_question() {
+fn leaving_an_exam_without_attempts_asks_nothing() {
     let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Esc");
     assert_eq!(left.app.place(), LIBRARY);
-    left.is_silent_on("the exam is kept");
+    left.does_not_show("the exam is kept");
 }
 
 #[test]
-fn an_exam_of_which_only_the_first_page_was_seen_has_not_begun() {
+fn an_exam_without_attempts_is_not_saved() {
     for keys in ["e", "e Enter"] {
         let seen = Player::at_library(TRUE_COLOUR, &[], &[]).press(keys);
         assert!(seen.app.saved_session().is_none_or(|last| last.practice.is_none()), "{keys}");
@@ -93,7 +93,7 @@ fn an_exam_of_which_only_the_first_page_was_seen_has_not_begun() {
 }
 
 #[test]
-fn what_another_program_has_noted_in_the_exam_is_not_written_over() {
+fn attempts_noted_by_another_program_are_not_overwritten() {
     let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter");
     let elsewhere = |player: &Player, notes: usize| {
         let mut exam = player.store().sessions().items.remove(0);
@@ -103,14 +103,14 @@ fn what_another_program_has_noted_in_the_exam_is_not_written_over() {
     };
     for notes in [2, 1] {
         elsewhere(&player, notes);
-        let kept = player.kept();
+        let kept = player.attempt_count();
         player = player.press("Space Space");
         player.warns("another program has changed this session");
-        assert_eq!(player.kept(), kept);
+        assert_eq!(player.attempt_count(), kept);
         player.says(&format!("exercise {} of 20", kept + 1));
     }
     let on = player.press("Space Space Enter Enter");
-    assert_eq!(on.kept(), 5);
+    assert_eq!(on.attempt_count(), 5);
     // A player who opens the drills again sees it before the next stroke.
     elsewhere(&on, 3);
     let seen = on.press("F2 F3");
@@ -122,13 +122,13 @@ fn what_another_program_has_noted_in_the_exam_is_not_written_over() {
     elsewhere(&noted, 2);
     for key in ["m", "u"] {
         noted = noted.press(key);
-        assert_eq!(noted.kept(), if key == "m" { 4 } else { 3 });
+        assert_eq!(noted.attempt_count(), if key == "m" { 4 } else { 3 });
     }
     noted.says("taken back: made, 3 of 3 now");
 }
 
 #[test]
-fn what_the_last_session_left_can_be_had_until_it_is_gone_on_with() {
+fn earlier_sessions_stay_available_until_resumed() {
     let place = |player: &Player| *player.app.coach.layout();
     let next = |player: &Player| {
         let last = player.app.saved_session();
@@ -153,19 +153,19 @@ fn what_the_last_session_left_can_be_had_until_it_is_gone_on_with() {
 }
 
 #[test]
-fn an_open_run_is_given_up_only_on_demand_and_gone_on_with_where_it_was_left() {
+fn leaving_a_run_needs_confirmation_and_it_can_be_resumed() {
     let sessions = |player: &Player| player.store().sessions().items.len();
     let run = Player::practising(TRUE_COLOUR).press("o Space Space Enter Enter");
     for key in ["x", "o", "<", "p", "m"] {
         let asked = Player::practising(TRUE_COLOUR).press("o Space Space Enter Enter").press(key);
         asked.says("give up the run after 1 attempt? It stays in the record.");
         let stays = asked.press("n Space");
-        assert_eq!((stays.kept(), sessions(&stays)), (2, 1), "{key}");
+        assert_eq!((stays.attempt_count(), sessions(&stays)), (2, 1), "{key}");
     }
     // The score shows the same count as the question.
     let watched = Player::practising(TRUE_COLOUR).press("o Space Space").wait(0.1);
     watched.says("no attempt yet");
-    watched.press("x").says("give up the run after 1 attempt?").says(" of 1 made").is_silent_on("no attempt yet");
+    watched.press("x").says("give up the run after 1 attempt?").says(" of 1 made").does_not_show("no attempt yet");
     let left = run.press("Esc");
     assert_eq!(left.app.place(), LIBRARY);
     left.says("the run is kept; Enter on the exercise goes on with it");
@@ -173,7 +173,7 @@ fn an_open_run_is_given_up_only_on_demand_and_gone_on_with_where_it_was_left() {
     let on = left.press("Enter");
     on.says("run of 5: it goes on here after 1 played");
     let played = on.press("Space Space Enter Enter");
-    assert_eq!((played.kept(), sessions(&played)), (2, 1), "one run");
+    assert_eq!((played.attempt_count(), sessions(&played)), (2, 1), "one run");
     let other = played.press("x y Space");
-    assert_eq!((other.kept(), sessions(&other)), (3, 2), "another one");
+    assert_eq!((other.attempt_count(), sessions(&other)), (3, 2), "another one");
 }

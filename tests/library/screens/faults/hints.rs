@@ -7,7 +7,7 @@ fn hints(player: &Player, width: u16, height: u16) -> String {
 }
 
 #[test]
-fn notes_goals_and_shifts_are_told_where_they_apply() {
+fn hints_mention_notes_goals_and_shifts() {
     let aiming = Player::practising(TRUE_COLOUR);
     let line = hints(&aiming, 120, 40);
     for part in ["←→ aim", "hjkl tip", "↓↑ speed", "v hint", "m n made/miss", "o goal", "x shift"] {
@@ -28,7 +28,7 @@ fn notes_goals_and_shifts_are_told_where_they_apply() {
 }
 
 #[test]
-fn in_an_exam_there_are_no_such_keys() {
+fn exam_hints_omit_notes_goals_and_shifts() {
     let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter");
     let line = hints(&exam, 200, 60);
     for part in ["made/miss", "goal", "shift"] {
@@ -38,7 +38,7 @@ fn in_an_exam_there_are_no_such_keys() {
 }
 
 #[test]
-fn in_a_match_nothing_is_shifted_or_noted() {
+fn shifts_and_notes_are_unavailable_in_a_match() {
     for (keys, goal) in [("o o o", "Score: match"), ("o o o o", "Score: against the coach")] {
         let set = Player::practising(TRUE_COLOUR).press(keys);
         for player in [&set, &Player::practising(TRUE_COLOUR).press(keys).press("Left Space").wait(60.0)] {
@@ -52,19 +52,19 @@ fn in_a_match_nothing_is_shifted_or_noted() {
 }
 
 #[test]
-fn another_player_leaves_no_match_that_was_begun_by_its_key() {
+fn changing_the_player_keeps_the_match() {
     Player::new().press("F9 p").says("Score: against the coach");
 }
 
 #[test]
-fn a_match_after_notes_from_a_real_table_is_played_here_from_its_start() {
+fn a_match_after_real_table_notes_starts_in_the_simulator() {
     let player = Player::practising(TRUE_COLOUR).press("m o o");
     player.says("Real table: game");
     player.press("o").says("Score: match");
 }
 
 #[test]
-fn a_goal_is_as_long_as_it_was_chosen_before() {
+fn goals_remember_their_length() {
     let game = Player::practising(TRUE_COLOUR).press("o > o <");
     game.says("game, 9 innings");
     let round = game.press("o o o o");

@@ -19,21 +19,21 @@ fn in_the_library(word: &str) -> Vec<Action> {
 }
 
 #[test]
-fn a_random_position_is_found() {
+fn random_position_is_found_by_synonyms() {
     for word in ["random", "shuffle"] {
         assert_eq!(at_coach(word), [Action::Coach(CoachAction::Random)], "{word}");
     }
 }
 
 #[test]
-fn clearing_the_table_is_found() {
+fn opening_position_is_found_by_synonyms() {
     for word in ["clear", "reset"] {
         assert!(at_coach(word).contains(&Action::Coach(CoachAction::Opening)), "{word}");
     }
 }
 
 #[test]
-fn an_export_is_found() {
+fn share_and_save_are_found_by_synonyms() {
     for word in ["export", "share"] {
         assert_eq!(in_the_library(word), [Action::Drill(DrillAction::Share)], "{word}");
         assert!(at_coach(word).contains(&Action::Coach(CoachAction::SavePosition)), "{word}");
@@ -41,13 +41,13 @@ fn an_export_is_found() {
 }
 
 #[test]
-fn diamonds_are_found() {
+fn commands_about_diamonds_are_found() {
     assert!(at_coach("diamond").contains(&Action::Coach(CoachAction::NextInfoPanel)));
     assert!(in_the_library("diamond").contains(&Action::Drill(DrillAction::Search)));
 }
 
 #[test]
-fn what_is_not_found_is_said_in_three_words() {
+fn an_unmatched_search_shows_a_message() {
     let player = Player::new().press(": x x x x");
     assert!(player.text(80, 24).contains("no matching command"));
 }

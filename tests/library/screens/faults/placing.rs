@@ -17,7 +17,7 @@ fn watching() -> Player {
 }
 
 #[test]
-fn tab_and_the_numbers_of_the_balls_lead_back_to_placing() {
+fn tab_and_ball_numbers_return_to_placing() {
     for (keys, ball) in [("Tab", 1), ("BackTab", 2), ("1", 0), ("2", 1), ("3", 2), ("Esc", 0)] {
         let player = watching().press(keys);
         assert_eq!((player.app.coach.mode, player.app.coach.selected), (Mode::Placing, ball), "{keys}");
@@ -28,7 +28,7 @@ fn tab_and_the_numbers_of_the_balls_lead_back_to_placing() {
 }
 
 #[test]
-fn a_click_on_a_ball_leads_back_to_placing_that_ball() {
+fn clicking_a_ball_returns_to_placing_it() {
     let mut player = watching();
     player.app.resize(ratatui::layout::Size::new(120, 40));
     let mapping = Mapping::fit(&Table::default(), Rect::new(4, 1, 112, 29));
@@ -45,7 +45,7 @@ fn a_click_on_a_ball_leads_back_to_placing_that_ball() {
 }
 
 #[test]
-fn the_hint_line_tells_it_while_a_shot_is_watched() {
+fn the_hint_line_mentions_tab_while_watching_a_shot() {
     for (width, height) in [(80, 24), (120, 40)] {
         let text = watching().text(width, height);
         assert!(text.lines().last().unwrap().contains("Tab place"), "{text}");

@@ -9,14 +9,14 @@ fn at_coach() -> Player {
 }
 
 #[test]
-fn the_title_is_asked_over_the_table_and_one_stays_there() {
+fn the_title_prompt_opens_over_the_coachs_page() {
     let player = at_coach().press("Right");
     let table = player.text(120, 40);
     let asked = player.press("s");
     check("save", &asked);
-    asked.says("save the balls as (a title, and #tags if you like):").is_silent_on("no position");
+    asked.says("save the balls as (a title, and #tags if you like):").does_not_show("no position");
     let rows = |text: &str| text.lines().skip(1).take(30).map(str::to_owned).collect::<Vec<_>>();
-    assert_eq!(rows(&asked.text(120, 40)), rows(&table), "the balls are seen while one thinks of a title");
+    assert_eq!(rows(&asked.text(120, 40)), rows(&table), "the balls stay visible behind the prompt");
     let saved = asked.type_in("My corner #draw").press("Enter");
     saved.says("saved as my-corner").says("My positions");
     assert_eq!((saved.app.screen, saved.app.place()), (PageId::Coach, KeyContext::Coach));
@@ -25,7 +25,7 @@ fn the_title_is_asked_over_the_table_and_one_stays_there() {
 }
 
 #[test]
-fn a_title_that_makes_no_name_is_mended_and_escape_saves_nothing() {
+fn an_invalid_title_can_be_corrected_and_escape_cancels() {
     let refused = at_coach().press("s").type_in("??").press("Enter");
     refused.says("gives no name").says("if you like): ??");
     let saved = refused.press("Backspace Backspace").type_in("mine").press("Enter");
@@ -39,7 +39,7 @@ fn a_title_that_makes_no_name_is_mended_and_escape_saves_nothing() {
 }
 
 #[test]
-fn an_answer_that_comes_late_does_not_take_the_place_of_what_is_asked_meanwhile() {
+fn a_late_save_result_does_not_replace_an_open_prompt() {
     let mut player = at_coach().press("s").type_in("mine").press("Enter p").type_in("2d,");
     let position = player.store().positions().items[0].clone();
     player.app.coach.saved(Box::new(position), Ok(false));
@@ -48,7 +48,7 @@ fn an_answer_that_comes_late_does_not_take_the_place_of_what_is_asked_meanwhile(
 }
 
 #[test]
-fn a_name_that_is_taken_is_asked_about_and_a_bundled_one_refused() {
+fn replacing_needs_confirmation_and_bundled_names_are_refused() {
     let twice = at_coach().press("s").type_in("mine").press("Enter Right s").type_in("mine").press("Enter");
     twice.says("there is a position called mine already; replace it?");
     let first = twice.store().positions().items[0].layout;
@@ -63,7 +63,7 @@ fn a_name_that_is_taken_is_asked_about_and_a_bundled_one_refused() {
 }
 
 #[test]
-fn what_is_typed_stays_on_the_way_to_another_screen() {
+fn typed_text_survives_switching_screens() {
     let player = at_coach().press("s").type_in("half").press("F4 F2");
     player.says("if you like): half");
     assert_eq!(player.type_in("t").press("F1 Esc Enter").store().positions().items[0].name, "halft");

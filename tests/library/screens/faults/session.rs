@@ -5,7 +5,7 @@ use carom::{coach::Skill, game::Rule, terminal::Terms};
 use crate::screens::player::{Player, TRUE_COLOUR};
 
 #[test]
-fn nothing_is_remembered_before_something_was_done_and_then_all_of_it() {
+fn the_session_is_saved_only_after_a_change() {
     let player = Player::new();
     assert!(player.app.saved_session().is_none());
     let player = player.press("Right R S x");
@@ -20,17 +20,17 @@ fn nothing_is_remembered_before_something_was_done_and_then_all_of_it() {
 }
 
 #[test]
-fn what_is_practised_is_remembered_as_long_as_it_is_on_the_screen() {
+fn practice_is_saved_while_its_page_is_open() {
     let player = Player::practising(TRUE_COLOUR).press("m");
     let saved = player.app.saved_session().unwrap();
     assert_eq!(saved.practice.as_ref().map(|session| session.attempts.len()), Some(1));
     let noted = player.press("n");
     assert_ne!(noted.app.saved_session(), Some(saved.clone()));
-    assert!(noted.press("F2").app.saved_session().is_none(), "the coach's table is as at the start");
+    assert!(noted.press("F2").app.saved_session().is_none(), "the coach's table is unchanged");
 }
 
 /// Returns the next start after `player` has left, with this text in the settings file.
-fn next(player: &Player, settings: &str) -> Player {
+fn next_start(player: &Player, settings: &str) -> Player {
     let last = player.app.saved_session();
     let mut next = Player::with_settings(TRUE_COLOUR, settings);
     next.app = next.app.with_saved_session(last);
@@ -38,25 +38,25 @@ fn next(player: &Player, settings: &str) -> Player {
 }
 
 #[test]
-fn rule_player_and_plan_are_at_the_next_start_as_they_were_left_but_for_what_was_set_since() {
+fn rule_player_and_plan_are_restored_unless_settings_changed() {
     let terms = |player: &Player| player.app.coach.query.terms();
     let chosen = Player::new().press("R S P");
     let left = terms(&chosen);
     assert!(left.rule == Rule::OneCushion && left.skill != Skill::EXPERT && !left.plan);
-    let second = next(&chosen, "");
+    let second = next_start(&chosen, "");
     assert_eq!(terms(&second), left);
-    second.is_silent_on("c goes on");
+    second.does_not_show("c goes on");
     assert_eq!(second.app.coach.layout(), Player::new().app.coach.layout());
     assert!(second.app.saved_session().is_none(), "the file stays as it is");
     // A setting takes precedence over the previous session if it has changed since; each setting is independent.
-    let set = next(&chosen, "skill = \"club\"");
+    let set = next_start(&chosen, "skill = \"club\"");
     assert_eq!(terms(&set), Terms { skill: Skill::CLUB, ..left });
     // What was left at one start holds at the one after it.
-    let third = next(&second.press("r"), "");
+    let third = next_start(&second.press("r"), "");
     assert_eq!(terms(&third), left);
     // Changes on the settings screen take effect immediately.
     let fourth = third.press("F5 Home Down Down Down Down Right F2 r");
     assert_eq!(terms(&fourth).rule, Rule::ThreeCushion);
-    assert_eq!(terms(&next(&fourth, "rule = \"three-cushion\"")), Terms { rule: Rule::ThreeCushion, ..left });
-    assert_eq!(terms(&next(&fourth, "rule = \"straight\"")).rule, Rule::StraightRail);
+    assert_eq!(terms(&next_start(&fourth, "rule = \"three-cushion\"")), Terms { rule: Rule::ThreeCushion, ..left });
+    assert_eq!(terms(&next_start(&fourth, "rule = \"straight\"")).rule, Rule::StraightRail);
 }

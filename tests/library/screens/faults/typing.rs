@@ -8,12 +8,12 @@ use crate::screens::{
 };
 
 /// Returns a player at the number of shots in the form.
-fn at_the_shots() -> Player {
+fn at_number_of_shots() -> Player {
     Player::at_runs(TRUE_COLOUR).report(TrainingReport::Runs(Ok(listing()))).press("n Down Down Down")
 }
 
 /// Returns the value of an option of the started run.
-fn started(player: &Player, option: &str) -> Option<String> {
+fn started_option(player: &Player, option: &str) -> Option<String> {
     let launch = player.effects.iter().find_map(|effect| match effect {
         Effect::Train(launch) => Some(launch),
         _ => None,
@@ -23,43 +23,43 @@ fn started(player: &Player, option: &str) -> Option<String> {
 }
 
 #[test]
-fn the_first_digit_replaces_the_number_and_the_next_ones_follow() {
-    let typed = at_the_shots().press("4 0 0 0 0");
+fn the_first_digit_replaces_the_number() {
+    let typed = at_number_of_shots().press("4 0 0 0 0");
     typed.says("40,000");
     let started_run = typed.press("Enter");
-    assert_eq!(started(&started_run, "--steps").as_deref(), Some("40000"));
+    assert_eq!(started_option(&started_run, "--steps").as_deref(), Some("40000"));
     // A player who comes back types a new number, also in the seed.
-    let again = at_the_shots().press("4 0 Down 7 Up 9 0 Enter");
-    assert_eq!(started(&again, "--steps").as_deref(), Some("90"));
-    assert_eq!(started(&again, "--seed").as_deref(), Some("7"));
-    let chosen = at_the_shots().press("4 0 Right 6 Enter");
-    assert_eq!(started(&chosen, "--steps").as_deref(), Some("6"), "a number that was chosen is replaced too");
+    let again = at_number_of_shots().press("4 0 Down 7 Up 9 0 Enter");
+    assert_eq!(started_option(&again, "--steps").as_deref(), Some("90"));
+    assert_eq!(started_option(&again, "--seed").as_deref(), Some("7"));
+    let chosen = at_number_of_shots().press("4 0 Right 6 Enter");
+    assert_eq!(started_option(&chosen, "--steps").as_deref(), Some("6"), "a number that was chosen is replaced too");
 }
 
 #[test]
-fn backspace_edits_the_number_that_is_there() {
-    let player = at_the_shots().press("Backspace 3 Enter");
-    assert_eq!(started(&player, "--steps").as_deref(), Some("5000003"));
-    let player = at_the_shots().press("4 0 Backspace 5 Enter");
-    assert_eq!(started(&player, "--steps").as_deref(), Some("45"));
+fn backspace_edits_the_existing_number() {
+    let player = at_number_of_shots().press("Backspace 3 Enter");
+    assert_eq!(started_option(&player, "--steps").as_deref(), Some("5000003"));
+    let player = at_number_of_shots().press("4 0 Backspace 5 Enter");
+    assert_eq!(started_option(&player, "--steps").as_deref(), Some("45"));
 }
 
 #[test]
-fn every_seed_can_be_typed_and_one_that_is_too_large_is_refused() {
+fn every_valid_seed_can_be_typed_and_larger_ones_are_refused() {
     let greatest = u64::MAX.to_string();
-    let typed = at_the_shots().press("4 Down").type_in(&greatest);
-    assert_eq!(started(&typed.press("Enter"), "--seed"), Some(greatest));
-    let mut player = at_the_shots().press("4 Down").type_in(&"9".repeat(20));
+    let typed = at_number_of_shots().press("4 Down").type_in(&greatest);
+    assert_eq!(started_option(&typed.press("Enter"), "--seed"), Some(greatest));
+    let mut player = at_number_of_shots().press("4 Down").type_in(&"9".repeat(20));
     player.warns("seed: accepted is a whole number up to 18446744073709551615");
     player = player.press("Down Up 5");
     player.app.paste(&"9".repeat(23));
     player.warns("seed: accepted is a whole number up to 18446744073709551615");
-    assert_eq!(started(&player.press("Enter"), "--seed").as_deref(), Some("5"), "the number stays as it was");
+    assert_eq!(started_option(&player.press("Enter"), "--seed").as_deref(), Some("5"), "the number stays as it was");
 }
 
 #[test]
-fn a_run_of_more_than_a_day_asks_before_it_starts() {
-    let player = at_the_shots().press("9 0 0 0 0 0 0 0 0 0 Enter");
+fn a_run_longer_than_a_day_asks_for_confirmation() {
+    let player = at_number_of_shots().press("9 0 0 0 0 0 0 0 0 0 Enter");
     assert!(player.effects.is_empty(), "{:?}", player.effects);
     assert_eq!(player.app.place(), KeyContext::Question { is_typed: false });
     player.says("9,000,000,000 shots take about");
@@ -68,14 +68,14 @@ fn a_run_of_more_than_a_day_asks_before_it_starts() {
     assert_eq!(no.app.place(), KeyContext::Training(TrainingContext::Form), "the form is as it was");
     no.says("9,000,000,000");
     let yes = no.press("Enter y");
-    assert_eq!(started(&yes, "--steps").as_deref(), Some("9000000000"));
+    assert_eq!(started_option(&yes, "--steps").as_deref(), Some("9000000000"));
     assert_eq!(yes.app.place(), KeyContext::Training(TrainingContext::Watch));
-    let usual = at_the_shots().press("Enter");
-    assert_eq!(started(&usual, "--steps").as_deref(), Some("5000000"), "what is usual starts at once");
+    let usual = at_number_of_shots().press("Enter");
+    assert_eq!(started_option(&usual, "--steps").as_deref(), Some("5000000"), "a usual number starts immediately");
 }
 
 #[test]
-fn a_name_for_the_weights_is_pasted() {
+fn a_policy_name_can_be_pasted() {
     let mut player = Player::watching(TRUE_COLOUR).press("k");
     assert_eq!(player.app.place(), KeyContext::Question { is_typed: true });
     for _ in 0..100 {

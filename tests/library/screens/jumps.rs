@@ -12,15 +12,15 @@ use carom::{
 };
 
 /// Returns a player who has taken over the coach's shot, on a table whose balls can leave the cloth or on one that keeps them.
-fn taken_over(caps: Capabilities, flight: Option<Flight>) -> Player {
+fn in_what_if_mode(caps: Capabilities, flight: Option<Flight>) -> Player {
     let table = Table { flight, ..Table::default() };
     Player::at_table(caps, &table, tempfile::tempdir().unwrap()).press("Enter").answer().press("w")
 }
 
 #[test]
-fn the_side_view_is_drawn_at_every_size_and_with_letters_alone_and_goes_again() {
+fn the_side_view_is_drawn_at_every_size_and_closes() {
     for caps in [TRUE_COLOUR, NO_COLOUR, ASCII] {
-        let flat = taken_over(caps, Some(Flight::default())).press(&"+ ".repeat(40));
+        let flat = in_what_if_mode(caps, Some(Flight::default())).press(&"+ ".repeat(40));
         let player = flat.press("i");
         player.shows(&["Side view", "white jumps", " mm high, ", " far"]);
         if caps.depth == Depth::Mono {
@@ -29,31 +29,31 @@ fn the_side_view_is_drawn_at_every_size_and_with_letters_alone_and_goes_again() 
         for (width, height) in SIZES {
             assert!(player.text(width, height).contains("Side view"), "{width}×{height}");
         }
-        player.press("i").is_silent_on("Side view");
+        player.press("i").does_not_show("Side view");
     }
 }
 
 #[test]
-fn where_nothing_jumps_the_key_says_so() {
-    let player = taken_over(TRUE_COLOUR, Some(Flight::default())).press("i");
-    player.shows(&["no ball jumps in this shot"]).is_silent_on("Side view");
-    let flat = taken_over(TRUE_COLOUR, None).press("i");
+fn the_side_view_key_explains_that_nothing_jumps() {
+    let player = in_what_if_mode(TRUE_COLOUR, Some(Flight::default())).press("i");
+    player.shows(&["no ball jumps in this shot"]).does_not_show("Side view");
+    let flat = in_what_if_mode(TRUE_COLOUR, None).press("i");
     flat.shows(&["no ball leaves this table's cloth: its file has no section [flight]"]);
 }
 
 #[test]
-fn a_jump_is_among_the_contacts_and_a_hop_with_all_events_alone() {
-    let player = taken_over(TRUE_COLOUR, Some(Flight::default()));
-    player.is_silent_on("jumps").is_silent_on(" mm up");
+fn jumps_are_listed_as_contacts_and_hops_as_events() {
+    let player = in_what_if_mode(TRUE_COLOUR, Some(Flight::default()));
+    player.does_not_show("jumps").does_not_show(" mm up");
     let player = player.press(&"+ ".repeat(40));
     assert!(player.text(120, 40).contains(" mm up"), "{}", player.text(120, 40));
-    let hops = taken_over(TRUE_COLOUR, Some(Flight::default())).press("Esc E .");
+    let hops = in_what_if_mode(TRUE_COLOUR, Some(Flight::default())).press("Esc E .");
     assert!(hops.text(80, 24).contains(" jumps "), "{}", hops.text(80, 24));
 }
 
 #[test]
-fn the_balls_that_a_player_goes_on_with_lie_on_the_table_whatever_left_it() {
-    let player = taken_over(TRUE_COLOUR, Some(Flight::default()));
+fn balls_off_the_table_are_respotted_for_the_next_shot() {
+    let player = in_what_if_mode(TRUE_COLOUR, Some(Flight::default()));
     // From the near spot at the cushion behind it, at full speed.
     let hard = player.press(&"+ ".repeat(25)).press(&"S-Up ".repeat(14)).press(&"S-Left ".repeat(10));
     let shot = hard.app.coach.shot().unwrap();
@@ -74,10 +74,10 @@ fn practised_jump(caps: Capabilities) -> Player {
 }
 
 #[test]
-fn an_exercise_shows_its_jump_from_the_side_before_and_while_it_plays_at_every_size() {
+fn an_exercise_has_a_side_view_before_and_during_playback() {
     for caps in [TRUE_COLOUR, NO_COLOUR, ASCII] {
         let player = practised_jump(caps);
-        player.is_silent_on("Side view");
+        player.does_not_show("Side view");
         let player = player.press("i");
         player.shows(&["Side view", "white jumps", "the jump from the side"]);
         if caps.depth == Depth::Mono {
@@ -88,13 +88,13 @@ fn an_exercise_shows_its_jump_from_the_side_before_and_while_it_plays_at_every_s
         }
         let playing = player.press("Space").wait(0.2);
         playing.shows(&["Side view"]);
-        playing.press("i").is_silent_on("Side view");
+        playing.press("i").does_not_show("Side view");
     }
 }
 
 #[test]
-fn an_exercise_without_a_jump_says_so_and_a_ball_off_the_table_is_told() {
-    Player::practising(TRUE_COLOUR).press("v i").shows(&["no ball jumps in this shot"]).is_silent_on("Side view");
+fn exercises_report_missing_jumps_and_balls_off_the_table() {
+    Player::practising(TRUE_COLOUR).press("v i").shows(&["no ball jumps in this shot"]).does_not_show("Side view");
     // Over the rail, from near it and at full speed.
     let off = Exercise {
         layout: Layout::parse("1.1,0 -0.5,0.02 -0.2,0", &Table::default()).unwrap(),
@@ -106,11 +106,11 @@ fn an_exercise_without_a_jump_says_so_and_a_ball_off_the_table_is_told() {
 }
 
 #[test]
-fn where_jumps_are_forbidden_the_coachs_first_row_and_its_answer_say_so() {
+fn forbidden_jumps_are_shown_in_header_and_answer() {
     let player = Player::with_settings(TRUE_COLOUR, "jumps = false\n");
     assert!(player.text(120, 40).contains(" no jumps"));
     let player = player.press("Enter");
-    assert!(!player.asked.as_ref().unwrap().query.jumps);
+    assert!(!player.advice_job.as_ref().unwrap().query.jumps);
     player.answer().shows(&["jumps are off"]);
-    Player::new().press("Enter").answer().is_silent_on("jumps");
+    Player::new().press("Enter").answer().does_not_show("jumps");
 }

@@ -1,12 +1,12 @@
 //! Rules of the source tree: which module may import which under `src`, which functions the engine may use, and the maximum length of a
 //! file.
 
-mod circles;
+mod import_cycles;
 mod imports;
 
 use std::{collections::BTreeMap, fs, path::Path};
 
-use circles::circles;
+use import_cycles::import_cycles;
 use imports::{Module, imports};
 
 /// The top-level modules, from the lowest layer up: each may use those before it, and none after it.
@@ -30,16 +30,16 @@ const ORDER: [&str; 16] = [
 ];
 
 /// Known cycles: a folder, and those of its children that import each other. A cycle that is removed is deleted here; none is ever added.
-const KNOWN: &[&str] = &[];
+const KNOWN_CYCLES: &[&str] = &[];
 
 /// Maximum number of lines of a file.
-const LINES: usize = 500;
+const MAX_LINES: usize = 500;
 
 /// Modules whose results must be bit-for-bit equal on every machine.
-const SAME_EVERYWHERE: [&str; 3] = ["table", "physics", "simulation"];
+const BIT_EXACT_MODULES: [&str; 3] = ["table", "physics", "simulation"];
 
 /// Functions whose last bits depend on the system. `libm` has replacements for all of them.
-const OF_THE_SYSTEM: [&str; 16] = [
+const PLATFORM_DEPENDENT: [&str; 16] = [
     ".sin()",
     ".cos()",
     ".tan()",
@@ -79,7 +79,7 @@ fn sources() -> BTreeMap<Module, String> {
 }
 
 #[test]
-fn top_level_modules_import_only_those_that_stand_before_them() {
+fn top_level_modules_import_only_lower_layers() {
     let place = |name: &str| {
         let place = ORDER.iter().position(|one| *one == name);
         place.unwrap_or_else(|| panic!("{name} has no place in ORDER"))
@@ -99,7 +99,7 @@ fn top_level_modules_import_only_those_that_stand_before_them() {
 }
 
 #[test]
-fn the_guide_lists_the_top_level_modules_in_their_order() {
+fn the_contributing_guide_lists_the_modules_in_order() {
     let guide = include_str!("../../../CONTRIBUTING.md");
     let (_, table) = guide.split_once("| folder | what is in it |\n|---|---|\n").unwrap();
     let (table, _) = table.split_once("\n\n").unwrap();
@@ -111,38 +111,38 @@ fn the_guide_lists_the_top_level_modules_in_their_order() {
 }
 
 #[test]
-fn no_folders_import_each_other_in_a_circle() {
-    let (mut new, mut known) = (Vec::new(), KNOWN.to_vec());
-    for circle in circles(&imports(&sources())) {
-        match known.iter().position(|one| *one == circle.name) {
+fn no_folders_import_each_other_in_a_cycle() {
+    let (mut new, mut known) = (Vec::new(), KNOWN_CYCLES.to_vec());
+    for cycle in import_cycles(&imports(&sources())) {
+        match known.iter().position(|one| *one == cycle.name) {
             Some(place) => drop(known.remove(place)),
-            None => new.push(format!("{}\n    {}", circle.name, circle.imports.join("\n    "))),
+            None => new.push(format!("{}\n    {}", cycle.name, cycle.imports.join("\n    "))),
         }
     }
-    assert!(new.is_empty(), "these are no circles that are known:\n{}", new.join("\n"));
-    assert!(known.is_empty(), "these circles are no more; take them out of KNOWN: {known:#?}");
+    assert!(new.is_empty(), "these cycles are new:\n{}", new.join("\n"));
+    assert!(known.is_empty(), "these cycles no longer exist; remove them from KNOWN_CYCLES: {known:#?}");
 }
 
 #[test]
-fn the_engine_computes_with_no_function_of_the_system() {
+fn the_engine_uses_no_platform_dependent_functions() {
     for (module, text) in sources() {
         let is_test = module.last().is_some_and(|name| name == "tests");
-        if is_test || !module.first().is_some_and(|name| SAME_EVERYWHERE.contains(&name.as_str())) {
+        if is_test || !module.first().is_some_and(|name| BIT_EXACT_MODULES.contains(&name.as_str())) {
             continue;
         }
         let code = text.split("#[cfg(test)]").next().unwrap();
         for (number, line) in code.lines().enumerate() {
-            let found = OF_THE_SYSTEM.iter().find(|name| line.contains(**name));
+            let found = PLATFORM_DEPENDENT.iter().find(|name| line.contains(**name));
             assert!(found.is_none(), "{}, line {}: {line}", module.join("/"), number + 1);
         }
     }
 }
 
 #[test]
-fn files_say_what_they_are_for_and_are_short() {
+fn files_start_with_a_doc_line_and_are_short() {
     for (module, text) in sources() {
         assert!(text.starts_with("//! "), "{} does not begin with what it is for", module.join("/"));
         let lines = text.lines().count();
-        assert!(lines <= LINES, "{} has {lines} lines", module.join("/"));
+        assert!(lines <= MAX_LINES, "{} has {lines} lines", module.join("/"));
     }
 }

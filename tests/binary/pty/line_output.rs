@@ -3,7 +3,7 @@
 use crate::terminal::{Session, carom};
 
 #[test]
-fn a_game_begins_with_who_plays_and_no_word_is_broken_at_the_end_of_a_line() {
+fn play_states_skill_and_rule_with_words_wrapped() {
     let mut command = carom();
     command.args(["play", "--rule", "3c", "--skill", "0,6"]);
     let mut session = Session::start_command(command, 60, 24);

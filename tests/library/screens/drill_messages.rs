@@ -2,7 +2,7 @@
 
 use super::{
     player::{Player, TRUE_COLOUR},
-    practice::{exercise, history, session},
+    practice::{exercise, session, three_sessions},
 };
 use carom::{
     drills::{Goal, Session, Venue},
@@ -11,25 +11,25 @@ use carom::{
 use crossterm::event::{KeyModifiers, MouseEvent, MouseEventKind};
 
 #[test]
-fn a_stroke_that_nobody_has_set_is_played_at_the_second_press() {
+fn an_unchanged_stroke_needs_a_second_press() {
     let asked = Player::practising(TRUE_COLOUR).press("Space");
     asked.says("the stroke is unchanged; Space again plays it anyway");
-    assert_eq!(asked.kept(), 0);
+    assert_eq!(asked.attempt_count(), 0);
     let played = asked.press("Space").wait(60.0);
-    assert_eq!(played.kept(), 1);
-    assert_eq!(played.press("Enter Space").kept(), 2, "who wants it so is asked once");
-    assert_eq!(Player::practising(TRUE_COLOUR).press("Left Space").kept(), 1);
+    assert_eq!(played.attempt_count(), 1);
+    assert_eq!(played.press("Enter Space").attempt_count(), 2, "the question is asked only once");
+    assert_eq!(Player::practising(TRUE_COLOUR).press("Left Space").attempt_count(), 1);
 }
 
 #[test]
-fn the_first_note_says_that_it_is_one_of_a_real_table_and_how_it_is_taken_back() {
+fn the_first_note_explains_venue_and_undo() {
     let noted = Player::practising(TRUE_COLOUR).press("n");
     noted.says("noted for a real table: missed, 0 of 1 now; u takes it back");
     noted.press("m").says("noted: made, 1 of 2 now");
 }
 
 #[test]
-fn a_match_that_was_left_is_there_at_the_next_start_too() {
+fn a_left_match_can_be_resumed_at_the_next_start() {
     let left = Player::practising(TRUE_COLOUR).press("o o o Left Enter Enter Esc");
     left.says("the match is kept; Enter on the exercise goes on with it, c on the coach's page at the next start");
     let left = left.press("Esc");
@@ -49,9 +49,9 @@ fn a_match_that_was_left_is_there_at_the_next_start_too() {
 }
 
 #[test]
-fn results_of_a_real_table_and_strokes_of_the_program_stand_apart() {
+fn real_table_and_simulator_results_are_listed_separately() {
     let here = Session { venue: Venue::Program, ..session(6, "opening", Goal::Free, "x---") };
-    let sessions: Vec<Session> = history().into_iter().chain([here]).collect();
+    let sessions: Vec<Session> = three_sessions().into_iter().chain([here]).collect();
     let positions = [exercise("opening", "From the opening")];
     let library = Player::at_library(TRUE_COLOUR, &positions, &sessions).press("Left");
     library.shows(&["table", "here", "27/37", "1/4", "table: 27 of 37", "here: 1 of 4"]);
@@ -60,7 +60,7 @@ fn results_of_a_real_table_and_strokes_of_the_program_stand_apart() {
 }
 
 #[test]
-fn a_search_that_finds_nothing_in_a_category_offers_the_others_and_esc_ends_it_first() {
+fn an_empty_search_offers_other_categories() {
     let none = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left /").type_in("natural");
     none.says("None in My positions; ").says(" elsewhere: Enter lists them.");
     let elsewhere = none.app.drills.catalogue.elsewhere();
@@ -71,24 +71,24 @@ fn a_search_that_finds_nothing_in_a_category_offers_the_others_and_esc_ends_it_f
     found.shows(&[": \"natural\"", "Esc end search"]);
     let all = found.press("Esc");
     assert_eq!(all.app.place(), KeyContext::Drill(DrillContext::Library));
-    all.says("All ").is_silent_on("\"natural\"");
+    all.says("All ").does_not_show("\"natural\"");
     assert_eq!(all.press("Esc").app.place(), KeyContext::Coach);
 }
 
 #[test]
-fn while_the_model_shot_is_shown_tip_and_hit_are_its_own() {
+fn the_hint_shows_the_model_shots_tip_and_hit() {
     let aiming = Player::practising(TRUE_COLOUR);
-    aiming.is_silent_on("Model tip");
+    aiming.does_not_show("Model tip");
     let shown = aiming.press("v");
     shown.shows(&["Model tip", "yours: yellow 100 % full"]).says("Model hit");
-    shown.press("v").shows(&["Your stroke"]).is_silent_on("Model tip");
+    shown.press("v").shows(&["Your stroke"]).does_not_show("Model tip");
 }
 
 #[test]
-fn an_exercise_says_where_the_balls_lie_and_that_it_is_on_another_table_than_the_settings_one() {
+fn an_exercise_shows_ball_positions_and_a_different_table() {
     let player = Player::at_library(TRUE_COLOUR, &[exercise("opening", "From the opening")], &[]).press("Left");
     player.says("balls: white ");
-    player.press("Enter").says("balls: white ").is_silent_on("on match, not on");
+    player.press("Enter").says("balls: white ").does_not_show("on match, not on");
     let other = Player::with_settings(TRUE_COLOUR, "table = \"textbook\"\nplace_unit = \"mm\"\n").press("F3 Enter");
     other.says("on match, not on ").says("textbook").says("balls, mm from the lower left corner: ");
 }

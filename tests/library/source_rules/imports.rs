@@ -10,12 +10,13 @@ pub fn imports(sources: &BTreeMap<Module, String>) -> BTreeSet<(Module, Module)>
     let codes: BTreeMap<&Module, String> = sources
         .iter()
         .filter(|(module, _)| !module.iter().any(|name| name == "tests"))
-        .map(|(module, text)| (module, code(text)))
+        .map(|(module, text)| (module, strip_comments_and_tests(text)))
         .collect();
-    let passed: BTreeMap<Module, Module> = codes.iter().flat_map(|(module, code)| passed_on(module, code)).collect();
+    let re_exported: BTreeMap<Module, Module> =
+        codes.iter().flat_map(|(module, code)| re_exports(module, code)).collect();
     let origin = |mut path: Module| loop {
         let known = (0..=path.len()).rev().find(|length| codes.contains_key(&path[..*length].to_vec())).unwrap_or(0);
-        match passed.get(path.get(..=known).unwrap_or_default()) {
+        match re_exported.get(path.get(..=known).unwrap_or_default()) {
             Some(further) if further[..] != path[..=known] => path = further.clone(),
             _ => break path[..known].to_vec(),
         }
@@ -29,18 +30,18 @@ pub fn imports(sources: &BTreeMap<Module, String>) -> BTreeSet<(Module, Module)>
 }
 
 /// Returns the text without comments and without the tests at its end.
-fn code(text: &str) -> String {
+fn strip_comments_and_tests(text: &str) -> String {
     let lines = text.lines().map(|line| line.split("//").next().unwrap_or_default());
     lines.take_while(|line| !line.ends_with("mod tests {")).collect::<Vec<_>>().join("\n")
 }
 
 /// Returns the re-exported names of a module, with their origins.
-fn passed_on(module: &Module, code: &str) -> Vec<(Module, Module)> {
+fn re_exports(module: &Module, code: &str) -> Vec<(Module, Module)> {
     let mut found = Vec::new();
     for (start, _) in code.match_indices("use ") {
         let line = &code[code[..start].rfind('\n').map_or(0, |end| end + 1)..start];
         if line.starts_with("pub") {
-            tree(&code[start + 4..], &[], &mut found);
+            parse_tree(&code[start + 4..], &[], &mut found);
         }
     }
     let name = |path: &[&str]| [&module[..], &[(*path.last().unwrap_or(&"")).to_owned()]].concat();
@@ -52,8 +53,8 @@ fn paths(code: &str) -> Vec<Vec<&str>> {
     let mut found = Vec::new();
     for start in ["crate::", "super::", "self::"] {
         for (at, _) in code.match_indices(start) {
-            if !code[..at].ends_with(|before: char| is_of_a_name(before) || before == ':') {
-                tree(&code[at..], &[], &mut found);
+            if !code[..at].ends_with(|before: char| is_identifier_char(before) || before == ':') {
+                parse_tree(&code[at..], &[], &mut found);
             }
         }
     }
@@ -62,21 +63,21 @@ fn paths(code: &str) -> Vec<Vec<&str>> {
 
 /// Parses the paths of a tree such as `a::{b, c::{self, d}}` from the start of a text, each prefixed with `start`, and returns the rest of
 /// the text.
-fn tree<'a>(text: &'a str, start: &[&'a str], found: &mut Vec<Vec<&'a str>>) -> &'a str {
+fn parse_tree<'a>(text: &'a str, start: &[&'a str], found: &mut Vec<Vec<&'a str>>) -> &'a str {
     let text = text.trim_start();
     if let Some(mut rest) = text.strip_prefix('{') {
         loop {
-            rest = tree(rest, start, found).trim_start_matches(|next| !matches!(next, ',' | '}'));
+            rest = parse_tree(rest, start, found).trim_start_matches(|next| !matches!(next, ',' | '}'));
             match rest.strip_prefix(',') {
                 Some(more) => rest = more,
                 None => return rest.get(1..).unwrap_or_default(),
             }
         }
     }
-    let (name, rest) = text.split_at(text.find(|next| !is_of_a_name(next)).unwrap_or(text.len()));
+    let (name, rest) = text.split_at(text.find(|next| !is_identifier_char(next)).unwrap_or(text.len()));
     let path = [start, &[name]].concat();
     if let Some(rest) = rest.strip_prefix("::") {
-        return tree(rest, &path, found);
+        return parse_tree(rest, &path, found);
     }
     // Nothing follows the last comma.
     if !name.is_empty() || !rest.starts_with('}') {
@@ -85,7 +86,7 @@ fn tree<'a>(text: &'a str, start: &[&'a str], found: &mut Vec<Vec<&'a str>>) -> 
     rest
 }
 
-fn is_of_a_name(character: char) -> bool {
+fn is_identifier_char(character: char) -> bool {
     character.is_alphanumeric() || character == '_'
 }
 
@@ -105,7 +106,7 @@ fn absolute(module: &Module, path: &[&str]) -> Module {
 }
 
 #[test]
-fn imports_are_found_in_every_form_but_not_in_comments_and_tests() {
+fn imports_are_found_except_in_comments_and_tests() {
     let sources = [
         ("", "pub use low::Kept;"),
         ("low", "pub struct Kept;"),

@@ -16,10 +16,10 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 /// Number of shots per table: shots on the thesis' table are slower, because they end in resting contacts, which are integrated.
-const PLAYED: [(&str, usize); 3] = [("textbook", 2000), ("match", 1000), ("thesis", 300)];
+const SHOT_COUNTS: [(&str, usize); 3] = [("textbook", 2000), ("match", 1000), ("thesis", 300)];
 
-fn changes_no_bit<S: Savings>() {
-    for (name, count) in PLAYED {
+fn assert_same_bits<S: Savings>() {
+    for (name, count) in SHOT_COUNTS {
         let table = Table::preset(name).unwrap();
         for (number, (layout, impulse)) in shots(&table, 1, count).iter().enumerate() {
             let with = trace::<AllSavings>(&table, layout, impulse);
@@ -37,20 +37,20 @@ macro_rules! without {
             impl Savings for Without {
                 const $saving: bool = false;
             }
-            changes_no_bit::<Without>();
+            assert_same_bits::<Without>();
         }
     };
 }
 
 without!(predicting_for_balls_at_rest_changes_no_bit, BALLS_AT_REST);
-without!(predicting_everything_anew_changes_no_bit, KEPT_PREDICTIONS);
+without!(recomputing_every_prediction_changes_no_bit, KEPT_PREDICTIONS);
 without!(solving_for_every_cushion_changes_no_bit, CUSHIONS_IN_REACH);
-without!(seeking_roots_for_courses_apart_changes_no_bit, SEPARATED_COURSES);
-without!(following_a_lone_ball_like_any_other_changes_no_bit, LONE_BALL);
-without!(ignoring_a_decided_outcome_changes_no_bit, EARLY_END);
+without!(solving_for_separated_trajectories_changes_no_bit, SEPARATED_COURSES);
+without!(simulating_a_lone_ball_normally_changes_no_bit, LONE_BALL);
+without!(simulating_past_a_decided_outcome_changes_no_bit, EARLY_END);
 
 #[test]
-fn no_saving_at_all_changes_no_bit() {
+fn disabling_all_optimisations_changes_no_bit() {
     struct Nothing;
     impl Savings for Nothing {
         const BALLS_AT_REST: bool = false;
@@ -62,14 +62,14 @@ fn no_saving_at_all_changes_no_bit() {
         const EARLY_END: bool = false;
         const OUT_OF_REACH: bool = false;
     }
-    changes_no_bit::<Nothing>();
+    assert_same_bits::<Nothing>();
 }
 
 /// A trace of all trajectories, with the events between them.
 #[derive(Default, Debug, PartialEq)]
-struct Courses(Trace);
+struct Trajectories(Trace);
 
-impl Observer for Courses {
+impl Observer for Trajectories {
     fn wants_segments(&self) -> bool {
         true
     }
@@ -88,15 +88,15 @@ impl Observer for Courses {
 }
 
 #[test]
-fn following_a_lone_ball_like_any_other_changes_no_course() {
+fn simulating_a_lone_ball_normally_changes_no_trajectory() {
     struct Without;
     impl Savings for Without {
         const LONE_BALL: bool = false;
     }
-    for (name, count) in PLAYED {
+    for (name, count) in SHOT_COUNTS {
         let table = Table::preset(name).unwrap();
         for (layout, impulse) in &shots(&table, 1, count) {
-            let (mut with, mut without) = (Courses::default(), Courses::default());
+            let (mut with, mut without) = (Trajectories::default(), Trajectories::default());
             watch(&table, layout, impulse, &mut with);
             watch_with::<Without, _>(&table, layout, impulse, &mut without);
             assert_eq!(with, without);
@@ -106,9 +106,9 @@ fn following_a_lone_ball_like_any_other_changes_no_course() {
 
 /// A trace without stops, which are not requested.
 #[derive(Default, Debug, PartialEq)]
-struct OnTheMove(Trace);
+struct WithoutStops(Trace);
 
-impl Observer for OnTheMove {
+impl Observer for WithoutStops {
     fn wants_ends(&self) -> bool {
         false
     }
@@ -123,15 +123,15 @@ impl Observer for OnTheMove {
 }
 
 #[test]
-fn rolling_out_the_last_ball_changes_no_bit_of_what_came_before() {
+fn simulating_the_last_rolls_changes_no_earlier_bit() {
     struct Without;
     impl Savings for Without {
         const LAST_ROLLS: bool = false;
     }
-    for (name, count) in PLAYED {
+    for (name, count) in SHOT_COUNTS {
         let table = Table::preset(name).unwrap();
         for (layout, impulse) in &shots(&table, 1, count) {
-            let (mut with, mut without) = (OnTheMove::default(), OnTheMove::default());
+            let (mut with, mut without) = (WithoutStops::default(), WithoutStops::default());
             watch(&table, layout, impulse, &mut with);
             watch_with::<Without, _>(&table, layout, impulse, &mut without);
             assert_eq!(with, without);
@@ -140,7 +140,7 @@ fn rolling_out_the_last_ball_changes_no_bit_of_what_came_before() {
 }
 
 /// Plays shots with and without the early end for lack of energy; returns how many have resting contacts that need not be followed.
-fn ends_out_of_reach(count: usize) -> usize {
+fn compare_energy_early_end(count: usize) -> usize {
     struct Without;
     impl Savings for Without {
         const OUT_OF_REACH: bool = false;
@@ -185,21 +185,21 @@ fn ends_out_of_reach(count: usize) -> usize {
 }
 
 #[test]
-fn ending_a_shot_whose_energy_is_spent_changes_no_verdict() {
-    let spared = ends_out_of_reach(4_000);
+fn ending_a_shot_for_lack_of_energy_changes_no_outcome() {
+    let spared = compare_energy_early_end(4_000);
     assert!(spared > 200, "{spared} of 8,000");
 }
 
 /// `cargo test --release --test library ending_a_shot -- --ignored`
 #[test]
 #[ignore = "takes a minute"]
-fn ending_a_shot_whose_energy_is_spent_changes_no_verdict_of_many() {
-    ends_out_of_reach(500_000);
+fn ending_a_shot_for_lack_of_energy_changes_none_of_many_outcomes() {
+    compare_energy_early_end(500_000);
 }
 
 /// Plays the shots of the hash twice. The value `known` changes when results change on purpose: then copy the number from the message, and
 /// give the reason in the commit message.
-fn plays_the_same_everywhere(name: &str, lift: f64, known: u64) {
+fn assert_hash(name: &str, lift: f64, known: u64) {
     let table = Table::preset(name).unwrap();
     let found = hash(&table, lift);
     assert_eq!(found, hash(&table, lift), "two runs differ");
@@ -208,20 +208,20 @@ fn plays_the_same_everywhere(name: &str, lift: f64, known: u64) {
 
 #[test]
 fn the_textbook_table_plays_the_same_everywhere() {
-    plays_the_same_everywhere("textbook", 0.0, TEXTBOOK);
+    assert_hash("textbook", 0.0, TEXTBOOK);
 }
 
 #[test]
 fn the_match_table_plays_the_same_everywhere() {
-    plays_the_same_everywhere("match", 0.0, 0xde62_a1b4_271f_ca1a);
+    assert_hash("match", 0.0, 0xde62_a1b4_271f_ca1a);
 }
 
 #[test]
 fn balls_in_the_air_fly_the_same_everywhere() {
-    plays_the_same_everywhere("match", 2.0, 0xc4c4_8316_94c9_f54f);
+    assert_hash("match", 2.0, 0xc4c4_8316_94c9_f54f);
 }
 
 #[test]
 fn resting_contacts_of_the_thesis_table_are_the_same_everywhere() {
-    plays_the_same_everywhere("thesis", 0.0, 0x7a87_e743_95a6_3db0);
+    assert_hash("thesis", 0.0, 0x7a87_e743_95a6_3db0);
 }

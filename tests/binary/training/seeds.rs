@@ -4,14 +4,14 @@ use std::fs;
 
 use serde_json::Value;
 
-use super::common::{Files, SHORT, carom, command, done, folder, unfinished};
+use super::common::{RunFiles, SHORT, carom, command, folder, run_ok, run_unfinished};
 use crate::program::outcome;
 
 #[test]
-fn several_seeds_are_the_single_runs_and_go_on_as_one() {
+fn several_seeds_equal_single_runs_and_resume_together() {
     let folder = folder();
     let here = folder.path();
-    let whole = done(here, &format!("{SHORT} --run whole --seeds 3 --jobs 2"));
+    let whole = run_ok(here, &format!("{SHORT} --run whole --seeds 3 --jobs 2"));
     assert!(whole.out.contains("standard deviation") && whole.out.contains("seeds: 3"), "{}", whole.out);
     let spread = |group: &str| fs::read_to_string(here.join(group).join("seeds.csv")).unwrap();
     let rows: Vec<Vec<f64>> =
@@ -19,24 +19,24 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
     assert_eq!(rows.len(), 10);
     assert!(rows.iter().all(|row| row[1] == 3.0 && row[4] <= row[2] && row[2] <= row[5] && row[3] >= 0.0), "{rows:?}");
 
-    done(here, &SHORT.replace("--seed 3", "--seed 4 --run four"));
-    Files::of(&here.join("four")).assert_same(&Files::of(&here.join("whole/seed-4")), "alone and among others");
+    run_ok(here, &SHORT.replace("--seed 3", "--seed 4 --run four"));
+    RunFiles::of(&here.join("four")).assert_same(&RunFiles::of(&here.join("whole/seed-4")), "alone and among others");
 
     // The seeds have one objective, once all have played their last shot.
     let line = format!("{SHORT} --run large --seeds 3 --continue --objective");
-    assert_eq!(unfinished(here, &format!("{line} --minutes 0.0001")).out, "");
-    let objective: f64 = done(here, &line).out.trim().parse().unwrap();
+    assert_eq!(run_unfinished(here, &format!("{line} --minutes 0.0001")).out, "");
+    let objective: f64 = run_ok(here, &line).out.trim().parse().unwrap();
     assert_eq!(objective, rows[9][2]);
     fs::remove_dir_all(here.join("large")).unwrap();
 
     // Stopped before the first seed is complete, then resumed.
-    let parts = unfinished(here, &format!("{SHORT} --run parts --seeds 3 --minutes 0.0001"));
+    let parts = run_unfinished(here, &format!("{SHORT} --run parts --seeds 3 --minutes 0.0001"));
     assert!(parts.err.contains("--resume"), "{}", parts.err);
-    unfinished(here, "train --resume parts --minutes 0.0005");
-    let json = done(here, "train --resume parts --json");
+    run_unfinished(here, "train --resume parts --minutes 0.0005");
+    let json = run_ok(here, "train --resume parts --json");
     assert!(json.out.lines().all(|line| serde_json::from_str::<Value>(line).unwrap()["seed"].is_u64()));
     assert_eq!(spread("parts"), spread("whole"));
-    let listed = done(here, "train --list . --json").out;
+    let listed = run_ok(here, "train --list . --json").out;
     let states: Vec<Value> = listed.lines().map(|line| serde_json::from_str::<Value>(line).unwrap()).collect();
     assert_eq!(states.len(), 7);
     assert!(states.iter().all(|run| run["state"] == "finished" && run["best_reward"].is_number()), "{listed}");
@@ -44,7 +44,7 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
 
     // A seed that has played all its shots but has not written its result yet writes it on resume.
     fs::remove_file(here.join("whole/seed-4/result.json")).unwrap();
-    done(here, "train --resume whole");
+    run_ok(here, "train --resume whole");
     assert!(here.join("whole/seed-4/result.json").exists());
 
     // Other settings are refused with an explanation, and so is another number of seeds; with the same settings the run is finished.
@@ -79,20 +79,20 @@ fn several_seeds_are_the_single_runs_and_go_on_as_one() {
 }
 
 #[test]
-fn the_latest_run_goes_on_together_with_the_other_seeds() {
+fn resuming_latest_resumes_all_seeds_of_the_group() {
     let folder = folder();
     let here = folder.path();
-    unfinished(here, &format!("{SHORT} --run carom/runs/group --seeds 2 --minutes 0.0001"));
-    done(here, "train --resume latest");
+    run_unfinished(here, &format!("{SHORT} --run carom/runs/group --seeds 2 --minutes 0.0001"));
+    run_ok(here, "train --resume latest");
     let spread = fs::read_to_string(here.join("carom/runs/group/seeds.csv")).unwrap();
     assert!(spread.lines().last().unwrap().starts_with("640,2,"), "{spread}");
 }
 
 #[test]
-fn what_went_wrong_with_a_seed_is_told_where_the_spread_cannot_be_written_either() {
+fn a_failed_seed_is_reported_even_without_a_spread_file() {
     let folder = folder();
     let here = folder.path();
-    done(here, "train --config small.toml --steps 64 --evaluation-layouts 5 --run group --seeds 2");
+    run_ok(here, "train --config small.toml --steps 64 --evaluation-layouts 5 --run group --seeds 2");
     for name in ["checkpoint.safetensors", "checkpoint-previous.safetensors"] {
         fs::write(here.join("group/seed-2").join(name), "").unwrap();
     }
@@ -105,20 +105,20 @@ fn what_went_wrong_with_a_seed_is_told_where_the_spread_cannot_be_written_either
 
 /// A scheduler may repeat the same command days later; by then the run that the weights came from may be gone.
 #[test]
-fn a_run_goes_on_whatever_has_become_of_the_weights_that_it_started_from() {
+fn a_run_resumes_after_its_source_weights_are_gone() {
     let folder = folder();
     let here = folder.path();
-    done(here, &format!("{SHORT} --run one"));
-    done(here, &format!("{SHORT} --run two"));
+    run_ok(here, &format!("{SHORT} --run one"));
+    run_ok(here, &format!("{SHORT} --run two"));
     for (run, seeds) in [("single", ""), ("group", " --seeds 2")] {
         let line = |from: &str| {
             format!(
                 "train --from {from} --steps 320 --evaluate-every 64 --evaluation-layouts 5 --set replay=4000 --run {run} --continue{seeds}"
             )
         };
-        unfinished(here, &format!("{} --minutes 0.00001", line("one")));
+        run_unfinished(here, &format!("{} --minutes 0.00001", line("one")));
         let absolute = here.join("one").display().to_string();
-        unfinished(here, &format!("{} --minutes 0.00001", line(&absolute)));
+        run_unfinished(here, &format!("{} --minutes 0.00001", line(&absolute)));
         let other = carom(here, &line("two"));
         assert!(other.code == Some(1) && other.err.contains("was started from one, not from two"), "{}", other.err);
         let left_out = carom(here, &line("one").replace(" --set replay=4000", ""));
@@ -128,13 +128,13 @@ fn a_run_goes_on_whatever_has_become_of_the_weights_that_it_started_from() {
         assert!(other.code == Some(1) && other.err.contains("was started from one, not from two"), "{}", other.err);
         let other = carom(here, &line("one").replace("replay=4000", "replay=3000"));
         assert!(other.err.contains("was started with replay = 4000, not 3000:"), "{}", other.err);
-        done(here, &line("one"));
+        run_ok(here, &line("one"));
         fs::rename(here.join("away"), here.join("one")).unwrap();
     }
     // The weights are not needed once every seed has started.
     let (weights, away) = (here.join("group/from.safetensors"), here.join("away"));
     fs::rename(&weights, &away).unwrap();
-    done(here, "train --resume group --objective");
+    run_ok(here, "train --resume group --objective");
     fs::rename(&away, &weights).unwrap();
     // As if killed after the first file was written.
     fs::remove_file(here.join("group/seeds.json")).unwrap();
@@ -145,11 +145,11 @@ fn a_run_goes_on_whatever_has_become_of_the_weights_that_it_started_from() {
     let line = "--steps 64 --evaluation-layouts 5 --seeds 2 --run group --continue";
     let mixed = carom(here, &format!("train {line}"));
     assert!(mixed.code == Some(1) && mixed.err.contains("\"from.safetensors\" is in it"), "{}", mixed.err);
-    done(here, &format!("train --from one {line}"));
+    run_ok(here, &format!("train --from one {line}"));
 }
 
 #[test]
-fn weights_are_found_by_the_names_that_policies_have() {
+fn weights_are_found_by_policy_name() {
     let folder = folder();
     let here = folder.path();
     let models = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("models");
@@ -163,19 +163,19 @@ fn weights_are_found_by_the_names_that_policies_have() {
         ("bundled --reward three-cushion --table thesis", "d", "three-cushion", "thesis-three-cushion"),
     ] {
         let line = format!("train --from {from} {short} --run {run}");
-        done(here, &line);
-        done(here, &line);
+        run_ok(here, &line);
+        run_ok(here, &line);
         let config: Value = serde_json::from_slice(&fs::read(here.join(run).join("config.json")).unwrap()).unwrap();
         assert!(config["from"]["path"].as_str().unwrap().ends_with(path), "{from}: {}", config["from"]);
         assert_eq!(config["reward"], reward, "{from}");
     }
     // In the last rounds of this file, only the critic was trained.
     let line = format!("train --from match-three-cushion --reward three-cushion {short} --run e");
-    assert!(done(here, &line).err.contains("the actor will not change"));
-    let lively = done(here, &(line + " --set actor_learning_rate=0.0004").replace("run e", "run f"));
+    assert!(run_ok(here, &line).err.contains("the actor will not change"));
+    let lively = run_ok(here, &(line + " --set actor_learning_rate=0.0004").replace("run e", "run f"));
     assert!(!lively.err.contains("will not change"), "{}", lively.err);
     let report: Value = serde_json::from_str(
-        &done(here, "evaluate --policy match-one-cushion --policy-only --rule one-cushion --layouts 5 --json").out,
+        &run_ok(here, "evaluate --policy match-one-cushion --policy-only --rule one-cushion --layouts 5 --json").out,
     )
     .unwrap();
     assert_eq!((&report["policy"], &report["networks"]), (&"match-one-cushion".into(), &"match-one-cushion".into()));
@@ -187,7 +187,7 @@ fn weights_are_found_by_the_names_that_policies_have() {
 }
 
 #[test]
-fn runs_that_begin_in_the_same_second_have_folders_of_their_own() {
+fn runs_started_in_the_same_second_have_separate_folders() {
     let folder = folder();
     let here = folder.path();
     let line = "train --config small.toml --steps 64 --evaluation-layouts 20";
@@ -195,14 +195,14 @@ fn runs_that_begin_in_the_same_second_have_folders_of_their_own() {
     for begun in children.map(outcome) {
         assert_eq!(begun.code, Some(0), "{}", begun.err);
     }
-    assert_eq!(done(here, "train --list --json").out.lines().count(), 3);
+    assert_eq!(run_ok(here, "train --list --json").out.lines().count(), 3);
 }
 
 #[test]
-fn a_run_can_start_from_anothers_weights_and_says_so() {
+fn a_run_can_start_from_the_weights_of_another() {
     let folder = folder();
     let here = folder.path();
-    done(here, &format!("{SHORT} --run one --table thesis"));
+    run_ok(here, &format!("{SHORT} --run one --table thesis"));
     let config = |run: &str| -> Value {
         serde_json::from_slice(&fs::read(here.join(run).join("config.json")).unwrap()).unwrap()
     };
@@ -210,7 +210,7 @@ fn a_run_can_start_from_anothers_weights_and_says_so() {
     for (from, run) in
         [("one", "of-run"), (weights, "of-policy"), (weights, "of-policy-again"), (checkpoint, "of-file")]
     {
-        done(here, &format!("train --from {from} --reward r1 --steps 64 --evaluation-layouts 20 --run {run}"));
+        run_ok(here, &format!("train --from {from} --reward r1 --steps 64 --evaluation-layouts 20 --run {run}"));
         let (config, origin) = (config(run), &config(run)["from"]);
         assert_eq!((&origin["path"], &origin["seed"], &origin["shots"]), (&from.into(), &3.into(), &640.into()));
         assert_eq!((&origin["reward"], &config["reward"]), (&"r3".into(), &"r1".into()));
@@ -221,12 +221,12 @@ fn a_run_can_start_from_anothers_weights_and_says_so() {
     let policy = |run: &str| fs::read(here.join(run).join("policy.safetensors")).unwrap();
     assert!(policy("of-run") == policy("of-file") && policy("of-policy") == policy("of-policy-again"));
     assert!(policy("of-policy") != policy("of-run") && policy("of-policy").len() == policy("of-run").len());
-    done(here, "train --config small.toml --reward r1 --steps 64 --evaluation-layouts 20 --table thesis --run none");
+    run_ok(here, "train --config small.toml --reward r1 --steps 64 --evaluation-layouts 20 --table thesis --run none");
     assert!(policy("of-run") != policy("none"));
 
     let short = "--reward r1 --steps 64 --evaluation-layouts 20";
-    done(here, &format!("train --from one --set new_actor=true {short} --run anew"));
-    done(here, &format!("train --from anew {short} --run on"));
+    run_ok(here, &format!("train --from one --set new_actor=true {short} --run anew"));
+    run_ok(here, &format!("train --from anew {short} --run on"));
     let begins_anew = |run| config(run)["settings"]["new_actor"] == true;
     assert!(
         begins_anew("anew") && !begins_anew("on"),
@@ -242,7 +242,7 @@ fn a_run_can_start_from_anothers_weights_and_says_so() {
         }
     }
 
-    done(here, "train --agent thesis-ddpg --table thesis --steps 100 --evaluation-layouts 5 --run thesis");
+    run_ok(here, "train --agent thesis-ddpg --table thesis --steps 100 --evaluation-layouts 5 --run thesis");
     let mut large = command(here, "train --from thesis --set actor_layers=[8] --run large");
     let large = outcome(large.env("RUST_BACKTRACE", "1").spawn().unwrap());
     assert!(large.code == Some(2) && large.err.lines().count() == 1, "{}", large.err);

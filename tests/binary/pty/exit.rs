@@ -4,21 +4,21 @@ use std::time::{Duration, Instant};
 
 use portable_pty::CommandBuilder;
 
-use crate::terminal::{OPENING, PATIENCE, REST, Session, carom};
+use crate::terminal::{QUIET_TIME, START_TEXT, Session, TIMEOUT, carom};
 
 #[test]
-fn signals_restore_the_terminal_and_still_end_the_program() {
+fn signals_restore_the_terminal_and_end_the_program() {
     for name in ["TERM", "INT", "HUP", "QUIT"] {
         let mut session = Session::start(80, 24);
-        session.wait_for(OPENING);
+        session.wait_for(START_TEXT);
         session.signal(name);
-        let status = session.assert_left_without_trace();
+        let status = session.assert_clean_exit();
         assert!(!status.success(), "{name}: {status:?}");
     }
 }
 
 #[test]
-fn what_was_done_is_offered_again_after_any_end_and_trouble_is_written_down() {
+fn the_session_can_be_resumed_and_warnings_are_logged() {
     let home = tempfile::tempdir().unwrap();
     let start = || Session::start_at(home.path(), carom(), 80, 24);
     let mut first = start();
@@ -28,13 +28,13 @@ fn what_was_done_is_offered_again_after_any_end_and_trouble_is_written_down() {
     first.send("[");
     first.wait_for("there is no");
     first.signal("HUP");
-    first.assert_left_without_trace();
+    first.assert_clean_exit();
     // A session without any action changes nothing.
     for _ in 0..2 {
         let mut second = start();
         second.wait_for("c goes on from where the last session ended");
         second.send("q");
-        assert!(second.assert_left_without_trace().success());
+        assert!(second.assert_clean_exit().success());
     }
     let mut third = start();
     third.wait_for("c goes on");
@@ -43,40 +43,40 @@ fn what_was_done_is_offered_again_after_any_end_and_trouble_is_written_down() {
     third.send("\t\x1b[Z");
     third.wait_for("white at x -710.0 mm, y 82.5 mm");
     third.send("q");
-    assert!(third.assert_left_without_trace().success());
+    assert!(third.assert_clean_exit().success());
     let log = std::fs::read_to_string(home.path().join("state/carom/carom.log")).unwrap();
     assert!(log.contains("the screen opens") && log.contains("WARN there is no"), "{log}");
 }
 
 #[test]
-fn suspending_gives_the_terminal_back_and_continuing_repaints() {
+fn suspending_restores_the_terminal_and_continuing_repaints() {
     let mut session = Session::start(80, 24);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     session.send("\x1a");
     session.wait_until("the shell's screen", |screen| {
         let has_mouse = screen.mouse_protocol_mode() != vt100::MouseProtocolMode::None;
         !screen.alternate_screen() && !screen.hide_cursor() && !has_mouse
     });
-    session.come_back_to(OPENING);
+    session.resume_until(START_TEXT);
     session.send("\x1b[C");
     session.wait_for("white at x -700.0 mm");
     session.send("\x03");
-    assert!(session.assert_left_without_trace().success());
+    assert!(session.assert_clean_exit().success());
 }
 
 #[test]
-fn raw_mode_is_off_again_after_the_end() {
+fn raw_mode_is_off_after_the_program_ends() {
     let mut command = CommandBuilder::new("sh");
     command.args(["-c", "\"$0\"; stty -a", env!("CARGO_BIN_EXE_carom")]);
     let mut session = Session::start_command(command, 120, 40);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     session.send("q");
     session.wait_for(" icanon");
     session.wait_for(" echo ");
 }
 
 #[test]
-fn it_is_told_to_end_wherever_it_is() {
+fn sigterm_ends_the_program_on_every_screen() {
     let press_the_white_ball = "\x1b[<0;34;13M\x1b[<32;40;13M";
     for (keys, text) in [
         (&[":", "the"][..], " of "),
@@ -89,19 +89,19 @@ fn it_is_told_to_end_wherever_it_is() {
         (&["\r"], "Esc"),
     ] {
         let mut session = Session::start(120, 40);
-        session.wait_for(OPENING);
+        session.wait_for(START_TEXT);
         for key in keys {
             session.press(key);
         }
         session.wait_for(text);
         session.signal("TERM");
-        let status = session.assert_left_without_trace();
+        let status = session.assert_clean_exit();
         assert!(status.signal().is_some(), "{keys:?}: {status:?}");
     }
 }
 
 #[test]
-fn every_screen_comes_back_after_it_was_stopped() {
+fn every_screen_is_restored_after_suspending() {
     for (keys, text) in [
         (&[":"][..], " of "),
         (&["?"], "Placing the balls"),
@@ -110,27 +110,27 @@ fn every_screen_comes_back_after_it_was_stopped() {
         (&["t"], "No agent"),
     ] {
         let mut session = Session::start(80, 24);
-        session.wait_for(OPENING);
+        session.wait_for(START_TEXT);
         for key in keys {
             session.press(key);
         }
         session.wait_for(text);
-        session.settle(REST);
+        session.wait_until_quiet(QUIET_TIME);
         let before = session.screen().contents();
         session.signal("TSTP");
         session.wait_until("the shell's screen", |screen| !screen.alternate_screen());
-        session.assert_given_back();
-        session.come_back_to(text);
+        session.assert_terminal_restored();
+        session.resume_until(text);
         assert_eq!(session.screen().contents(), before);
         session.signal("TERM");
-        session.assert_left_without_trace();
+        session.assert_clean_exit();
     }
 }
 
 #[test]
-fn a_shot_goes_on_from_where_it_was_stopped() {
+fn a_shot_resumes_where_it_was_suspended() {
     let mut session = Session::start(80, 24);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     session.send("\r");
     session.wait_for_advice();
     session.send(" ");
@@ -142,7 +142,7 @@ fn a_shot_goes_on_from_where_it_was_stopped() {
     // The time in which the shot would continue.
     std::thread::sleep(Duration::from_secs(1));
     let stood = stopped.elapsed().as_secs_f64();
-    session.come_back_to("Contacts");
+    session.resume_until("Contacts");
     session.wait_until("the clock", |screen| clock(screen).is_some());
     let passed = clock(session.screen()).unwrap() - before;
     let running = played + stopped.elapsed().as_secs_f64() - stood;
@@ -156,29 +156,29 @@ fn clock(screen: &vt100::Screen) -> Option<f64> {
 }
 
 #[test]
-fn whatever_kills_it_two_seconds_are_lost_at_most() {
+fn a_kill_loses_at_most_two_seconds_of_work() {
     let mut session = Session::start(80, 24);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     // The second move follows the first one at once, and nothing else happens that would trigger a save.
     session.send("\x1b[1;2B");
     session.wait_for("y 82.5 mm");
     session.send("\x1b[1;2C");
     session.wait_for("x -610.0 mm");
     let start = Instant::now();
-    while !session.last().contains("[-0.61,0.0824") {
-        assert!(start.elapsed() < Duration::from_secs(4), "{}", session.last());
-        session.count(Duration::from_millis(50));
+    while !session.saved_session().contains("[-0.61,0.0824") {
+        assert!(start.elapsed() < Duration::from_secs(4), "{}", session.saved_session());
+        session.count_bytes(Duration::from_millis(50));
     }
     session.signal("KILL");
-    session.ends_within(PATIENCE);
+    session.wait_for_exit(TIMEOUT);
 }
 
 #[test]
-fn an_exam_that_was_interrupted_is_gone_on_with() {
+fn an_interrupted_exam_can_be_resumed() {
     let home = tempfile::tempdir().unwrap();
     let start = || Session::start_at(home.path(), carom(), 80, 24);
     let mut first = start();
-    first.wait_for(OPENING);
+    first.wait_for(START_TEXT);
     first.send("d");
     first.wait_for("The half ball");
     first.send("e");
@@ -192,7 +192,7 @@ fn an_exam_that_was_interrupted_is_gone_on_with() {
     first.send("\r");
     first.wait_for("exercise 2 of 20");
     first.signal("HUP");
-    first.assert_left_without_trace();
+    first.assert_clean_exit();
     // The exam remains available, whatever is done meanwhile.
     let mut second = start();
     second.wait_for("c goes on with the exam");
@@ -203,25 +203,25 @@ fn an_exam_that_was_interrupted_is_gone_on_with() {
     second.send("\r  ");
     second.wait_for("to the end");
     second.send("q");
-    assert!(second.assert_left_without_trace().success());
+    assert!(second.assert_clean_exit().success());
     let mut third = start();
     third.wait_for("c goes on with the exam");
     third.send("c");
     third.wait_for("exercise 2 of 20");
     third.send("q");
-    assert!(third.assert_left_without_trace().success());
+    assert!(third.assert_clean_exit().success());
 }
 
 #[test]
-fn a_place_that_cannot_be_written_is_said_once() {
+fn an_unwritable_state_folder_is_reported_once() {
     let home = tempfile::tempdir().unwrap();
     std::fs::create_dir(home.path().join("state")).unwrap();
     std::fs::write(home.path().join("state/carom"), "in the way").unwrap();
     let mut session = Session::start_at(home.path(), carom(), 80, 24);
-    session.wait_for(OPENING);
+    session.wait_for(START_TEXT);
     session.send("\x1b[C");
     // A word of the sentence, which is broken into rows.
     session.wait_for("cannot");
     session.send("q");
-    assert!(session.assert_left_without_trace().success());
+    assert!(session.assert_clean_exit().success());
 }

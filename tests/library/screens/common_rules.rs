@@ -18,7 +18,7 @@ fn picture(app: &App, (width, height): (u16, u16)) -> Buffer {
 }
 
 /// Returns every page, filled with content.
-fn apps(caps: Capabilities) -> Vec<(&'static str, App)> {
+fn pages(caps: Capabilities) -> Vec<(&'static str, App)> {
     let coach = || Player::with(caps).press("Enter").answer();
     let drills = || Player::at_library(caps, &[], &[]);
     let mut all = vec![
@@ -47,10 +47,10 @@ fn apps(caps: Capabilities) -> Vec<(&'static str, App)> {
 }
 
 #[test]
-fn no_word_touches_the_right_edge() {
+fn no_text_touches_the_right_edge() {
     let mut found = Vec::new();
     for caps in [TRUE_COLOUR, NO_COLOUR, ASCII] {
-        for (page, app) in apps(caps) {
+        for (page, app) in pages(caps) {
             for size in [(80, 24), (90, 28), (100, 30), (120, 40), (160, 50)] {
                 let picture = picture(&app, size);
                 for y in 0..size.1 {
@@ -69,7 +69,7 @@ fn no_word_touches_the_right_edge() {
 }
 
 #[test]
-fn the_commands_and_the_help_leave_nothing_of_what_lies_below() {
+fn overlays_cover_the_page_completely() {
     for size in [(80, 24), (120, 40)] {
         let paper = picture(&Player::new().app, size)[(size.0 - 1, size.1 - 1)].bg;
         for keys in [":", "?"] {
@@ -88,7 +88,7 @@ fn the_commands_and_the_help_leave_nothing_of_what_lies_below() {
 }
 
 #[test]
-fn no_piece_of_cloth_stands_among_words_in_the_light_theme() {
+fn the_light_theme_has_no_cloth_colour_among_text() {
     let player = Player::new().press("T");
     let light = picture(&player.app, (80, 24));
     let (paper, text) = (light[(79, 23)].bg, 18);
@@ -102,7 +102,7 @@ fn no_piece_of_cloth_stands_among_words_in_the_light_theme() {
 }
 
 #[test]
-fn the_cue_is_drawn_where_there_are_only_letters_until_it_has_struck() {
+fn without_colours_the_cue_is_drawn_until_the_stroke() {
     for (caps, signs) in [(NO_COLOUR, ["╱", "╲", "│", "─"]), (ASCII, ["/", "\\", "|", "-"])] {
         let size = (120, 40);
         let bed = Mapping::fit(&Table::default(), Rect::new(4, 1, 112, 29)).bed;
@@ -117,7 +117,7 @@ fn the_cue_is_drawn_where_there_are_only_letters_until_it_has_struck() {
 }
 
 #[test]
-fn titles_in_hangul_keep_to_their_columns() {
+fn wide_characters_stay_in_their_columns() {
     let own = exercise("own", &"당구 연습 ".repeat(8));
     let player = Player::at_library(TRUE_COLOUR, &[own], &[]).press("Left");
     let picture = picture(&player.app, (80, 24));
@@ -127,7 +127,7 @@ fn titles_in_hangul_keep_to_their_columns() {
 }
 
 #[test]
-fn what_is_typed_is_mended_where_the_cursor_is() {
+fn text_fields_support_cursor_editing() {
     let player = Player::at_library(TRUE_COLOUR, &[], &[]).press("/").type_in("xhalf balls");
     let player = player.press("Home Delete End Backspace");
     assert_eq!(player.app.drills.catalogue.filter.text.as_deref(), Some("half ball"));

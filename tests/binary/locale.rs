@@ -3,9 +3,9 @@
 use crate::program::{carom, command, folder, outcome};
 
 #[test]
-fn what_people_read_is_ascii_where_the_locale_is_and_json_and_documents_stay() {
+fn text_is_ascii_in_ascii_locales_and_json_is_unchanged() {
     let home = folder();
-    let said = |args: &[&str], locale: &str| {
+    let run = |args: &[&str], locale: &str| {
         let mut command = command(home.path(), args);
         outcome(command.env("LANG", locale).spawn().unwrap())
     };
@@ -20,15 +20,15 @@ fn what_people_read_is_ascii_where_the_locale_is_and_json_and_documents_stay() {
         (&["recommend", "--help"], "mass\u{e9}", "masse"),
         (&["recommend", "--rule", "mass\u{e9}"], "mass\u{e9}", "masse"),
     ] {
-        let [fancy, plain] = ["C.UTF-8", "C"].map(|locale| said(args, locale)).map(|said| said.out + &said.err);
+        let [fancy, plain] = ["C.UTF-8", "C"].map(|locale| run(args, locale)).map(|run| run.out + &run.err);
         assert!(fancy.contains(word), "{args:?}: {fancy}");
         assert!(plain.is_ascii() && plain.contains(instead), "{args:?}: {plain}");
     }
     for args in [&[&miscue[..], &["--json"]].concat()[..], &["config"], &["table", "show", "match"], &["man"]] {
-        let [fancy, plain] = ["C.UTF-8", "C"].map(|locale| said(args, locale).out);
+        let [fancy, plain] = ["C.UTF-8", "C"].map(|locale| run(args, locale).out);
         assert_eq!(fancy, plain, "{args:?}");
     }
-    let [fancy, plain] = ["C.UTF-8", "C"].map(|locale| said(&[&tried[..], &["--json"]].concat(), locale).json());
+    let [fancy, plain] = ["C.UTF-8", "C"].map(|locale| run(&[&tried[..], &["--json"]].concat(), locale).json());
     assert!(fancy[1]["changes"][0].as_str().unwrap().contains('\u{b0}'), "{fancy:?}");
     assert_eq!(fancy[1]["changes"], plain[1]["changes"]);
     let mut own = command(home.path(), &tried);

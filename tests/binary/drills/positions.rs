@@ -2,10 +2,10 @@
 
 use std::fs;
 
-use crate::program::{SAVE, drill, folder, tried};
+use crate::program::{SAVE, count_attempts, drill, folder};
 
 #[test]
-fn a_position_is_shared_added_replaced_and_removed() {
+fn positions_are_shared_added_replaced_and_removed() {
     let folder = folder();
     let code = drill(folder.path(), &["share", "mine"]).out;
     assert_eq!(code.lines().count(), 1);
@@ -28,7 +28,7 @@ fn a_position_is_shared_added_replaced_and_removed() {
 }
 
 #[test]
-fn a_tag_is_one_word_and_its_sign_does_not_matter() {
+fn a_tag_is_one_word_with_or_without_hash() {
     let folder = folder();
     let tagged = |tag: &str| drill(folder.path(), &[SAVE, &["--replace", "--tag", tag]].concat());
     assert_eq!(tagged("#steep-one").code, Some(0));
@@ -43,7 +43,7 @@ fn a_tag_is_one_word_and_its_sign_does_not_matter() {
 }
 
 #[test]
-fn a_title_of_blanks_is_none_and_one_without_end_is_refused() {
+fn blank_titles_are_ignored_and_long_ones_refused() {
     let folder = folder();
     let titled = |title: &str| drill(folder.path(), &[SAVE, &["--replace", "--title", title]].concat());
     for (title, shown) in [("", "mine"), ("  ", "mine"), (" Mine ", "Mine")] {
@@ -60,7 +60,7 @@ fn a_title_of_blanks_is_none_and_one_without_end_is_refused() {
 }
 
 #[test]
-fn only_what_an_older_version_has_saved_brings_its_notice() {
+fn only_positions_of_older_versions_trigger_the_notice() {
     let folder = folder();
     drill(folder.path(), &["log", "mine", "make"]);
     let listed_anew = || {
@@ -75,11 +75,11 @@ fn only_what_an_older_version_has_saved_brings_its_notice() {
     fs::write(&position, text.replace(&version, "")).unwrap();
     assert!(listed_anew().contains("\"match\" is now a table with constants from filmed shots"));
     assert_eq!(drill(folder.path(), &["list", "--category", "own"]).err, "", "once");
-    assert_eq!(tried(folder.path()), 1);
+    assert_eq!(count_attempts(folder.path()), 1);
 }
 
 #[test]
-fn what_is_no_export_is_refused_in_plain_words() {
+fn importing_a_file_that_is_no_export_is_refused() {
     let folder = folder();
     for (text, says) in [
         ("name = \"mine\"", "line 1, column 2 is not JSON"),
@@ -95,7 +95,7 @@ fn what_is_no_export_is_refused_in_plain_words() {
 }
 
 #[test]
-fn an_export_takes_the_place_of_an_export_and_of_no_library() {
+fn an_export_overwrites_only_another_export() {
     let folder = folder();
     let library = r#"{"format":"carom-library","version":1,"exercises":[]}"#;
     fs::write(folder.path().join("library.json"), library).unwrap();
@@ -108,7 +108,7 @@ fn an_export_takes_the_place_of_an_export_and_of_no_library() {
 }
 
 #[test]
-fn what_is_exported_is_imported_elsewhere_and_once() {
+fn an_export_is_imported_only_once() {
     let (here, there) = (folder(), tempfile::tempdir().unwrap());
     drill(here.path(), &["log", "mine", "make", "miss"]);
     drill(here.path(), &["log", "mine", "make"]);
@@ -121,7 +121,7 @@ fn what_is_exported_is_imported_elsewhere_and_once() {
     let import = || drill(there.path(), &["import", file, "--json"]).json().remove(0);
     let first = import();
     assert_eq!([&first["positions"], &first["sessions"], &first["known"]], [1, 2, 0]);
-    assert_eq!((tried(there.path()), import()["known"].as_u64()), (3, Some(3)));
+    assert_eq!((count_attempts(there.path()), import()["known"].as_u64()), (3, Some(3)));
     assert_eq!(drill(there.path(), &["export", "-"]).out, drill(there.path(), &["export"]).out);
     assert_eq!(drill(there.path(), &["export"]).out.trim(), fs::read_to_string(file).unwrap().trim());
     // Of sessions that have grown here since, the longer version is kept; a file of a newer version is refused completely.
@@ -129,5 +129,5 @@ fn what_is_exported_is_imported_elsewhere_and_once() {
     fs::write(file, text.replace("\"version\":1", "\"version\":2")).unwrap();
     let newer = drill(there.path(), &["import", file]);
     assert!(newer.code == Some(2) && newer.err.contains("version 2"), "{}", newer.err);
-    assert_eq!(tried(there.path()), 3);
+    assert_eq!(count_attempts(there.path()), 3);
 }

@@ -10,7 +10,7 @@ use std::{
 
 use assert_cmd::cargo::cargo_bin;
 
-use crate::program::{SAVE, command, drill, fed, folder, outcome, program, sessions, tried};
+use crate::program::{SAVE, command, count_attempts, drill, folder, outcome, program, run_with_input, session_files};
 
 /// Returns the number of attempts in a session file, which must be valid.
 fn attempts(file: &Path) -> usize {
@@ -20,7 +20,7 @@ fn attempts(file: &Path) -> usize {
 }
 
 #[test]
-fn a_note_that_another_program_has_taken_back_does_not_come_back() {
+fn an_attempt_undone_by_another_process_stays_undone() {
     let folder = folder();
     let mut noting = command(folder.path(), &["drill", "log", "mine", "--json"]).stdin(Stdio::piped()).spawn().unwrap();
     let mut input = noting.stdin.take().unwrap();
@@ -40,15 +40,15 @@ fn a_note_that_another_program_has_taken_back_does_not_come_back() {
     assert_eq!(tried_after("make"), 1);
     drop(input);
     assert!(noting.wait().unwrap().success());
-    assert_eq!(tried(folder.path()), 1);
+    assert_eq!(count_attempts(folder.path()), 1);
 }
 
 #[test]
-fn a_program_that_is_killed_at_any_moment_loses_no_attempt_that_it_has_told() {
+fn a_killed_program_loses_no_reported_attempt() {
     let folder = folder();
     let mut least = 0;
     for kill in 0..12 {
-        let before = sessions(folder.path());
+        let before = session_files(folder.path());
         let args = ["drill", "run", "mine", "--goal", "10000", "--strokes", "10000", "--json"];
         let mut child = command(folder.path(), &args).stdin(Stdio::piped()).spawn().unwrap();
         let mut input = child.stdin.take().unwrap();
@@ -58,20 +58,20 @@ fn a_program_that_is_killed_at_any_moment_loses_no_attempt_that_it_has_told() {
         std::thread::sleep(Duration::from_millis(40 + 37 * kill));
         child.kill().unwrap();
         child.wait().unwrap();
-        let told =
+        let reported =
             lines.map_while(Result::ok).filter(|line| line.contains("\"attempt\"") && line.ends_with('}')).count();
         feeder.join().unwrap();
-        let new: Vec<_> = sessions(folder.path()).into_iter().filter(|file| !before.contains(file)).collect();
+        let new: Vec<_> = session_files(folder.path()).into_iter().filter(|file| !before.contains(file)).collect();
         let kept: usize = new.iter().map(|file| attempts(file)).sum();
-        assert!(kept == told || kept == told + 1, "{kept} attempts kept, {told} told");
-        least += told as u64;
+        assert!(kept == reported || kept == reported + 1, "{kept} attempts kept, {reported} told");
+        least += reported as u64;
     }
-    assert!(least > 20, "the kills came before anything was played");
-    assert!(tried(folder.path()) >= least);
+    assert!(least > 20, "almost no attempt was played before the kills");
+    assert!(count_attempts(folder.path()) >= least);
 }
 
 #[test]
-fn programs_at_the_same_time_lose_nothing_of_each_others() {
+fn concurrent_programs_lose_no_attempts() {
     let folder = folder();
     let logs: Vec<_> = (0..4)
         .map(|_| {
@@ -85,7 +85,7 @@ fn programs_at_the_same_time_lose_nothing_of_each_others() {
         feeder.join().unwrap();
         assert_eq!(outcome(child).code, Some(0));
     }
-    assert_eq!((tried(folder.path()), sessions(folder.path()).len()), (100, 4));
+    assert_eq!((count_attempts(folder.path()), session_files(folder.path()).len()), (100, 4));
     // If several programs save under the same new name, exactly one succeeds.
     let saves: Vec<_> = (0..4)
         .map(|title| {
@@ -101,23 +101,23 @@ fn programs_at_the_same_time_lose_nothing_of_each_others() {
 /// Runs the program in a shell with a file size limit of this many blocks, which acts like a full disk.
 #[cfg(unix)]
 #[test]
-fn on_a_full_disk_a_sentence_says_so_and_what_was_written_stays() {
+fn a_full_disk_is_reported_and_saved_attempts_remain() {
     let folder = folder();
     let script = "trap '' XFSZ; ulimit -f 6; exec \"$0\" drill log mine --json";
     let mut shell = program(folder.path(), Path::new("sh"));
     shell.args(["-c", script]).arg(cargo_bin!("carom"));
-    let full = fed(shell, &"make\n".repeat(500));
-    let told = full.out.lines().count() as u64;
+    let full = run_with_input(shell, &"make\n".repeat(500));
+    let reported = full.out.lines().count() as u64;
     assert!(full.code == Some(1) && full.err.contains("sessions") && full.err.contains("large"), "{}", full.err);
-    assert!(told > 5 && told < 500, "{told} were told");
-    assert_eq!(tried(folder.path()), told);
+    assert!(reported > 5 && reported < 500, "{reported} were told");
+    assert_eq!(count_attempts(folder.path()), reported);
     let left = fs::read_dir(folder.path().join("carom/sessions")).unwrap();
     let left = left.filter(|file| file.as_ref().unwrap().file_name() != "lock").count();
     assert_eq!(left, 1, "nothing half written is left");
 }
 
 #[test]
-fn a_folder_that_cannot_be_written_is_named() {
+fn an_unwritable_session_folder_is_named() {
     let folder = folder();
     fs::write(folder.path().join("carom/sessions"), "in the way").unwrap();
     for args in [&["log", "mine", "make"][..], &["try", "mine", "--shot", "0,0.3,3,1,4", "--budget-ms", "10"]] {
@@ -129,10 +129,10 @@ fn a_folder_that_cannot_be_written_is_named() {
 }
 
 #[test]
-fn files_of_a_newer_version_and_damaged_ones_are_named_and_never_touched() {
+fn newer_and_damaged_files_are_named_and_never_changed() {
     let folder = folder();
     drill(folder.path(), &["log", "mine", "make", "miss"]);
-    let [session] = &sessions(folder.path())[..] else { panic!("one session") };
+    let [session] = &session_files(folder.path())[..] else { panic!("one session") };
     let text = fs::read_to_string(session).unwrap();
     let file = |name: &str, text: &str| {
         let path = folder.path().join("carom").join(name);
