@@ -110,7 +110,7 @@ impl<'a> Sensitivity<'a> {
     /// With a doubt, a margin ends where the point is made in less than half of the worlds in which the intended stroke
     /// makes it. `None` if the intended stroke makes it in none.
     pub fn margins(&self, cue: &CueInputs) -> Option<[Margin; 5]> {
-        let required = self.required(cue)?;
+        let required = self.required_worlds(cue)?;
         parallel::map(platform::thread_count(), &Input::ALL, |input| self.margin_with(*input, cue, required))
             .try_into()
             .ok()
@@ -183,7 +183,7 @@ impl<'a> Sensitivity<'a> {
         };
         let (columns, rows) = (line(width), line(height));
         // Around a stroke that makes no point, a variation counts as made if half of the worlds make it.
-        let required = self.required(cue).unwrap_or(self.worlds.len().div_ceil(2).max(1));
+        let required = self.required_worlds(cue).unwrap_or(self.worlds.len().div_ceil(2).max(1));
         let outcomes = parallel::map(platform::thread_count(), &rows, |&y| {
             let row = up.shifted(self.table, middle, y);
             let cell = |x: f64| self.raised(&across.shifted(self.table, &row, x), &[across, up]);

@@ -36,7 +36,7 @@ pub fn stroke(text: &str, reading: Reading, table: &Table, layout: &Layout) -> R
         return Err("three lines".to_owned());
     };
     let parse = |text: &str| {
-        let stroke = SpokenStroke::read(text).and_then(|spoken| spoken.stroke(table, layout, CueBall::White, None));
+        let stroke = StrokeText::parse(text).and_then(|spoken| spoken.stroke(table, layout, CueBall::White, None));
         stroke.map_err(|error| error.to_string())
     };
     let (by_sentence, by_aim) = (parse(sentence)?, parse(&format!("{sentence}\n{aim}"))?);
