@@ -109,7 +109,7 @@ fn invalid_entries_are_named_and_nothing_is_overwritten() {
     for own in ["notes.txt", "entries.toml"] {
         let before = fs::read(home.path().join(own)).unwrap();
         let message = refused(&["calibrate", "entries.toml", "--out", own], 1);
-        assert!(message.contains("is no table, so it stays as it is"), "{message}");
+        assert!(message.contains("is no table, so it is not overwritten"), "{message}");
         assert_eq!(fs::read(home.path().join(own)).unwrap(), before);
     }
     write("broken.toml", "[[trial]\n");

@@ -189,7 +189,7 @@ mod tests {
     fn figures_with_equal_setups_share_a_training() {
         // Three curves each; the one-shot curve is that of noise 0.03 with seed 1.
         assert_eq!(session(&["23", "24"]).trainings().len(), 3);
-        assert_eq!(session(&["23", "noise"]).trainings().len(), 3 + 12 - 1);
+        assert_eq!(session(&["23", "noise"]).trainings().len(), 3 + 15 - 1);
     }
 
     #[test]

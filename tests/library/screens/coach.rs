@@ -78,7 +78,7 @@ fn without_a_shot_the_panel_shows_the_ball_positions() {
     let text = placing.text(80, 24);
     assert!(text.contains("Balls") && !text.contains("Chances"), "{text}");
     let text = placing.press("v").text(80, 24);
-    assert!(text.contains("without a shot the panel tells"), "{text}");
+    assert!(text.contains("without a shot the panel shows"), "{text}");
 }
 
 #[test]

@@ -200,7 +200,7 @@ mod tests {
         assert!(again.fields.iter().map(|(_, field)| field.text()).eq(typed));
         assert_eq!(again.entry(&table).unwrap(), entry);
         let unsaid = form("hard-lag", &["2.6", "3"]).entry(&table).unwrap_err();
-        assert!(unsaid.contains("add rails = 5"), "{unsaid}");
+        assert!(unsaid.contains("for example as rails = 5"), "{unsaid}");
     }
 
     #[test]
