@@ -126,7 +126,7 @@ fn a_killed_player_disappears_and_an_idle_one_writes_nothing() {
     let mut second = Session::start_at(home, guest("anna"), 80, 24);
     second.wait_for(START_TEXT);
     second.send("F");
-    second.wait_for("another session of yours already shows");
+    second.wait_for("another session of yours");
     assert!(!second.screen().contents().contains("from now on"));
     anna.signal("KILL");
     ben.wait_for("anna shows no table at the moment");
