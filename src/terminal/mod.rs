@@ -53,7 +53,7 @@ pub use keymap::remap::Keys;
 pub use pages::{
     calibration::keys::{CalibrationAction, CalibrationCondition, CalibrationContext},
     coach::{
-        AdviceState, Followed, InfoPanel, Mode,
+        AdviceState, FollowedPlayer, InfoPanel, Mode,
         keys::{CoachAction, CoachCondition},
     },
     drills::keys::{DrillAction, DrillCondition, DrillContext},

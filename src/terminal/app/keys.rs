@@ -66,8 +66,8 @@ impl App {
         let found = find(&meant);
         if is_asked_for_a_key && !matches!(found, Some(Ok(Action::Quit | Action::Suspend | Action::Settings(_)))) {
             self.toasts.go_on();
-            let effect = self.settings.pressed(key);
-            self.take_changes();
+            let effect = self.settings.on_key_pressed(key);
+            self.apply_changed_settings();
             return effect;
         }
         if found.is_none() && key.modifiers.contains(KeyModifiers::ALT) {
@@ -143,7 +143,7 @@ impl App {
             _ if self.overlay.is_some() => Some("close this first: Esc"),
             Condition::Always => None,
             Condition::Shell => self.no_shell(),
-            Condition::Coach(CoachCondition::Interrupted) if self.resumes_open_exam() => {
+            Condition::Coach(CoachCondition::Resumable) if self.resumes_open_exam() => {
                 self.coach.disabled_reason(CoachCondition::Idle)
             }
             Condition::Coach(when) => self.coach.disabled_reason(when),
@@ -169,9 +169,9 @@ impl App {
 
     /// Like [`Self::place`], but ignoring the command palette.
     pub(super) fn place_below(&self) -> KeyContext {
-        let asked = self.page().asked(self.caps).filter(|asked| self.overlay.is_none() && !asked.has_own_keys);
+        let asked = self.page().open_question(self.caps).filter(|asked| self.overlay.is_none() && !asked.has_own_keys);
         if let Some(asked) = asked {
-            return KeyContext::Question { is_typed: asked.typed.is_some() };
+            return KeyContext::Question { is_typed: asked.field.is_some() };
         }
         match self.screen {
             PageId::Coach if self.coach.followed().is_some() => KeyContext::Follow,
@@ -179,11 +179,11 @@ impl App {
             PageId::Coach => KeyContext::Coach,
             PageId::Training => KeyContext::Training(self.training.page()),
             PageId::Drills if self.overlay.is_some() => KeyContext::Drill(self.drills.page()),
-            PageId::Drills => KeyContext::Drill(self.drills.place()),
+            PageId::Drills => KeyContext::Drill(self.drills.key_context()),
             PageId::Settings if self.overlay.is_some() => KeyContext::Settings(self.settings.page),
-            PageId::Settings => KeyContext::Settings(self.settings.place()),
+            PageId::Settings => KeyContext::Settings(self.settings.key_context()),
             PageId::Calibration if self.overlay.is_some() => KeyContext::Calibration(CalibrationContext::Tests),
-            PageId::Calibration => KeyContext::Calibration(self.calibration.place()),
+            PageId::Calibration => KeyContext::Calibration(self.calibration.key_context()),
         }
     }
 }

@@ -37,7 +37,7 @@ use crate::{
             Page,
             calibration::CalibrationPage,
             coach::CoachPage,
-            drills::{Balls, DrillsPage},
+            drills::{DrillsPage, TransferredPosition},
             training::TrainingPage,
         },
         shown::ShownTable,
@@ -145,7 +145,7 @@ impl App {
         let layout = Layout::opening(&table);
         let mut app = Self::new(table, layout, caps, 0)?;
         app.screen = PageId::Training;
-        app.training.open_alone(run, list);
+        app.training.open_as_only_page(run, list);
         Ok(app)
     }
 
@@ -168,7 +168,7 @@ impl App {
         app.coach.player.clone_from(&seat.player);
         app.training.is_guest = seat.is_guest;
         if seat.is_guest {
-            app.coach.think_at_most(Duration::from_millis(LONGEST_FOR_GUESTS));
+            app.coach.limit_thinking_time(Duration::from_millis(LONGEST_FOR_GUESTS));
         }
         app
     }
@@ -183,8 +183,8 @@ impl App {
     /// Applies the user's settings.
     #[must_use]
     pub fn with_settings(mut self, settings: &Settings) -> Self {
-        self.coach.take_settings(settings);
-        self.drills.take_settings(settings);
+        self.coach.apply_settings(settings);
+        self.drills.apply_settings(settings);
         self.calibration.units = settings.units;
         self.settings.settings = settings.clone();
         self.in_force = settings.clone();
@@ -203,7 +203,7 @@ impl App {
     /// Offers to continue where the last session ended.
     #[must_use]
     pub fn with_saved_session(mut self, last: Option<SavedSession>) -> Self {
-        self.coach.offer(last);
+        self.coach.restore_last_session(last);
         self
     }
 
@@ -213,7 +213,7 @@ impl App {
         let Some(draft) = draft else { return self };
         let left = StrokeDraft { is_told: false, ..draft.clone() };
         let is_told = draft.is_told;
-        if let Some(test) = self.calibration.go_on_with(draft) {
+        if let Some(test) = self.calibration.restore_draft(draft) {
             self.draft_at_start = Some(left);
             if !is_told {
                 let sentence = format!("a stroke of {test} that was typed in part is kept: F7 goes on with it");
@@ -263,7 +263,7 @@ impl App {
             Action::OpenMatch => {
                 let opened = self.open(PageId::Drills);
                 let coach = &mut self.coach;
-                return Effect::both(opened, self.drills.open_match(|| coach.take_match()));
+                return Effect::both(opened, self.drills.open_match(|| coach.take_open_match()));
             }
             Action::CloseOverlay => self.close_overlay(),
             Action::ScrollOverlay(lines) => {
@@ -297,7 +297,7 @@ impl App {
                 self.switch_to(PageId::Drills);
                 let effect = self.drills.resume(practice, self.coach.query.skill);
                 // An exam that was open before waits until all others have been continued.
-                self.coach.left_exams.splice(0..0, self.drills.left_exam.take());
+                self.coach.unfinished_exams.splice(0..0, self.drills.unfinished_exam.take());
                 return Some(effect);
             }
             Action::Coach(action) => {
@@ -311,39 +311,39 @@ impl App {
             }
             Action::Drill(action) => {
                 let effect = self.drills.update(action);
-                let balls = self.drills.for_coach.take();
-                self.coach.left_exams.extend(self.drills.left_exam.take());
-                if balls.is_some() || self.drills.is_left() {
+                let balls = self.drills.position_for_coach.take();
+                self.coach.unfinished_exams.extend(self.drills.unfinished_exam.take());
+                if balls.is_some() || self.drills.is_closed() {
                     self.open(PageId::Coach);
                 }
-                if let Some(Balls { table, layout, rule, cue_ball }) = balls {
-                    self.coach.take_position(&table, layout, rule, cue_ball);
+                if let Some(TransferredPosition { table, layout, rule, cue_ball }) = balls {
+                    self.coach.set_position(&table, layout, rule, cue_ball);
                 }
                 return effect;
             }
             Action::Training(action) => {
                 let effect = self.training.update(action);
-                if self.training.is_left() {
+                if self.training.is_closed() {
                     return self.leave_training();
                 }
                 return effect;
             }
             Action::Calibration(action) => {
                 let effect = self.calibration.update(action);
-                if self.calibration.is_left {
+                if self.calibration.is_closed {
                     return self.open(PageId::Coach);
                 }
-                return match self.calibration.for_use.take() {
+                return match self.calibration.table_to_use.take() {
                     Some(path) => Some(self.use_table(path)),
                     None => effect,
                 };
             }
             Action::Settings(action) => {
                 let effect = self.settings.update(action);
-                if self.settings.is_left {
+                if self.settings.is_closed {
                     return self.open(self.before);
                 }
-                self.take_changes();
+                self.apply_changed_settings();
                 return effect;
             }
         }
@@ -352,7 +352,7 @@ impl App {
 
     /// Whether the session to continue is an exam that is still open on the drill screens.
     pub(super) fn resumes_open_exam(&self) -> bool {
-        self.coach.left_exams.is_empty() && self.drills.has_open_exam()
+        self.coach.unfinished_exams.is_empty() && self.drills.has_open_exam()
     }
 
     /// The action that answers the open page's question.
@@ -376,12 +376,12 @@ impl App {
 
     /// Returns the view of the coach's table that others may see, while the player shares it.
     pub fn shown_table(&self) -> Option<ShownTable> {
-        self.coach.shown_table(self.screen == PageId::Coach)
+        self.coach.shared_table(self.screen == PageId::Coach)
     }
 
     /// Stops sharing the table because its view could not be written, and shows `sentence`.
     pub fn not_shown(&mut self, sentence: String) {
-        self.coach.hide();
+        self.coach.stop_sharing();
         self.failed(sentence);
     }
 

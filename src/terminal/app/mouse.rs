@@ -34,10 +34,10 @@ impl App {
             Kind::ScrollDown => self.wheel(event, 1),
             Kind::Drag(Left) if self.place() == KeyContext::Coach && self.overlay.is_none() => {
                 let pointer = table_mapping(&self.coach, self.area).nearest_metres(event.column, event.row)?;
-                self.coach.drag_ball(pointer)
+                self.coach.drag_to(pointer)
             }
             Kind::Up(Left) => {
-                self.coach.drop_ball();
+                self.coach.end_drag();
                 None
             }
             _ => None,
@@ -49,7 +49,7 @@ impl App {
             Pointed::Tab(screen) => self.attempt(Condition::Tabs, Action::Open(screen)),
             Pointed::Page(Target::Table(mapping)) => self.take_ball(&mapping, event),
             Pointed::Page(Target::Shot(shot)) => {
-                self.attempt(Condition::Coach(CoachCondition::Choice), Action::Coach(CoachAction::Show(shot)))
+                self.attempt(Condition::Coach(CoachCondition::SeveralShots), Action::Coach(CoachAction::ShowShot(shot)))
             }
             Pointed::Page(Target::List(lines)) => self.move_mark(lines?),
         }
@@ -87,10 +87,10 @@ impl App {
         let colour = self.coach.cue_ball().to_ball_order([0, 1, 2])[ball];
         // A click leaves the shot. Once the shot has started, the ball is drawn away from its position in the layout.
         let has_moved = self.coach.watched().is_some() && time > 0.0;
-        let select = Action::Coach(CoachAction::Select(colour));
+        let select = Action::Coach(CoachAction::SelectBall(colour));
         let effect = self.attempt(Condition::Coach(CoachCondition::Idle), select);
         if !has_moved && self.disabled_reason(Condition::Coach(CoachCondition::Placing)).is_none() {
-            self.coach.take_ball(mapping.nearest_metres(event.column, event.row)?);
+            self.coach.start_drag(mapping.nearest_metres(event.column, event.row)?);
         }
         effect
     }

@@ -17,15 +17,15 @@ impl App {
 
     /// Handles the loss of the coach's worker thread, and with it the answer.
     pub fn coach_lost(&mut self) {
-        self.coach.lost();
+        self.coach.handle_worker_loss();
         self.collect_toasts(false);
     }
 
     /// Handles a report from the training page's background tasks.
     pub fn receive_training(&mut self, report: TrainingReport) {
         if let Some((table, query)) = self.training.receive(report) {
-            self.coach.take_query(&table, query);
-            self.training.alone = false;
+            self.coach.set_query(&table, query);
+            self.training.is_only_page = false;
             // If the user has opened another screen meanwhile, it stays open.
             if self.screen == PageId::Training {
                 self.switch_to(PageId::Coach);

@@ -15,16 +15,16 @@ impl App {
     pub fn receive_settings(&mut self, report: SettingsReport) -> Option<Effect> {
         let troubles = self.settings.receive(report);
         self.toasts.push_first(&troubles);
-        self.take_changes();
+        self.apply_changed_settings();
         let path = self.pending_table.take()?;
         let effect = self.settings.choose("table", &path.to_string_lossy());
-        self.take_changes();
+        self.apply_changed_settings();
         if effect.is_some()
             && let Ok(table) = self.in_force.table()
         {
             // The table may be another one of the same name, in which case no setting has changed.
-            self.coach.take_table(&table);
-            self.calibration.play_on(&table);
+            self.coach.set_table(&table);
+            self.calibration.set_table(&table);
             let how_long = if self.settings.is_writable { ", at every start too" } else { " until the program ends" };
             let said = format!("you now play on {}{how_long}", table.name);
             self.calibration.message = Some(Message::good(said));
@@ -41,16 +41,16 @@ impl App {
     }
 
     /// Applies the changes made on the settings screen.
-    pub(super) fn take_changes(&mut self) {
+    pub(super) fn apply_changed_settings(&mut self) {
         if self.settings.settings == self.in_force {
             return;
         }
         let settings = self.settings.settings.clone();
         let before = std::mem::replace(&mut self.in_force, settings.clone());
-        if let Err(sentence) = self.coach.take_changes(&before, &settings) {
+        if let Err(sentence) = self.coach.apply_changed_settings(&before, &settings) {
             self.toasts.push(sentence, false);
         }
-        self.drills.take_settings(&settings);
+        self.drills.apply_settings(&settings);
         self.calibration.units = settings.units;
         self.mouse = settings.mouse;
         let display = |settings: &Settings| (settings.depth, settings.glyphs);

@@ -26,7 +26,7 @@ impl App {
     /// Switches to `screen` and closes any overlay. Returns the previous screen, or `None` if `screen` was open already.
     pub(super) fn switch_to(&mut self, screen: PageId) -> Option<PageId> {
         (self.overlay, self.command_palette) = (None, None);
-        self.coach.drop_ball();
+        self.coach.end_drag();
         if self.screen == screen {
             return None;
         }
@@ -40,7 +40,7 @@ impl App {
         let before = self.switch_to(screen)?;
         if before == PageId::Drills {
             // The player chosen on the drill screens also becomes the player at the coach's table.
-            self.coach.take_skill(self.drills.player.at_coach);
+            self.coach.set_skill(self.drills.player.coach_page_skill);
         }
         match screen {
             PageId::Coach => None,
@@ -60,7 +60,7 @@ impl App {
 
     /// Returns to the coach, or to the shell if the program started with the training screen.
     pub(super) fn leave_training(&mut self) -> Option<Effect> {
-        if self.training.alone {
+        if self.training.is_only_page {
             return Some(Effect::Quit);
         }
         self.open(PageId::Coach)
@@ -68,6 +68,6 @@ impl App {
 
     /// Whether there is no other screen to open.
     pub const fn is_only_screen(&self) -> bool {
-        self.training.alone || self.coach.followed().is_some()
+        self.training.is_only_page || self.coach.followed().is_some()
     }
 }

@@ -238,7 +238,7 @@ impl Runner {
                 None
             }
             Event::Shown(seen) => {
-                self.app.coach.see(seen);
+                self.app.coach.receive_shared(seen);
                 None
             }
             Event::Settings(report) => self.app.receive_settings(report),

@@ -23,7 +23,7 @@ pub trait PageView {
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> Message;
 
     /// The open question that the user must answer before the page continues; `None` if there is none.
-    fn asked(&self, caps: Capabilities) -> Option<Asked<'_>>;
+    fn open_question(&self, caps: Capabilities) -> Option<OpenQuestion<'_>>;
 
     /// Returns the mouse target at a screen cell; `None` if that cell does not react to the mouse.
     fn target(&self, area: &PageArea, at: Position) -> Option<Target>;
@@ -31,20 +31,20 @@ pub trait PageView {
 
 /// A question that waits for an answer.
 #[derive(Debug)]
-pub struct Asked<'a> {
+pub struct OpenQuestion<'a> {
     /// The question, without the typed answer.
-    pub words: Message,
+    pub prompt: Message,
     /// The text field of the answer; `None` if the answer is a single key.
-    pub typed: Option<&'a TextField>,
+    pub field: Option<&'a TextField>,
     /// Whether the page has its own keys for the answer. Otherwise the answer is yes or no, or the typed text.
     pub has_own_keys: bool,
 }
 
-impl<'a> Asked<'a> {
+impl<'a> OpenQuestion<'a> {
     /// Creates a question. The page's current message, if any, is put before it.
-    pub fn new(news: Option<&Message>, words: &str, typed: Option<&'a TextField>) -> Self {
-        let news = news.map_or(String::new(), |news| format!("{}. ", news.text));
-        Self { words: Message::plain(news + words), typed, has_own_keys: false }
+    pub fn new(message: Option<&Message>, text: &str, field: Option<&'a TextField>) -> Self {
+        let prefix = message.map_or(String::new(), |message| format!("{}. ", message.text));
+        Self { prompt: Message::plain(prefix + text), field, has_own_keys: false }
     }
 }
 

@@ -118,12 +118,12 @@ fn an_analysis_is_stored_with_the_shot_it_belongs_to() {
     let mut other = known.press("S Enter").answer();
     let study = other.analysis_job.clone().unwrap();
     let now = set(&other);
-    other.app.coach.take_changes(&now, &before).unwrap();
+    other.app.coach.apply_changed_settings(&now, &before).unwrap();
     let player = other.tell(study.id, CoachNews::Next(None));
-    let is_studied = |player: &Player| player.app.coach.advised().map(|advised| advised.choice().is_studied);
+    let is_studied = |player: &Player| player.app.coach.current_advice().map(|advised| advised.choice().is_studied);
     assert_eq!(is_studied(&player), Some(false), "the analysis belongs to another answer");
     let mut player = player;
-    player.app.coach.take_changes(&before, &now).unwrap();
+    player.app.coach.apply_changed_settings(&before, &now).unwrap();
     assert_eq!(is_studied(&player), Some(true));
 }
 

@@ -468,10 +468,10 @@ fn overlays_pause_the_page_until_they_are_closed() {
 fn a_pending_analysis_restarts_when_the_page_is_reopened() {
     let mut player = Player::new().press("Enter").answer();
     let skill = player.app.coach.query.skill;
-    player.app.coach.take_skill(Skill::CLUB);
+    player.app.coach.set_skill(Skill::CLUB);
     // Meanwhile, news from the coach arrives and ends the analysis of a shot that is not shown.
     let mut player = player.tell(0, CoachNews::Refused(String::new()));
-    player.app.coach.take_skill(skill);
+    player.app.coach.set_skill(skill);
     player.analysis_job = None;
     assert!(player.press("F5 F2").analysis_job.is_some());
 }

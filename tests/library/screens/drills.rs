@@ -254,7 +254,7 @@ fn an_exam_has_twenty_exercises_and_a_grade() {
     let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter");
     for n in 1..=20 {
         player.says(&format!("exercise {n} of 20"));
-        let hint = player.app.disabled_reason(Condition::Drill(DrillCondition::ModelShot));
+        let hint = player.app.disabled_reason(Condition::Drill(DrillCondition::HasModelShot));
         assert_eq!(hint, Some("an exam gives no hints"));
         player = player.press("Space Space Enter Enter");
     }

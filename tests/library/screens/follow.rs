@@ -72,7 +72,7 @@ fn a_spectator_sees_the_same_table_and_cannot_change_it() {
         let before = picture(&mut app, (80, 24));
         assert!(before.contains("anna shows no table at the moment") && before.contains("q ends it"), "{before}");
         let shown = player.app.shown_table().unwrap();
-        app.coach.see(seen(&shown));
+        app.coach.receive_shared(seen(&shown));
         assert_eq!(
             (app.place(), app.coach.layout(), app.saved_session()),
             (KeyContext::Follow, player.app.coach.layout(), None)
@@ -97,7 +97,7 @@ fn a_spectator_sees_the_same_table_and_cannot_change_it() {
     insta::assert_snapshot!(picture(
         &mut {
             let mut app = following(TRUE_COLOUR);
-            app.coach.see(seen(&player.app.shown_table().unwrap()));
+            app.coach.receive_shared(seen(&player.app.shown_table().unwrap()));
             app
         },
         (80, 24)
@@ -108,17 +108,17 @@ fn a_spectator_sees_the_same_table_and_cannot_change_it() {
 fn a_followed_shot_plays_and_disappears_with_the_table() {
     let player = anna().press("F Enter").answer().press("Space");
     let mut app = following(TRUE_COLOUR);
-    app.coach.see(seen(&player.app.shown_table().unwrap()));
+    app.coach.receive_shared(seen(&player.app.shown_table().unwrap()));
     assert!(app.coach.playback.playing && app.frame_interval().is_some());
     app.tick(0.5);
     assert!(app.coach.playback.time >= 0.5);
     let player = player.press("End");
-    app.coach.see(seen(&player.app.shown_table().unwrap()));
+    app.coach.receive_shared(seen(&player.app.shown_table().unwrap()));
     let there = picture(&mut app, (80, 24));
     assert!(!app.coach.playback.playing && there.contains("oint"), "{there}");
-    app.coach.see(Seen::Nothing);
+    app.coach.receive_shared(Seen::Nothing);
     assert!(picture(&mut app, (80, 24)).contains("anna shows no table at the moment"));
-    app.coach.see(Seen::Damaged);
+    app.coach.receive_shared(Seen::Damaged);
     let there = picture(&mut app, (80, 24));
     assert!(there.contains("cannot be read") && app.frame_interval().is_none(), "{there}");
     assert!(app.handle(&key("q")).is_some_and(|effect| matches!(effect, Effect::Quit)));

@@ -126,7 +126,7 @@ fn the_wheel_over_the_table_changes_the_playback_speed() {
 fn clicking_a_listed_shot_shows_it() {
     for (caps, views) in [(TRUE_COLOUR, "v"), (NO_COLOUR, "v v v v v")] {
         let player = resized(Player::with(caps).press("Enter").answer().press(views));
-        let chosen = |player: &Player| player.app.coach.advised().map(|advised| advised.chosen);
+        let chosen = |player: &Player| player.app.coach.current_advice().map(|advised| advised.chosen);
         let text = player.text(120, 40);
         let row = text.lines().position(|line| line.contains("62 %")).unwrap() as u16;
         let player = player.send_mouse(PRESS, (5, row));

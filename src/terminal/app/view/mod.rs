@@ -39,8 +39,8 @@ pub fn page_area(app: &App, area: Rect) -> PageArea {
 /// Draws a page with its status line or its question. Returns the first row of that line.
 fn draw_page(page: &dyn Page, area: &PageArea, ui: &mut Ui) -> u16 {
     let status = page.draw(area, ui);
-    match page.asked(ui.caps) {
-        Some(asked) => draw_question(&asked.words, asked.typed, area.status, ui),
+    match page.open_question(ui.caps) {
+        Some(asked) => draw_question(&asked.prompt, asked.field, area.status, ui),
         None => draw_status(&status, area.status, ui),
     }
 }

@@ -7,14 +7,14 @@ use crate::{
         CalibrationAction as Action, CalibrationCondition as Condition, CalibrationTask, Effect,
         pages::{
             Page,
-            calibration::{CalibrationPage, Question, Side, form::Form, sheet::UndoStep},
+            calibration::{CalibrationPage, Question, SidePanel, form::Form, sheet::UndoStep},
         },
         ui::{Message, TextField},
     },
 };
 
 /// Maximum length of a table's name, bytes.
-const LONGEST: usize = 60;
+const MAX_TEXT_LENGTH: usize = 60;
 
 impl CalibrationPage {
     /// Returns the reason why a key binding is disabled now; `None` if it is enabled.
@@ -22,26 +22,32 @@ impl CalibrationPage {
         let sheet = self.sheet();
         let (can, reason) = match when {
             Condition::Always => (true, ""),
-            Condition::Known => (
+            Condition::Readable => (
                 sheet.trouble.is_none(),
                 "the file of entries cannot be read: repair it, or N moves it aside and starts again",
             ),
-            Condition::Stroke => (sheet.marked_stroke().is_some(), "no stroke of this test is entered yet"),
-            Condition::Entered => {
+            Condition::HasStroke => (sheet.marked_stroke().is_some(), "no stroke of this test is entered yet"),
+            Condition::HasEntries => {
                 let is_entered = sheet.entries.as_ref().is_some_and(|entries| !entries.trials.is_empty());
                 (is_entered || sheet.trouble.is_some(), "nothing is entered yet")
             }
-            Condition::Undo => (!sheet.undo_stack.is_empty(), "nothing to undo yet; Delete removes the marked stroke"),
-            Condition::Found if sheet.is_asking() => (false, "the values are being computed; one moment"),
-            Condition::Found if !sheet.odd(&self.table).is_empty() => {
+            Condition::Undoable => {
+                (!sheet.undo_stack.is_empty(), "nothing to undo yet; Delete removes the marked stroke")
+            }
+            Condition::HasResult if sheet.is_evaluating() => (false, "the values are being computed; one moment"),
+            Condition::HasResult if !sheet.implausible_entries(&self.table).is_empty() => {
                 (false, "an entry looks wrong (see values): edit or delete it first")
             }
-            Condition::Found if sheet.found().is_some_and(Calibration::is_contradictory) => {
+            Condition::HasResult if sheet.calibration().is_some_and(Calibration::is_contradictory) => {
                 (false, "strokes contradict each other (see values): play them again, edit or delete them first")
             }
-            Condition::Found => (sheet.found().is_some(), "nothing is entered yet that a table could follow from"),
-            Condition::Saved => (self.saved.is_some(), "save the table first (s), or choose a saved one by name in F5"),
-            Condition::Daily => {
+            Condition::HasResult => {
+                (sheet.calibration().is_some(), "nothing is entered yet that a table could follow from")
+            }
+            Condition::HasSavedTable => {
+                (self.saved.is_some(), "save the table first (s), or choose a saved one by name in F5")
+            }
+            Condition::CalibratedTable => {
                 (self.table.doubt.is_some(), "a check of the day needs a calibrated table: save one and play on it")
             }
         };
@@ -51,25 +57,25 @@ impl CalibrationPage {
     /// Performs the action of an enabled key binding.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
-            Action::Back => self.is_left = true,
-            Action::Line(lines) => self.sheet_mut().move_mark(lines),
-            Action::Page(pages) if self.side == Side::Values => self.values_page += pages,
+            Action::Back => self.is_closed = true,
+            Action::MoveMark(lines) => self.sheet_mut().move_mark(lines),
+            Action::Page(pages) if self.side == SidePanel::Values => self.values_page += pages,
             Action::Page(pages) => self.sheet_mut().move_mark(10 * pages),
-            Action::Best => self.mark_best(),
-            Action::LeaveOut => {
+            Action::MarkBest => self.mark_best(),
+            Action::ToggleLeftOut => {
                 let is_out = self.sheet_mut().toggle_left_out();
                 return Some(self.report_left_out(self.sheet().test().name, is_out));
             }
-            Action::Stroke(by) => self.sheet_mut().move_stroke(by),
-            Action::Enter => {
+            Action::MarkStroke(by) => self.sheet_mut().move_stroke(by),
+            Action::EnterStroke => {
                 self.open_form(Form::new(self.sheet().test()));
             }
-            Action::Amend => {
+            Action::EditStroke => {
                 let sheet = self.sheet();
                 let (place, entry) = sheet.marked_stroke()?;
                 self.open_form(Form::of(sheet.test(), place, entry));
             }
-            Action::TakeOut => {
+            Action::DeleteStroke => {
                 let (place, entry) = self.sheet().marked_stroke()?;
                 let edit = Edit::Remove(place, entry.clone());
                 self.message = Some(Message::plain(format!("a stroke of {} is deleted; u takes it back", entry.test)));
@@ -92,27 +98,27 @@ impl CalibrationPage {
                 self.message = Some(Message::plain(text));
                 return Some(self.edit(edit, true));
             }
-            Action::Turn => {
-                self.side = if self.side == Side::Test { Side::Values } else { Side::Test };
+            Action::ToggleValues => {
+                self.side = if self.side == SidePanel::Test { SidePanel::Values } else { SidePanel::Test };
                 self.values_page = 0;
             }
-            Action::Daily => {
+            Action::ToggleDaily => {
                 self.is_daily = !self.is_daily;
                 return Some(Effect::Calibrate(vec![CalibrationTask::Read(self.sheet().path.clone())]));
             }
-            Action::Save => {
+            Action::SaveTable => {
                 // A table that was saved before keeps its name.
                 let saved = self.saved.as_ref().filter(|_| !self.is_daily).and_then(|path| path.file_stem());
                 let today = if self.is_daily { " today" } else { "" };
                 let name = saved
                     .map_or_else(|| self.sheet().name(&self.table) + today, |name| name.to_string_lossy().into_owned());
-                self.question = Some(Question::Name(TextField::new(LONGEST).offering(&name)));
+                self.question = Some(Question::Name(TextField::new(MAX_TEXT_LENGTH).offering(&name)));
             }
-            Action::Use => self.for_use.clone_from(&self.saved),
-            Action::Anew => self.question = Some(Question::Anew),
-            Action::Field(_) | Action::Tape | Action::FarEnd => self.change_form(action),
+            Action::UseTable => self.table_to_use.clone_from(&self.saved),
+            Action::StartOver => self.question = Some(Question::StartOver),
+            Action::MoveField(_) | Action::ToggleTape | Action::ToggleFarEnd => self.change_form(action),
             Action::Answer(false) => self.close_question(),
-            Action::Answer(true) => return self.yes(),
+            Action::Answer(true) => return self.accept_answer(),
         }
         None
     }
@@ -120,8 +126,8 @@ impl CalibrationPage {
     fn change_form(&mut self, action: Action) {
         let Some(Question::Marks(form)) = &mut self.question else { return };
         match action {
-            Action::Field(by) => form.step(by),
-            Action::FarEnd => form.far_end = !form.far_end,
+            Action::MoveField(by) => form.step(by),
+            Action::ToggleFarEnd => form.far_end = !form.far_end,
             _ => {
                 if let Err(sentence) = form.toggle_tape() {
                     self.message = Some(Message::warning(sentence));
@@ -138,7 +144,7 @@ impl CalibrationPage {
             format!("{test} counts again")
         };
         self.message = Some(Message::plain(text));
-        Effect::Calibrate(self.judge())
+        Effect::Calibrate(self.request_evaluation())
     }
 
     fn mark_best(&mut self) {
@@ -150,17 +156,17 @@ impl CalibrationPage {
         });
     }
 
-    fn yes(&mut self) -> Option<Effect> {
+    fn accept_answer(&mut self) -> Option<Effect> {
         match self.question.take()? {
             Question::Marks(form) => self.keep(form),
             Question::Name(typed) => self.save(typed.text().trim(), false),
             Question::Replace(name) => self.save(&name, true),
-            Question::Anew if self.sheet().trouble.is_some() => {
+            Question::StartOver if self.sheet().trouble.is_some() => {
                 let text = format!("the file that cannot be read is kept as {}", self.backup_file().display());
                 self.message = Some(Message::plain(text));
                 Some(Effect::Calibrate(vec![CalibrationTask::PutAside(self.sheet().path.clone())]))
             }
-            Question::Anew => {
+            Question::StartOver => {
                 let count = self.sheet().entries.as_ref().map_or(0, |entries| entries.trials.len());
                 let strokes = if count == 1 { "1 stroke is".to_owned() } else { format!("{count} strokes are") };
                 let text = format!("{strokes} kept as {}; u takes this back", self.backup_file().display());
@@ -173,7 +179,7 @@ impl CalibrationPage {
     /// Moves to the next mark of the form, or saves the stroke after the last one. An implausible value stays for a correction.
     fn keep(&mut self, mut form: Form) -> Option<Effect> {
         let mut edit = None;
-        let odd = form.oddity(&self.table).filter(|_| !form.is_sent);
+        let odd = form.field_problem(&self.table).filter(|_| !form.is_sent);
         if let Some(what) = odd {
             self.message = Some(Message::warning(format!("{}: {what}", form.test.name)));
         } else if !form.is_sent && !form.is_at_the_end() {
@@ -199,7 +205,7 @@ impl CalibrationPage {
 
     /// Saves the calibrated table under a name.
     fn save(&mut self, name: &str, replaces: bool) -> Option<Effect> {
-        let found = self.sheet().found()?;
+        let found = self.sheet().calibration()?;
         let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_');
         let refused = if PRESETS.contains(&name) {
             Some("is the name of a bundled table; take another")
@@ -209,7 +215,7 @@ impl CalibrationPage {
             None
         };
         if let Some(reason) = refused {
-            self.question = Some(Question::Name(TextField::new(LONGEST).with(name)));
+            self.question = Some(Question::Name(TextField::new(MAX_TEXT_LENGTH).with(name)));
             return self.refuse(format!("\"{name}\" {reason}"));
         }
         let mut table = found.table.clone();

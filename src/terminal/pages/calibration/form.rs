@@ -7,7 +7,7 @@ use crate::{
 };
 
 /// Maximum length of a typed mark, bytes.
-const LONGEST: usize = 40;
+const MAX_TEXT_LENGTH: usize = 40;
 
 /// The form for entering or editing a stroke.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub struct Form {
 impl Form {
     /// Creates an empty form.
     pub fn new(test: &'static Test) -> Self {
-        let fields = test.field_names().map(|name| (name, TextField::new(LONGEST))).collect();
+        let fields = test.field_names().map(|name| (name, TextField::new(MAX_TEXT_LENGTH))).collect();
         Self { test, fields, field: 0, amends: None, far_end: false, is_sent: false }
     }
 
@@ -37,7 +37,7 @@ impl Form {
     pub fn of(test: &'static Test, place: usize, entry: &Entry) -> Self {
         let mut form = Self::new(test);
         for (name, field) in &mut form.fields {
-            *field = TextField::new(LONGEST).with(&entry.field_text(name));
+            *field = TextField::new(MAX_TEXT_LENGTH).with(&entry.field_text(name));
         }
         Self { amends: Some((place, entry.clone())), far_end: entry.far_end, ..form }
     }
@@ -60,7 +60,7 @@ impl Form {
         let StrokeDraft { test, typed, field, far_end, amends, .. } = draft;
         let mut form = Self { amends, far_end, ..Self::new(Test::named(&test)?) };
         for ((_, field), typed) in form.fields.iter_mut().zip(&typed) {
-            *field = TextField::new(LONGEST).with(typed);
+            *field = TextField::new(MAX_TEXT_LENGTH).with(typed);
         }
         form.field = field.min(form.fields.len().saturating_sub(1));
         Some(form)
@@ -105,7 +105,7 @@ impl Form {
     }
 
     /// The problem with the value in the active field alone; `None` if it is plausible or empty.
-    pub fn oddity(&self, table: &Table) -> Option<String> {
+    pub fn field_problem(&self, table: &Table) -> Option<String> {
         let (name, field) = &self.fields[self.field];
         let mut entry = Entry { test: self.test.name.to_owned(), ..Entry::default() };
         if let Err(sentence) = entry.set_field(name, field.text()) {
@@ -136,7 +136,7 @@ impl Form {
         }
         let was_taped = field.text().ends_with(TAPE_ERROR_TEXT);
         let text = if was_taped { value } else { format!("{value} ~ {TAPE_ERROR_TEXT}") };
-        *field = TextField::new(LONGEST).with(&text);
+        *field = TextField::new(MAX_TEXT_LENGTH).with(&text);
         Ok(())
     }
 
@@ -163,8 +163,10 @@ impl Form {
         entry.set_field(name, field.text()).ok()?;
         let (readings, _) = entry.readings(table);
         let reading = readings.first()?;
-        let is_own =
-            entry.standard_errors.get(*name).is_some_and(|sure| *sure != MarkValue::Text(TAPE_ERROR_TEXT.to_owned()));
+        let is_own = entry
+            .standard_errors
+            .get(*name)
+            .is_some_and(|standard_error| *standard_error != MarkValue::Text(TAPE_ERROR_TEXT.to_owned()));
         Some(match self.test.marks[reading.mark].unit() {
             Unit::Seconds => format!("right to {} s", rounded(reading.standard_error)),
             Unit::Diamonds if is_own => format!("right to {} diamonds", rounded(reading.standard_error)),
@@ -175,8 +177,8 @@ impl Form {
 }
 
 /// Rounds a standard error to three decimals.
-fn rounded(sure: f64) -> f64 {
-    (1000.0 * sure).round() / 1000.0
+fn rounded(standard_error: f64) -> f64 {
+    (1000.0 * standard_error).round() / 1000.0
 }
 
 #[cfg(test)]
@@ -186,13 +188,13 @@ mod tests {
     fn form(test: &str, typed: &[&str]) -> Form {
         let mut form = Form::new(Test::named(test).unwrap());
         for ((_, field), typed) in form.fields.iter_mut().zip(typed) {
-            *field = TextField::new(LONGEST).with(typed);
+            *field = TextField::new(MAX_TEXT_LENGTH).with(typed);
         }
         form
     }
 
     #[test]
-    fn what_is_typed_becomes_a_stroke_and_the_form_of_it_is_the_same() {
+    fn typed_stroke_converts_to_entry_and_back() {
         let table = Table::default();
         let typed = ["9.6", "5.4 ~ 0.2", "725 mm", ""];
         let entry = form("slow-roll", &typed).entry(&table).unwrap();
@@ -204,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn how_sure_a_mark_is_can_be_seen_and_a_tape_be_said() {
+    fn question_shows_accuracy_and_tape_can_be_noted() {
         let table = Table::default();
         let mut form = form("slow-roll", &["9.6", "5.4"]);
         assert!(form.question(&table).contains("right to 0.2 s"), "{}", form.question(&table));

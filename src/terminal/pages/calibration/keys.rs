@@ -19,39 +19,39 @@ pub enum CalibrationAction {
     /// Returns to the coach page.
     Back,
     /// Moves the mark by tests, downwards if positive.
-    Line(isize),
+    MoveMark(isize),
     /// Moves the mark by ten tests, downwards if positive, or turns the pages of the values.
     Page(isize),
     /// Marks the test whose next stroke gives the most information.
-    Best,
+    MarkBest,
     /// Leaves a test out or includes it again.
-    LeaveOut,
+    ToggleLeftOut,
     /// Marks another stroke of the test, a later one if positive.
-    Stroke(isize),
+    MarkStroke(isize),
     /// Opens the form for a new stroke of the test.
-    Enter,
+    EnterStroke,
     /// Opens the form for editing the marked stroke.
-    Amend,
+    EditStroke,
     /// Deletes the marked stroke.
-    TakeOut,
+    DeleteStroke,
     /// Undoes the last change.
     Undo,
     /// Switches between the test and the calibrated values.
-    Turn,
+    ToggleValues,
     /// Switches between the check of the day and the full calibration.
-    Daily,
+    ToggleDaily,
     /// Asks for the table's name, to save it.
-    Save,
+    SaveTable,
     /// Makes the saved table the current one.
-    Use,
+    UseTable,
     /// Asks whether to start again without entries.
-    Anew,
+    StartOver,
     /// Moves to another field of the form, downwards if positive.
-    Field(isize),
+    MoveField(isize),
     /// Turns the note on or off that a position was measured with a tape.
-    Tape,
+    ToggleTape,
     /// Turns the note on or off that the stroke was played from the far end.
-    FarEnd,
+    ToggleFarEnd,
     /// Answers the open question: `true` for yes or the typed text, `false` for no.
     Answer(bool),
 }
@@ -62,19 +62,19 @@ pub enum CalibrationCondition {
     /// In every state.
     Always,
     /// If the file of entries could be read.
-    Known,
+    Readable,
     /// If a stroke of the test has been entered.
-    Stroke,
+    HasStroke,
     /// If anything has been entered.
-    Entered,
+    HasEntries,
     /// If a change can be undone.
-    Undo,
+    Undoable,
     /// If the table's values have been found and no entry is implausible.
-    Found,
+    HasResult,
     /// If a table has been saved.
-    Saved,
+    HasSavedTable,
     /// If the current table is a calibrated one.
-    Daily,
+    CalibratedTable,
 }
 
 /// The key contexts of the calibration page.
@@ -99,27 +99,27 @@ impl CalibrationContext {
 /// Key bindings of the list of tests.
 #[rustfmt::skip]
 pub const TESTS: &[Binding<A, W>] = &[
-    bind(Calibration, W::Known, &[key(Enter, A::Enter)], Some(("enter a stroke", 1)), "enter what was marked of a stroke of the test"),
+    bind(Calibration, W::Readable, &[key(Enter, A::EnterStroke)], Some(("enter a stroke", 1)), "enter what was marked of a stroke of the test"),
     bind(Calibration, W::Always, &[
-        key(Down, A::Line(1)), key(Up, A::Line(-1)), letter('j', A::Line(1)), letter('k', A::Line(-1)),
-        key(End, A::Line(isize::MAX)), key(Home, A::Line(isize::MIN)),
+        key(Down, A::MoveMark(1)), key(Up, A::MoveMark(-1)), letter('j', A::MoveMark(1)), letter('k', A::MoveMark(-1)),
+        key(End, A::MoveMark(isize::MAX)), key(Home, A::MoveMark(isize::MIN)),
         ], Some(("test", 2)), "mark another test")
         .each(&["mark the next test", "mark the test before", "mark the last test", "mark the first test"]),
     bind(Calibration, W::Always, &[key(PageDown, A::Page(1)), key(PageUp, A::Page(-1))], None, "mark a test ten on or back; of the values, turn the page")
         .each(&["mark a test ten on; of the values, the next page", "mark a test ten back; of the values, the page before"]),
-    bind(Calibration, W::Always, &[key(Tab, A::Turn)], Some(("values", 1)), "the table's values so far, and which marks look misread; again for the test"),
-    bind(Calibration, W::Always, &[letter('n', A::Best)], Some(("best next", 1)), "mark the test whose next stroke tells most"),
-    bind(Calibration, W::Undo, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
-    bind(Calibration, W::Stroke, &[letter('e', A::Amend)], Some(("edit", 1)), "change what was entered of the marked stroke"),
-    bind(Calibration, W::Stroke, &[key(Left, A::Stroke(-1)), key(Right, A::Stroke(1)), letter('h', A::Stroke(-1)), letter('l', A::Stroke(1))],
+    bind(Calibration, W::Always, &[key(Tab, A::ToggleValues)], Some(("values", 1)), "the table's values so far, and which marks look misread; again for the test"),
+    bind(Calibration, W::Always, &[letter('n', A::MarkBest)], Some(("best next", 1)), "mark the test whose next stroke tells most"),
+    bind(Calibration, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
+    bind(Calibration, W::HasStroke, &[letter('e', A::EditStroke)], Some(("edit", 1)), "change what was entered of the marked stroke"),
+    bind(Calibration, W::HasStroke, &[key(Left, A::MarkStroke(-1)), key(Right, A::MarkStroke(1)), letter('h', A::MarkStroke(-1)), letter('l', A::MarkStroke(1))],
         Some(("stroke", 2)), "mark another stroke of the test")
         .each(&["mark the stroke of the test before", "mark the next stroke of the test"]),
-    bind(Calibration, W::Stroke, &[key(Delete, A::TakeOut), key(Backspace, A::TakeOut)], Some(("delete", 1)), "delete the marked stroke"),
-    bind(Calibration, W::Always, &[letter('x', A::LeaveOut)], Some(("leave out", 1)), "leave the test out with its strokes, take it in again"),
-    bind(Calibration, W::Found, &[letter('s', A::Save)], Some(("save", 1)), "save the table under a name"),
-    bind(Calibration, W::Saved, &[letter('p', A::Use)], Some(("play on it", 1)), "play on the saved table, here and at every start"),
-    bind(Calibration, W::Daily, &[letter('d', A::Daily)], Some(("check of the day", 1)), "two strokes that show how the table plays today; back to all tests"),
-    bind(Calibration, W::Entered, &[letter('N', A::Anew)], None, "start again; the entries are kept next to the file"),
+    bind(Calibration, W::HasStroke, &[key(Delete, A::DeleteStroke), key(Backspace, A::DeleteStroke)], Some(("delete", 1)), "delete the marked stroke"),
+    bind(Calibration, W::Always, &[letter('x', A::ToggleLeftOut)], Some(("leave out", 1)), "leave the test out with its strokes, take it in again"),
+    bind(Calibration, W::HasResult, &[letter('s', A::SaveTable)], Some(("save", 1)), "save the table under a name"),
+    bind(Calibration, W::HasSavedTable, &[letter('p', A::UseTable)], Some(("play on it", 1)), "play on the saved table, here and at every start"),
+    bind(Calibration, W::CalibratedTable, &[letter('d', A::ToggleDaily)], Some(("check of the day", 1)), "two strokes that show how the table plays today; back to all tests"),
+    bind(Calibration, W::HasEntries, &[letter('N', A::StartOver)], None, "start again; the entries are kept next to the file"),
     bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the coach"),
 ];
 
@@ -127,9 +127,9 @@ pub const TESTS: &[Binding<A, W>] = &[
 #[rustfmt::skip]
 pub const FORM: &[Binding<A, W>] = &[
     bind(Marks, W::Always, &[key(Enter, A::Answer(true))], Some(("next, keep", 1)), "go to the next mark; after the last one keep the stroke"),
-    bind(Marks, W::Always, &[key(Down, A::Field(1)), key(Up, A::Field(-1)), key(Tab, A::Field(1)), key(BackTab, A::Field(-1))],
+    bind(Marks, W::Always, &[key(Down, A::MoveField(1)), key(Up, A::MoveField(-1)), key(Tab, A::MoveField(1)), key(BackTab, A::MoveField(-1))],
         Some(("mark", 2)), "type another mark").each(&["type the next mark", "type the mark before"]),
-    bind(Marks, W::Always, &[ctrl('t', A::Tape)], Some(("by tape", 1)), "this place was measured with a tape, to 5 mm; again for by eye"),
-    bind(Marks, W::Always, &[ctrl('e', A::FarEnd)], Some(("far end", 1)), "this stroke was played from the far end, where the balls meet the other rails; again for your own"),
+    bind(Marks, W::Always, &[ctrl('t', A::ToggleTape)], Some(("by tape", 1)), "this place was measured with a tape, to 5 mm; again for by eye"),
+    bind(Marks, W::Always, &[ctrl('e', A::ToggleFarEnd)], Some(("far end", 1)), "this stroke was played from the far end, where the balls meet the other rails; again for your own"),
     bind(Marks, W::Always, &[key(Esc, A::Answer(false))], Some(("back", 1)), "leave the form; it is there again when the same stroke is entered"),
 ];

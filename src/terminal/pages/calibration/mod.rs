@@ -35,12 +35,12 @@ pub enum Question {
     /// Whether to replace the table with this name.
     Replace(String),
     /// Whether to start again without entries.
-    Anew,
+    StartOver,
 }
 
 /// The panel next to the list of tests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
+pub enum SidePanel {
     /// The marked test on the table.
     Test,
     /// The table's values.
@@ -61,7 +61,7 @@ pub struct CalibrationPage {
     /// Drafts of forms that were left incomplete, the latest last.
     drafts: Vec<StrokeDraft>,
     /// The panel next to the list of tests.
-    pub side: Side,
+    pub side: SidePanel,
     /// Page number in the table's values, from 0; taken modulo the number of pages.
     pub values_page: isize,
     /// The message of the status line.
@@ -72,9 +72,9 @@ pub struct CalibrationPage {
     /// The file of the last saved table.
     pub saved: Option<PathBuf>,
     /// The file of a table that must become the current one, until the app takes it.
-    pub for_use: Option<PathBuf>,
+    pub table_to_use: Option<PathBuf>,
     /// Whether the user has left the page.
-    pub is_left: bool,
+    pub is_closed: bool,
 }
 
 impl CalibrationPage {
@@ -88,28 +88,28 @@ impl CalibrationPage {
             units: Units::default(),
             question: None,
             drafts: Vec::new(),
-            side: Side::Test,
+            side: SidePanel::Test,
             values_page: 0,
             message: None,
             all,
             daily,
             is_daily: false,
             saved: None,
-            for_use: None,
-            is_left: false,
+            table_to_use: None,
+            is_closed: false,
         }
     }
 
     /// Opens the page as it was left, for the current `table`. The entries are read again.
     pub fn open(&mut self, table: &Table) -> Effect {
         self.message = None;
-        self.is_left = false;
-        self.play_on(table);
+        self.is_closed = false;
+        self.set_table(table);
         Effect::Calibrate(vec![CalibrationTask::Read(self.sheet().path.clone())])
     }
 
     /// Sets the current table.
-    pub fn play_on(&mut self, table: &Table) {
+    pub fn set_table(&mut self, table: &Table) {
         self.table.clone_from(table);
         if self.is_daily && table.doubt.is_none() {
             // A check of the day needs a calibrated table. An incomplete form is kept.
@@ -142,7 +142,7 @@ impl CalibrationPage {
     }
 
     /// The key context.
-    pub const fn place(&self) -> CalibrationContext {
+    pub const fn key_context(&self) -> CalibrationContext {
         if let Some(Question::Marks(_)) = self.question { CalibrationContext::Marks } else { CalibrationContext::Tests }
     }
 
@@ -158,12 +158,12 @@ impl CalibrationPage {
         };
         let left = self.drafts.iter().position(is_same).map(|place| self.drafts.remove(place));
         let left = left.and_then(Form::from_draft);
-        self.side = Side::Test;
+        self.side = SidePanel::Test;
         self.question = Some(Question::Marks(left.unwrap_or(form)));
     }
 
     /// Restores an incomplete form from the last session. Returns the name of its test, or `None` if that test does not exist.
-    pub fn go_on_with(&mut self, draft: StrokeDraft) -> Option<&'static str> {
+    pub fn restore_draft(&mut self, draft: StrokeDraft) -> Option<&'static str> {
         let is_daily = draft.is_daily;
         let form = Form::from_draft(draft)?;
         let test = form.test.name;
@@ -174,9 +174,13 @@ impl CalibrationPage {
     }
 
     /// Requests an evaluation of the entries.
-    fn judge(&mut self) -> Vec<CalibrationTask> {
+    fn request_evaluation(&mut self) -> Vec<CalibrationTask> {
         let table = self.table.clone();
-        self.sheet_mut().judge(&table).map(|judging| CalibrationTask::Judge(Box::new(judging))).into_iter().collect()
+        self.sheet_mut()
+            .request_evaluation(&table)
+            .map(|judging| CalibrationTask::Judge(Box::new(judging)))
+            .into_iter()
+            .collect()
     }
 
     /// Handles the result of a task. Returns follow-up tasks.
@@ -188,8 +192,8 @@ impl CalibrationPage {
                     if back.is_some() && matches!(self.question, Some(Question::Marks(_))) {
                         self.question = None;
                     }
-                    self.sheet_mut().take(entries, back);
-                    return self.judge();
+                    self.sheet_mut().set_entries(entries, back);
+                    return self.request_evaluation();
                 }
                 Err(sentence) => {
                     let sentence = format!("{sentence}; N moves the file aside and starts again");
@@ -210,12 +214,12 @@ impl CalibrationPage {
             CalibrationReport::Entries(..) => {}
             CalibrationReport::Judged(is_daily, number, outcome) => {
                 let sheet = if is_daily { &mut self.daily } else { &mut self.all };
-                sheet.answer(number, outcome);
+                sheet.on_evaluated(number, outcome);
             }
             CalibrationReport::Saved(path, Ok(true)) => {
                 let name = path.file_stem().unwrap_or_default().to_string_lossy();
                 let (played, _) = self.sheet().count();
-                let misread = self.sheet().found().map_or(0, |found| found.misread().len());
+                let misread = self.sheet().calibration().map_or(0, |found| found.misread().len());
                 let misread = if misread == 0 { String::new() } else { format!(", {misread} of them misread") };
                 let strokes = if played == 1 { "one stroke".to_owned() } else { format!("{played} strokes{misread}") };
                 let text = format!("saved as {name}, from {strokes}; p plays on it from now on");

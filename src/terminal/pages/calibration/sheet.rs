@@ -64,7 +64,7 @@ impl Sheet {
     }
 
     /// Recommended number of strokes of a test.
-    pub const fn times(&self, test: &Test) -> usize {
+    pub const fn recommended_strokes(&self, test: &Test) -> usize {
         if self.is_daily { 1 } else { test.repetitions }
     }
 
@@ -96,7 +96,7 @@ impl Sheet {
     pub fn count(&self) -> (usize, usize) {
         let asked = self.tests().filter(|test| !self.is_left_out(test));
         asked.fold((0, 0), |(entered, wanted), test| {
-            let times = self.times(test);
+            let times = self.recommended_strokes(test);
             // Extra strokes of one test do not replace strokes of another.
             (entered + self.strokes(test).len().min(times), wanted + times)
         })
@@ -143,18 +143,18 @@ impl Sheet {
     }
 
     /// The calibration that results from the marks, if there are any.
-    pub fn found(&self) -> Option<&Calibration> {
+    pub fn calibration(&self) -> Option<&Calibration> {
         self.judged.as_ref()?.found.as_ref()
     }
 
     /// Expected information gain of one more stroke of a test, bits.
-    pub fn bits(&self, test: &Test) -> Option<f64> {
+    pub fn expected_information(&self, test: &Test) -> Option<f64> {
         let next = &self.judged.as_ref()?.next;
         next.iter().find(|next| next.test == test.name).map(|next| next.bits)
     }
 
     /// The test whose next stroke gives the most information, among those that are not left out.
-    pub fn best(&self) -> Option<&NextTest> {
+    pub fn best_next_test(&self) -> Option<&NextTest> {
         let is_wanted = |next: &&NextTest| {
             self.tests().any(|test| test.name == next.test && !self.is_left_out(test))
                 && (!self.is_daily || self.missing(next.test) > 0)
@@ -164,19 +164,19 @@ impl Sheet {
 
     /// Number of strokes of a test that are still missing.
     fn missing(&self, name: &str) -> usize {
-        Test::named(name).map_or(0, |test| self.times(test).saturating_sub(self.strokes(test).len()))
+        Test::named(name).map_or(0, |test| self.recommended_strokes(test).saturating_sub(self.strokes(test).len()))
     }
 
     /// Marks the test whose next stroke gives the most information. Returns `false` if none is known.
     pub fn mark_best(&mut self) -> bool {
-        let Some(best) = self.best().map(|next| next.test) else { return false };
+        let Some(best) = self.best_next_test().map(|next| next.test) else { return false };
         self.mark_test(best);
         true
     }
 
     /// Replaces the entries, and adds the undo step of the change if there was one. If a stroke was added and its test is complete,
     /// marks the next incomplete test.
-    pub fn take(&mut self, entries: Entries, back: Option<(Edit, bool)>) {
+    pub fn set_entries(&mut self, entries: Entries, back: Option<(Edit, bool)>) {
         let is_added = matches!(&back, Some((Edit::Remove(..), false)));
         self.entries = Some(entries);
         self.trouble = None;
@@ -194,14 +194,14 @@ impl Sheet {
     }
 
     /// The implausible values among the entries, without the tests that are left out. They can occur in a file that was edited by hand.
-    pub fn odd(&self, table: &Table) -> Vec<EntryProblem> {
+    pub fn implausible_entries(&self, table: &Table) -> Vec<EntryProblem> {
         let mut odd = self.entries.as_ref().map_or_else(Vec::new, |entries| entries.trials(table).1);
         odd.retain(|odd| !self.left_out.contains(&odd.test.as_str()));
         odd
     }
 
     /// The prior for the evaluation: the assumed table and its uncertainty before the tests.
-    pub fn base(&self, table: &Table) -> (Table, TableDoubt) {
+    pub fn prior_table(&self, table: &Table) -> (Table, TableDoubt) {
         if self.is_daily {
             let doubt = table.doubt.clone().unwrap_or_default();
             return (table.clone(), next_day_doubt(table, &doubt));
@@ -218,8 +218,8 @@ impl Sheet {
     }
 
     /// Creates a request to evaluate the entries for `table`; `None` if no entries have been read.
-    pub fn judge(&mut self, table: &Table) -> Option<Judging> {
-        let (base, doubt) = self.base(table);
+    pub fn request_evaluation(&mut self, table: &Table) -> Option<Judging> {
+        let (base, doubt) = self.prior_table(table);
         let (mut trials, _) = self.entries.as_ref()?.trials(&base);
         trials.retain(|(_, trial)| !self.is_left_out(trial.test));
         self.asked += 1;
@@ -235,7 +235,7 @@ impl Sheet {
     }
 
     /// Handles the answer to request `number`. Late answers to earlier requests are dropped.
-    pub fn answer(&mut self, number: u64, judged: Result<Box<Judged>, String>) {
+    pub fn on_evaluated(&mut self, number: u64, judged: Result<Box<Judged>, String>) {
         if number != self.asked {
             return;
         }
@@ -247,7 +247,7 @@ impl Sheet {
     }
 
     /// Whether an evaluation is pending.
-    pub const fn is_asking(&self) -> bool {
+    pub const fn is_evaluating(&self) -> bool {
         self.asked != self.answered
     }
 }
@@ -266,28 +266,28 @@ mod tests {
     }
 
     #[test]
-    fn strokes_that_a_table_was_calibrated_by_do_not_count_twice() {
-        let (base, doubt) = sheet(false).base(&calibrated());
+    fn strokes_of_a_calibrated_table_do_not_count_twice() {
+        let (base, doubt) = sheet(false).prior_table(&calibrated());
         assert_eq!(base.name, "match");
         assert!(!doubt.is_certain() && doubt == prior(&base));
         let textbook = Table::preset("textbook").unwrap();
-        assert_eq!(sheet(false).base(&textbook).0, textbook);
+        assert_eq!(sheet(false).prior_table(&textbook).0, textbook);
         let small = Table { length: 2.54, width: 1.27, ..calibrated() };
-        assert_eq!(sheet(false).base(&small).0.length, 2.54, "match is larger");
-        let (today, doubt) = sheet(true).base(&calibrated());
+        assert_eq!(sheet(false).prior_table(&small).0.length, 2.54, "match is larger");
+        let (today, doubt) = sheet(true).prior_table(&calibrated());
         assert_eq!(today, calibrated());
         assert!(doubt.deviations["mu_r"] > calibrated().doubt.unwrap().deviations["mu_r"], "a day later");
     }
 
     #[test]
-    fn after_the_last_stroke_of_a_test_the_next_that_misses_one_is_marked() {
+    fn completed_test_moves_the_mark_to_the_next_incomplete() {
         let mut sheet = sheet(false);
         let entry = Entry { test: "slow-roll".into(), ..Entry::default() };
         let add = |sheet: &mut Sheet, count: usize| {
             let entries = Entries { name: None, trials: vec![entry.clone(); count] };
-            sheet.take(entries, Some((Edit::Remove(count - 1, entry.clone()), false)));
+            sheet.set_entries(entries, Some((Edit::Remove(count - 1, entry.clone()), false)));
         };
-        sheet.take(Entries::default(), None);
+        sheet.set_entries(Entries::default(), None);
         assert!(sheet.undo_stack.is_empty());
         add(&mut sheet, 1);
         assert_eq!((sheet.test().name, sheet.stroke()), ("slow-roll", 0));
@@ -302,14 +302,14 @@ mod tests {
     }
 
     #[test]
-    fn a_late_answer_to_an_earlier_question_is_dropped() {
+    fn late_answer_to_earlier_request_is_dropped() {
         let mut sheet = sheet(false);
-        sheet.take(Entries::default(), None);
-        let first = sheet.judge(&Table::default()).unwrap().number;
-        let second = sheet.judge(&Table::default()).unwrap().number;
-        sheet.answer(first, Err("late".into()));
-        assert!(sheet.is_asking() && sheet.evaluation_error.is_none());
-        sheet.answer(second, Err("now".into()));
-        assert_eq!((sheet.is_asking(), sheet.evaluation_error.as_deref()), (false, Some("now")));
+        sheet.set_entries(Entries::default(), None);
+        let first = sheet.request_evaluation(&Table::default()).unwrap().number;
+        let second = sheet.request_evaluation(&Table::default()).unwrap().number;
+        sheet.on_evaluated(first, Err("late".into()));
+        assert!(sheet.is_evaluating() && sheet.evaluation_error.is_none());
+        sheet.on_evaluated(second, Err("now".into()));
+        assert_eq!((sheet.is_evaluating(), sheet.evaluation_error.as_deref()), (false, Some("now")));
     }
 }

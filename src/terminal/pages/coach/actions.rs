@@ -30,7 +30,7 @@ impl CoachPage {
         let thinking = refuse(self.pending.is_some(), "the coach is thinking; Esc stops it");
         match when {
             CoachCondition::Always => None,
-            CoachCondition::Named => {
+            CoachCondition::HasPlayerName => {
                 refuse(self.player.is_none(), "start carom --player NAME so that others can follow")
             }
             CoachCondition::Thinking => refuse(self.pending.is_none(), "the coach is not thinking"),
@@ -45,26 +45,30 @@ impl CoachPage {
             CoachCondition::Watching => {
                 refuse(self.mode != Mode::Watching, "no shot is being watched; Space plays one")
             }
-            CoachCondition::Choice => refuse(
-                self.advised().is_none_or(|advised| advised.choices.len() < 2),
+            CoachCondition::SeveralShots => refuse(
+                self.current_advice().is_none_or(|advised| advised.choices.len() < 2),
                 "there is no other shot to choose",
             ),
             CoachCondition::Undoable => refuse(!self.history.can_undo(), "there is nothing to take back"),
-            CoachCondition::Interrupted => refuse(
-                self.earlier_sessions.is_empty() && self.left_exams.is_empty(),
+            CoachCondition::Resumable => refuse(
+                self.earlier_sessions.is_empty() && self.unfinished_exams.is_empty(),
                 "no unfinished exam or earlier session; F3 shows what you practise",
             ),
-            CoachCondition::Trained => refuse(self.query.policy.is_none(), "the bundled networks are asked already"),
-            CoachCondition::StrokeChanged => refuse(!self.can_travel().0, "the stroke is unchanged"),
-            CoachCondition::PlayedOn => refuse(self.played_on() == 0, "the stroke is unchanged"),
-            CoachCondition::StrokeUndone => refuse(!self.can_travel().1, "no change of the stroke was taken back"),
+            CoachCondition::CustomPolicy => {
+                refuse(self.query.policy.is_none(), "the bundled networks are asked already")
+            }
+            CoachCondition::StrokeUndoable => refuse(!self.can_undo_redo_stroke().0, "the stroke is unchanged"),
+            CoachCondition::OwnStrokePlayed => refuse(self.own_strokes_played() == 0, "the stroke is unchanged"),
+            CoachCondition::StrokeRedoable => {
+                refuse(!self.can_undo_redo_stroke().1, "no change of the stroke was taken back")
+            }
             CoachCondition::Redoable => refuse(!self.history.can_redo(), "nothing was taken back"),
         }
     }
 
     /// Performs the action of an enabled key binding.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
-        self.drop_ball();
+        self.end_drag();
         let effect = self.act(action);
         self.refresh();
         // The action may have changed the displayed shot: the background analysis must follow it.
@@ -76,19 +80,19 @@ impl CoachPage {
         let terms = self.query.terms();
         match action {
             // The number keys select balls by colour, not by role.
-            Action::Select(ball) => self.select(self.cue_ball().to_ball_order([0, 1, 2])[ball]),
-            Action::SelectOther(balls) => self.select((self.selected + BALLS).saturating_add_signed(balls) % BALLS),
-            Action::Move(x, y, scale) => self.move_ball(DVec2::new(f64::from(x), f64::from(y)), scale),
-            Action::Step(steps) => self.choose_step(self.step.saturating_add_signed(steps)),
-            Action::TurnQuarters => {
+            Action::SelectBall(ball) => self.select(self.cue_ball().to_ball_order([0, 1, 2])[ball]),
+            Action::CycleBall(balls) => self.select((self.selected + BALLS).saturating_add_signed(balls) % BALLS),
+            Action::MoveBall(x, y, scale) => self.move_ball(DVec2::new(f64::from(x), f64::from(y)), scale),
+            Action::ChangeStepSize(steps) => self.choose_step(self.step.saturating_add_signed(steps)),
+            Action::ToggleQuarters => {
                 self.quarters = !self.quarters;
                 self.report_step();
             }
             Action::TypePositions => self.ask_positions(),
             Action::NextSystem => self.next_lesson(),
-            Action::Opening => self.open(),
-            Action::OtherBall => self.take_other_ball(),
-            Action::Random => {
+            Action::OpeningPosition => self.place_opening(),
+            Action::SwapCueBall => self.swap_cue_ball(),
+            Action::RandomPosition => {
                 let layout = Layout::random(&self.history.present().table, &mut self.rng);
                 self.place(layout);
             }
@@ -97,7 +101,7 @@ impl CoachPage {
             Action::Redo => self.redo(),
             Action::Recommend => return Some(self.ask()),
             Action::SavePosition => self.ask_title(),
-            Action::Answer(true) => return self.yes(),
+            Action::Answer(true) => return self.accept_answer(),
             Action::Answer(false) => self.question = None,
             Action::Cancel => self.cancel(),
             Action::PlaceBalls => self.place_balls(),
@@ -108,37 +112,37 @@ impl CoachPage {
                 let skill = next_skill(terms.skill, self.own, self.settings_terms.skill);
                 self.choose_terms(Terms { skill, ..terms });
             }
-            Action::TurnPlan => self.choose_terms(Terms { plan: !terms.plan, ..terms }),
-            Action::NextFirstMet => {
+            Action::TogglePlan => self.choose_terms(Terms { plan: !terms.plan, ..terms }),
+            Action::NextFirstContact => {
                 self.choose_terms(Terms { first: neighbour(&FirstContact::ALL, terms.first, 1), ..terms });
             }
-            Action::TurnNumbers => self.is_in_numbers = !self.is_in_numbers,
-            Action::TurnEvents => {
+            Action::ToggleNumbers => self.is_in_numbers = !self.is_in_numbers,
+            Action::ToggleAllEvents => {
                 self.has_all_events = !self.has_all_events;
                 let words = if self.has_all_events { "all events are listed" } else { "contacts only are listed" };
                 self.message = Some(Message::plain(words));
             }
-            Action::TurnSideView => self.toggle_side_view(),
-            Action::TurnShown => self.toggle_sharing(),
+            Action::ToggleSideView => self.toggle_side_view(),
+            Action::ToggleSharing => self.toggle_sharing(),
             Action::NextInfoPanel if self.shot().is_none() && self.pending.is_none() => {
                 self.message =
                     Some(Message::plain("without a shot the panel shows the ball positions; Enter asks the coach"));
             }
             Action::NextInfoPanel => self.info = neighbour(&InfoPanel::ALL, self.info, 1),
-            Action::Shot(shots) => self.choose(|advised| advised.turn(shots)),
-            Action::Show(shot) => self.choose(|advised| advised.show(shot)),
+            Action::CycleShot(shots) => self.choose(|advised| advised.cycle(shots)),
+            Action::ShowShot(shot) => self.choose(|advised| advised.show_shot(shot)),
             Action::WhatIf => return self.start_own_stroke(0),
             Action::LeaveStroke => self.leave_own_stroke(),
-            Action::Stroke(change) => return self.change_stroke(change),
+            Action::ChangeStroke(change) => return self.change_stroke(change),
             Action::TypeStroke => self.ask_stroke(),
-            Action::StrokeBack => return self.step_stroke_history(OwnStroke::undo),
-            Action::StrokeAgain => return self.step_stroke_history(OwnStroke::redo),
+            Action::UndoStroke => return self.step_stroke_history(OwnStroke::undo),
+            Action::RedoStroke => return self.step_stroke_history(OwnStroke::redo),
             // The app resumes the practice session.
             Action::Resume => drop(self.resume()),
-            Action::Bundled => {
-                self.take_query(&self.table().clone(), CoachQuery { policy: None, ..self.query.clone() });
+            Action::UseBundledPolicies => {
+                self.set_query(&self.table().clone(), CoachQuery { policy: None, ..self.query.clone() });
             }
-            Action::Playback(key) => self.play(key),
+            Action::Playback(key) => self.apply_playback_key(key),
             // The app opens the other page.
             Action::OpenDrills | Action::OpenFilms | Action::OpenTraining => {}
         }
@@ -146,13 +150,13 @@ impl CoachPage {
     }
 
     /// Takes the latest unfinished match against the coach out of the earlier sessions.
-    pub fn take_match(&mut self) -> Option<Session> {
+    pub fn take_open_match(&mut self) -> Option<Session> {
         let of = |before: &mut SavedSession| before.practice.take_if(|practice| practice.is_against_coach());
         self.earlier_sessions.iter_mut().find_map(of)
     }
 
     /// Gives the turn to the opponent: the other ball becomes the cue ball, and all balls keep their positions.
-    fn take_other_ball(&mut self) {
+    fn swap_cue_ball(&mut self) {
         let cue_ball = self.cue_ball().other();
         let layout = self.layout().for_the_opponent();
         self.selected = CueBall::Yellow.to_ball_order([0, 1, 2])[self.selected];
@@ -162,7 +166,7 @@ impl CoachPage {
     }
 
     /// Puts the balls in the opening position. If they are there already, moves the cue ball to the other side of the opponent's ball.
-    fn open(&mut self) {
+    fn place_opening(&mut self) {
         let side = self.layout().opening_side(self.table()).map_or(Side::Left, Side::other);
         let layout = Layout::opening_on(self.table(), side);
         let rule = self.query.rule;
@@ -174,7 +178,7 @@ impl CoachPage {
         }
     }
 
-    fn play(&mut self, key: PlaybackKey) {
+    fn apply_playback_key(&mut self, key: PlaybackKey) {
         let Some(shot) = self.shot().cloned() else { return };
         self.leave_example();
         self.mode = Mode::Watching;
@@ -236,7 +240,7 @@ impl CoachPage {
 
     /// Puts the balls in new positions, as an undoable step. The shot disappears because it belongs to the old positions.
     pub(super) fn place(&mut self, layout: Layout) {
-        self.drop_ball();
+        self.end_drag();
         self.history.push(self.snapshot(layout));
         self.reset_playback();
     }
@@ -251,18 +255,18 @@ impl CoachPage {
         let left = self.history.present().clone();
         self.history.undo();
         let terms = left.terms.map(|[before, after]| [after, before]);
-        self.after_undo_or_redo(left, terms);
+        self.restore_after_history_step(left, terms);
     }
 
     fn redo(&mut self) {
         let left = self.history.present().clone();
         self.history.redo();
-        self.after_undo_or_redo(left, self.history.present().terms);
+        self.restore_after_history_step(left, self.history.present().terms);
     }
 
     /// Updates the state after an undo or redo. The step changes the query from the first terms to the second. Terms that the user
     /// has chosen since then are kept.
-    fn after_undo_or_redo(&mut self, left: Snapshot, terms: Option<[Terms; 2]>) {
+    fn restore_after_history_step(&mut self, left: Snapshot, terms: Option<[Terms; 2]>) {
         let present = self.history.present_mut();
         if (&left.table, left.layout, left.cue_ball) == (&present.table, present.layout, present.cue_ball) {
             // The balls have not moved, so the advice on them is still valid.

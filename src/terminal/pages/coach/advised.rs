@@ -47,7 +47,7 @@ impl AdviceState {
 
     /// The search result from which the first shot's ranking can be explained; `None` if another shot is shown or the explanation
     /// is known already.
-    pub fn unexplained(&self) -> Option<&Arc<Recommendation>> {
+    pub fn unexplained_search(&self) -> Option<&Arc<Recommendation>> {
         self.found.as_ref().filter(|_| self.chosen == 0 && self.why.is_none())
     }
 
@@ -62,12 +62,12 @@ impl AdviceState {
     }
 
     /// Shows the shot with this index; the last one if the index is too large.
-    pub fn show(&mut self, shot: usize) {
+    pub fn show_shot(&mut self, shot: usize) {
         self.chosen = shot.min(self.choices.len() - 1);
     }
 
     /// Cycles through the shots: forwards if `shots` is positive, wrapping at the end.
-    pub fn turn(&mut self, shots: isize) {
+    pub fn cycle(&mut self, shots: isize) {
         self.chosen = wrapping_index(self.chosen, shots, self.choices.len());
     }
 }

@@ -8,26 +8,26 @@ use crate::terminal::{Effect, pages::coach::CoachPage, shot::placing};
 #[derive(Clone, Copy, Debug)]
 pub struct Drag {
     /// Vector from the pointer to the ball's centre, m. It keeps a ball that is grabbed at its edge from jumping.
-    grip: DVec2,
+    grab_offset: DVec2,
     /// Whether the ball has moved.
     is_begun: bool,
 }
 
 impl CoachPage {
     /// Starts to drag the selected ball with the mouse at `pointer`, m.
-    pub fn take_ball(&mut self, pointer: DVec2) {
-        let grip = self.layout().balls[self.selected] - pointer;
-        self.drag = Some(Drag { grip, is_begun: false });
+    pub fn start_drag(&mut self, pointer: DVec2) {
+        let grab_offset = self.layout().balls[self.selected] - pointer;
+        self.drag = Some(Drag { grab_offset, is_begun: false });
     }
 
     /// Moves the dragged ball, if any, to the mouse at `pointer`, m.
-    pub fn drag_ball(&mut self, pointer: DVec2) -> Option<Effect> {
+    pub fn drag_to(&mut self, pointer: DVec2) -> Option<Effect> {
         let drag = self.drag?;
         let reach = self.table().reach();
         let mut layout = *self.layout();
         let ball = layout.balls[self.selected];
         // The ball may pass over the others. If there is no room at the goal, it stops at the obstacle.
-        let goal = (pointer + drag.grip).clamp(-reach, reach);
+        let goal = (pointer + drag.grab_offset).clamp(-reach, reach);
         layout.balls[self.selected] = goal;
         if layout.validate(self.table()).is_err() {
             layout = placing::slide(self.table(), self.layout(), self.selected, goal - ball).layout;
@@ -48,7 +48,7 @@ impl CoachPage {
     }
 
     /// Ends the drag.
-    pub const fn drop_ball(&mut self) {
+    pub const fn end_drag(&mut self) {
         self.drag = None;
     }
 }

@@ -35,12 +35,12 @@ const fn system_of(guide: &Guide) -> Option<System> {
 impl CoachPage {
     /// The system or shift for the displayed shot; `None` until its analysis is there, or if none applies.
     pub fn guide(&self) -> Option<&Guide> {
-        self.shown().map(AdviceState::choice)?.study.as_ref()?.system.as_ref()
+        self.displayed_advice().map(AdviceState::choice)?.study.as_ref()?.system.as_ref()
     }
 
     /// Whether the analysis has found that no system applies to the displayed shot.
     pub fn has_no_system(&self) -> bool {
-        let study = self.shown().and_then(|advised| advised.choice().study.as_ref());
+        let study = self.displayed_advice().and_then(|advised| advised.choice().study.as_ref());
         study.is_some_and(|study| study.system.is_none())
     }
 
@@ -104,12 +104,12 @@ mod tests {
     };
 
     #[test]
-    fn an_example_is_of_the_table_that_is_played_on() {
+    fn example_is_recomputed_for_the_current_table() {
         let [first, second] = ["match", "textbook"].map(|name| Table::preset(name).unwrap());
         let mut page = CoachPage::new(first.clone(), Layout::opening(&first), 1).unwrap();
         page.update(CoachAction::NextSystem);
         let before = page.lesson.as_ref().unwrap().path.clone();
-        page.take_query(&second, CoachQuery::default());
+        page.set_query(&second, CoachQuery::default());
         assert_ne!(page.lesson.as_ref().unwrap().path, before);
         assert_eq!(*page.lesson.as_ref().unwrap().table, second);
     }

@@ -42,8 +42,8 @@ use crate::{
 pub use advised::{AdviceState, Choice};
 use dragging::Drag;
 use question::Question;
-use request::{Pending, Studying};
-pub use spectators::Followed;
+use request::{PendingRequest, RunningAnalysis};
+pub use spectators::FollowedPlayer;
 use spectators::Sharing;
 
 /// Mode of the coach page: what the arrow keys do.
@@ -55,7 +55,7 @@ pub enum Mode {
     Watching,
 }
 
-const FIRST_STEP: usize = 2;
+const DEFAULT_STEP: usize = 2;
 /// Time between two frames of the spinner, s.
 const SPINNER_INTERVAL: f64 = 0.1;
 
@@ -129,7 +129,7 @@ pub struct CoachPage {
     /// Whether the table is shared with spectators or belongs to another player.
     sharing: Sharing,
     /// The player's own stroke; `None` if there is none.
-    own_stroke: Option<own_stroke::Own>,
+    own_stroke: Option<own_stroke::OwnStrokeState>,
     history: History<Snapshot>,
     /// The mouse drag in progress; it moves the selected ball.
     drag: Option<Drag>,
@@ -140,9 +140,9 @@ pub struct CoachPage {
     /// Saved sessions that have not been resumed, the latest first.
     earlier_sessions: Vec<SavedSession>,
     /// Whether a saved session has been resumed.
-    has_gone_back: bool,
+    has_resumed: bool,
     /// Unfinished exams that have not been resumed, the latest last.
-    pub left_exams: Vec<Session>,
+    pub unfinished_exams: Vec<Session>,
     /// The question that is open over the table.
     question: Option<Question>,
     /// The name of the position that is being saved to disk.
@@ -155,8 +155,8 @@ pub struct CoachPage {
     /// Thinking time of the coach, and the upper limit for that setting.
     budget: Duration,
     max_budget: Duration,
-    pending: Option<Pending>,
-    studying: Option<Studying>,
+    pending: Option<PendingRequest>,
+    running_analysis: Option<RunningAnalysis>,
     job_count: u64,
     rng: Xoshiro256PlusPlus,
 }
@@ -188,17 +188,17 @@ impl CoachPage {
             settings_terms: CoachQuery::default().terms(),
             start_terms: CoachQuery::default().terms(),
             earlier_sessions: Vec::new(),
-            has_gone_back: false,
-            left_exams: Vec::new(),
+            has_resumed: false,
+            unfinished_exams: Vec::new(),
             question: None,
             saving_name: None,
             lesson: None,
-            step: FIRST_STEP,
+            step: DEFAULT_STEP,
             quarters: false,
             budget: Duration::from_millis(Settings::default().think_ms),
             max_budget: Duration::MAX,
             pending: None,
-            studying: None,
+            running_analysis: None,
             job_count: 0,
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         })
@@ -206,7 +206,7 @@ impl CoachPage {
 
     /// Restores the query terms of the last session, except those that the settings have changed since then. Offers to resume that
     /// session and earlier ones that have not been resumed, if they differ from the current state.
-    pub fn offer(&mut self, last: Option<SavedSession>) {
+    pub fn restore_last_session(&mut self, last: Option<SavedSession>) {
         if let Some((last, set)) = last.as_ref().and_then(|last| Some((last, last.settings?))) {
             self.query = self.query.with(self.settings_terms.with_change([set, last.terms()]));
         }
@@ -230,12 +230,12 @@ impl CoachPage {
     /// Returns the state from which the next session can resume. It includes the current practice session, or the unfinished exam or
     /// `game`. `None` if there is no such session and nothing has changed since the start.
     pub fn saved_session(&self, practised: Option<&Session>, game: Option<&Session>) -> Option<SavedSession> {
-        let is_begun = self.is_begun() || practised.or(game).is_some() || !self.left_exams.is_empty();
+        let is_begun = self.is_begun() || practised.or(game).is_some() || !self.unfinished_exams.is_empty();
         if self.followed().is_some() || !is_begun {
             return None;
         }
         let earlier_practice = self.earlier_sessions.first().and_then(|before| before.practice.as_ref());
-        let mut exams = practised.into_iter().chain(self.left_exams.iter().rev()).chain(earlier_practice);
+        let mut exams = practised.into_iter().chain(self.unfinished_exams.iter().rev()).chain(earlier_practice);
         let practice = exams.find(|session| session.is_exam()).or(practised).or(game);
         let ended = |practice: Option<&Session>| {
             let (table, terms) = (self.table().clone(), self.query.terms());
@@ -243,7 +243,7 @@ impl CoachPage {
                 .under(self.settings_terms)
         };
         // A saved session holds one practice session. Each further unfinished exam or game is saved as an earlier session of its own.
-        let others = self.left_exams.iter().rev().chain(game);
+        let others = self.unfinished_exams.iter().rev().chain(game);
         let others = others.filter(|other| practice.is_none_or(|practice| practice.id != other.id));
         let former = others.map(|other| ended(Some(other))).chain(self.earlier_sessions.iter().cloned());
         Some(ended(practice).followed_by(former.collect()))
@@ -256,7 +256,7 @@ impl CoachPage {
 
     /// Resumes the unfinished exam, or the last saved session. Returns its practice session, if it has one.
     pub fn resume(&mut self) -> Option<Session> {
-        if let Some(exam) = self.left_exams.pop() {
+        if let Some(exam) = self.unfinished_exams.pop() {
             return Some(exam);
         }
         if self.earlier_sessions.is_empty() {
@@ -267,8 +267,8 @@ impl CoachPage {
         let terms = if last.settings.is_some() { self.query.terms() } else { last.terms() };
         let query = CoachQuery { policy: self.policy_on(&last.table), ..self.query.with(terms) };
         let its_rule = if last.rule == query.rule { String::new() } else { format!(", under the rule {}", last.rule) };
-        self.take(&last.table, last.layout, last.cue_ball, query);
-        let which = if std::mem::replace(&mut self.has_gone_back, true) { "that earlier" } else { "the last" };
+        self.replace_position(&last.table, last.layout, last.cue_ball, query);
+        let which = if std::mem::replace(&mut self.has_resumed, true) { "that earlier" } else { "the last" };
         let more = if self.earlier_sessions.is_empty() { "" } else { "; c goes back to the one before" };
         let text = format!("this is where {which} session ended{its_rule}; Enter asks the coach{more}");
         self.message = Some(Message::good(text));
@@ -276,13 +276,13 @@ impl CoachPage {
     }
 
     /// Limits the coach's thinking time, whatever the setting is.
-    pub fn think_at_most(&mut self, most: Duration) {
+    pub fn limit_thinking_time(&mut self, most: Duration) {
         self.max_budget = most;
         self.budget = self.budget.min(most);
     }
 
     /// Applies all settings at the start.
-    pub fn take_settings(&mut self, settings: &Settings) {
+    pub fn apply_settings(&mut self, settings: &Settings) {
         let Settings { rule, skill, doubt, plan, jumps, .. } = *settings;
         self.settings_terms = Terms { rule, skill, plan, first: FirstContact::Any };
         self.start_terms = self.settings_terms;
@@ -297,7 +297,7 @@ impl CoachPage {
     ///
     /// # Errors
     /// Returns a message if the table cannot be read. The other settings are applied nevertheless.
-    pub fn take_changes(&mut self, before: &Settings, settings: &Settings) -> Result<(), String> {
+    pub fn apply_changed_settings(&mut self, before: &Settings, settings: &Settings) -> Result<(), String> {
         self.budget = Duration::from_millis(settings.think_ms).min(self.max_budget);
         self.units = settings.units;
         if before.step_mm != settings.step_mm {
@@ -324,48 +324,48 @@ impl CoachPage {
             self.reset_playback();
         }
         if before.table != settings.table {
-            self.take_table(&settings.table()?);
+            self.set_table(&settings.table()?);
         }
         Ok(())
     }
 
     /// Switches to another table.
-    pub fn take_table(&mut self, table: &Table) {
+    pub fn set_table(&mut self, table: &Table) {
         if table != self.table() {
-            self.take_query(table, CoachQuery { policy: None, ..self.query.clone() });
+            self.set_query(table, CoachQuery { policy: None, ..self.query.clone() });
             self.message = Some(Message::good(format!("the table is now {}; Enter asks the coach", table.name)));
         }
     }
 
     fn set_step(&mut self, step_mm: f64) {
-        self.step = STEPS.iter().position(|step| *step == step_mm).unwrap_or(FIRST_STEP);
+        self.step = STEPS.iter().position(|step| *step == step_mm).unwrap_or(DEFAULT_STEP);
     }
 
     /// Switches to the policy and rule of `query` on `table`. Balls that the user has placed keep their positions if these are possible on
     /// the table.
-    pub fn take_query(&mut self, table: &Table, query: CoachQuery) {
+    pub fn set_query(&mut self, table: &Table, query: CoachQuery) {
         let current = *self.layout();
         let stays =
             self.table() == table || current.opening_side(self.table()).is_none() && current.validate(table).is_ok();
         let layout = if stays { current } else { Layout::opening(table) };
         let news = format!("the coach plays with {}; Enter asks it", query.name());
         let CoachQuery { skill, doubt, plan, jumps, first, .. } = self.query;
-        self.take(table, layout, self.cue_ball(), CoachQuery { skill, doubt, plan, jumps, first, ..query });
+        self.replace_position(table, layout, self.cue_ball(), CoachQuery { skill, doubt, plan, jumps, first, ..query });
         self.message = Some(Message::good(news));
     }
 
     /// Switches to another player skill. A shot for the former skill is no longer displayed.
-    pub fn take_skill(&mut self, skill: Skill) {
+    pub fn set_skill(&mut self, skill: Skill) {
         if self.query.skill != skill {
             self.change_terms(Terms { skill, ..self.query.terms() });
         }
     }
 
     /// Takes over a position from another page, with its rule. The policy is kept if the table is the same.
-    pub fn take_position(&mut self, table: &Table, layout: Layout, rule: Rule, cue_ball: CueBall) {
+    pub fn set_position(&mut self, table: &Table, layout: Layout, rule: Rule, cue_ball: CueBall) {
         let policy = self.policy_on(table);
         let its_rule = if rule == self.query.rule { String::new() } else { format!(" and its rule, {rule}") };
-        self.take(table, layout, cue_ball, CoachQuery { policy, rule, ..self.query.clone() });
+        self.replace_position(table, layout, cue_ball, CoachQuery { policy, rule, ..self.query.clone() });
         self.message = Some(Message::plain(format!("the balls of the exercise{its_rule}; Enter asks the coach")));
     }
 
@@ -375,9 +375,9 @@ impl CoachPage {
     }
 
     /// Puts balls on a table and sets the query, as one undoable step.
-    fn take(&mut self, table: &Table, layout: Layout, cue_ball: CueBall, query: CoachQuery) {
+    fn replace_position(&mut self, table: &Table, layout: Layout, cue_ball: CueBall, query: CoachQuery) {
         self.cancel();
-        self.drop_ball();
+        self.end_drag();
         let known = &self.history.present().table;
         let table = if **known == *table { Arc::clone(known) } else { Arc::new(table.clone()) };
         let terms = Some([self.query.terms(), query.terms()]).filter(|[before, after]| before != after);
@@ -402,16 +402,16 @@ impl CoachPage {
     }
 
     /// The advice on the current layout, if it answers the current query.
-    pub fn advised(&self) -> Option<&AdviceState> {
+    pub fn current_advice(&self) -> Option<&AdviceState> {
         self.history.present().advised.iter().find(|advised| advised.query == self.query)
     }
 
     /// The advice that is displayed; `None` while the coach searches.
-    pub fn shown(&self) -> Option<&AdviceState> {
-        self.advised().filter(|_| self.pending.is_none())
+    pub fn displayed_advice(&self) -> Option<&AdviceState> {
+        self.current_advice().filter(|_| self.pending.is_none())
     }
 
-    fn advised_mut(&mut self) -> Option<&mut AdviceState> {
+    fn current_advice_mut(&mut self) -> Option<&mut AdviceState> {
         let query = &self.query;
         self.history.present_mut().advised.iter_mut().find(|advised| advised.query == *query)
     }
@@ -419,8 +419,8 @@ impl CoachPage {
     /// The displayed shot of the coach: the best so far while it thinks, else the chosen one of its advice.
     pub fn proposal(&self) -> Option<&Proposal> {
         let pending = self.pending.as_ref().filter(|pending| pending.query == self.query);
-        let so_far = pending.and_then(|pending| pending.so_far.as_ref());
-        so_far.or_else(|| self.advised().map(|advised| &advised.choice().proposal))
+        let so_far = pending.and_then(|pending| pending.best_so_far.as_ref());
+        so_far.or_else(|| self.current_advice().map(|advised| &advised.choice().proposal))
     }
 
     /// The panel to display: the chosen one, or the ball positions if there is no shot and no search.
@@ -468,11 +468,11 @@ impl CoachPage {
 
     /// Frame number of the spinner; `None` if the coach is not thinking.
     pub fn spinner(&self) -> Option<usize> {
-        self.pending.as_ref().map(|pending| (pending.waited / SPINNER_INTERVAL) as usize)
+        self.pending.as_ref().map(|pending| (pending.elapsed / SPINNER_INTERVAL) as usize)
     }
 
     /// Handles the loss of the coach's worker thread, and with it of the pending answer.
-    pub fn lost(&mut self) {
+    pub fn handle_worker_loss(&mut self) {
         if self.pending.take().is_some() {
             self.message = Some(Message::warning("the coach has failed; quit and start again to ask it"));
         }

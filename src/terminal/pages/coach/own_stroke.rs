@@ -18,41 +18,41 @@ use crate::{
 };
 
 /// Number of simulated attempts at the player's own stroke, if the coach's shot was not judged because the search was stopped.
-const JUDGED: usize = 500;
+const DEFAULT_TRIALS: usize = 500;
 
 /// Minimum number of simulated attempts if the coach's shot was judged.
-const LEAST: usize = 100;
+const MIN_TRIALS: usize = 100;
 
 /// The player's own stroke, next to the coach's if there is one.
 #[derive(Debug)]
-pub struct Own {
+pub struct OwnStrokeState {
     stroke: OwnStroke,
     pub(super) what_if: WhatIf,
     /// The table, layout and query to which the stroke belongs.
-    about: (Arc<Table>, Layout, CoachQuery),
+    context: (Arc<Table>, Layout, CoachQuery),
     /// Number of the player's own strokes that were played one after the other to reach this layout.
-    played_on: usize,
+    own_strokes_played: usize,
 }
 
 impl CoachPage {
     /// The player's own stroke; `None` if the layout, the query or the coach's displayed shot has changed since it was set.
     pub fn what_if(&self) -> Option<&WhatIf> {
-        let Own { what_if, about: (table, layout, query), .. } =
+        let OwnStrokeState { what_if, context: (table, layout, query), .. } =
             self.own_stroke.as_ref().filter(|_| self.pending.is_none())?;
         let shown = self.proposal().map(|proposal| Arc::as_ptr(&proposal.shot));
-        let is_here = Arc::ptr_eq(table, &self.history.present().table) && layout == self.layout();
-        let is_beside = what_if.coach.as_ref().map(Arc::as_ptr) == shown && *query == self.query;
-        (is_here && is_beside).then_some(what_if)
+        let is_same_position = Arc::ptr_eq(table, &self.history.present().table) && layout == self.layout();
+        let is_same_proposal = what_if.coach.as_ref().map(Arc::as_ptr) == shown && *query == self.query;
+        (is_same_position && is_same_proposal).then_some(what_if)
     }
 
     /// Whether a change of the stroke can be undone, and whether one can be redone.
-    pub(super) fn can_travel(&self) -> (bool, bool) {
+    pub(super) fn can_undo_redo_stroke(&self) -> (bool, bool) {
         self.own_stroke.as_ref().map_or((false, false), |own| own.stroke.can_travel())
     }
 
-    /// Starts the player's own stroke from the coach's shot, or aimed full at a ball if there is none. `played_on` is the number of own
-    /// strokes before this one.
-    pub(super) fn start_own_stroke(&mut self, played_on: usize) -> Option<Effect> {
+    /// Starts the player's own stroke from the coach's shot, or aimed full at a ball if there is none.
+    /// `own_strokes_played` is the number of own strokes before this one.
+    pub(super) fn start_own_stroke(&mut self, own_strokes_played: usize) -> Option<Effect> {
         let situation = self.situation();
         let (cue, what_if) = if let Some(coach) = self.proposal().map(|proposal| Arc::clone(&proposal.shot)) {
             (coach.cue, Ok(WhatIf::new(coach, situation)))
@@ -63,19 +63,20 @@ impl CoachPage {
         };
         match what_if {
             Ok(what_if) => {
-                let about = (Arc::clone(&self.history.present().table), *self.layout(), self.query.clone());
-                self.own_stroke = Some(Own { stroke: OwnStroke::new(cue), what_if, about, played_on });
+                let context = (Arc::clone(&self.history.present().table), *self.layout(), self.query.clone());
+                self.own_stroke =
+                    Some(OwnStrokeState { stroke: OwnStroke::new(cue), what_if, context, own_strokes_played });
             }
             Err(error) => return self.refuse(error),
         }
         self.lesson = None;
-        self.watch_from_the_stroke();
-        self.judge()
+        self.watch_from_start();
+        self.request_success_rate()
     }
 
     /// Number of the player's own strokes that led to the current layout.
-    pub(super) fn played_on(&self) -> usize {
-        self.own_stroke.as_ref().map_or(0, |own| own.played_on)
+    pub(super) fn own_strokes_played(&self) -> usize {
+        self.own_stroke.as_ref().map_or(0, |own| own.own_strokes_played)
     }
 
     /// Continues with the layout after the player's own stroke and starts the next stroke.
@@ -84,23 +85,23 @@ impl CoachPage {
         if let Err(error) = end.validate(self.table()) {
             return self.refuse(error);
         }
-        let played_on = self.played_on() + 1;
+        let own_strokes_played = self.own_strokes_played() + 1;
         self.place(end);
-        self.start_own_stroke(played_on)
+        self.start_own_stroke(own_strokes_played)
     }
 
     /// Puts the balls back to the positions before the player's last own stroke.
     pub(super) fn undo_own_stroke(&mut self) -> Option<Effect> {
-        let played_on = self.played_on().checked_sub(1)?;
+        let own_strokes_played = self.own_strokes_played().checked_sub(1)?;
         self.undo();
-        self.start_own_stroke(played_on)
+        self.start_own_stroke(own_strokes_played)
     }
 
     /// Discards the player's own stroke; the coach's shot stays unchanged.
     pub(super) fn leave_own_stroke(&mut self) {
         self.own_stroke = None;
         if self.proposal().is_some() {
-            self.watch_from_the_stroke();
+            self.watch_from_start();
         } else {
             self.reset_playback();
         }
@@ -111,7 +112,7 @@ impl CoachPage {
         let (table, layout) = (Arc::clone(&self.history.present().table), *self.layout());
         let mut stroke = self.own_stroke.as_ref()?.stroke.clone();
         match stroke.change(change, &table, &layout) {
-            Ok(()) => self.strike(stroke),
+            Ok(()) => self.simulate_stroke(stroke),
             Err(error) => self.refuse(error),
         }
     }
@@ -131,17 +132,17 @@ impl CoachPage {
         let Some(own) = &self.own_stroke else { return Ok(None) };
         let mut stroke = own.stroke.clone();
         stroke.say(words, &table, &layout, cue_ball).map_err(|error| error.to_string())?;
-        Ok(self.strike(stroke))
+        Ok(self.simulate_stroke(stroke))
     }
 
     /// Undoes or redoes a change of the player's own stroke, as `step` does.
     pub(super) fn step_stroke_history(&mut self, step: impl Fn(&mut OwnStroke) -> bool) -> Option<Effect> {
         let mut stroke = self.own_stroke.as_ref()?.stroke.clone();
         step(&mut stroke);
-        self.strike(stroke)
+        self.simulate_stroke(stroke)
     }
 
-    fn strike(&mut self, stroke: OwnStroke) -> Option<Effect> {
+    fn simulate_stroke(&mut self, stroke: OwnStroke) -> Option<Effect> {
         let mut own = self.own_stroke.take()?;
         let struck = own.what_if.strike(stroke.cue(), self.situation());
         if struck.is_ok() {
@@ -151,21 +152,21 @@ impl CoachPage {
         if let Err(error) = struck {
             return self.refuse(error);
         }
-        self.watch_from_the_stroke();
-        self.judge()
+        self.watch_from_start();
+        self.request_success_rate()
     }
 
     /// Requests the success rate of the player's current stroke. The simulated errors are those with which the coach's shot was
     /// judged (common random numbers), so that two strokes differ by themselves and not by luck. A player without errors needs no
     /// request.
-    fn judge(&mut self) -> Option<Effect> {
+    fn request_success_rate(&mut self) -> Option<Effect> {
         if self.query.skill.is_perfect() {
             return None;
         }
         let cue = self.own_stroke.as_ref()?.what_if.shot.cue;
         let judged = self.proposal().filter(|coach| !coach.is_early).and_then(|coach| coach.made);
-        let attempts = judged.map_or(JUDGED, |made| made.trials.max(LEAST));
-        let advised = self.advised().map(|advised| (advised.seed, advised.judged_from()));
+        let attempts = judged.map_or(DEFAULT_TRIALS, |made| made.trials.max(MIN_TRIALS));
+        let advised = self.current_advice().map(|advised| (advised.seed, advised.judged_from()));
         let job = self.job(None);
         let (seed, from) = advised.unwrap_or((job.seed, 0));
         let cancel = self.own_stroke.as_mut()?.what_if.ask(job.id);
@@ -189,7 +190,7 @@ mod tests {
     use std::sync::atomic::Ordering;
 
     /// Returns a page with the opening position and the coach's shot on it.
-    fn advised() -> CoachPage {
+    fn page_with_advice() -> CoachPage {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let mut page = CoachPage::new(table.clone(), layout, 1).unwrap();
@@ -204,22 +205,22 @@ mod tests {
     }
 
     /// Performs an action and returns the job about the own stroke that it requests.
-    fn asked(page: &mut CoachPage, action: Action) -> Box<CoachJob> {
+    fn own_stroke_job(page: &mut CoachPage, action: Action) -> Box<CoachJob> {
         match page.update(action) {
             Some(Effect::Ask(job)) if job.stroke.is_some() => job,
             other => panic!("{action:?}: {other:?}"),
         }
     }
 
-    const HARDER: Action = Action::Stroke(StrokeChange::Faster(0.1));
+    const HARDER: Action = Action::ChangeStroke(StrokeChange::Faster(0.1));
 
     #[test]
-    fn each_change_asks_once_how_often_the_stroke_is_made_and_late_answers_are_dropped() {
-        let mut page = advised();
-        let first = asked(&mut page, Action::WhatIf);
+    fn stroke_change_requests_one_success_rate_and_drops_late_answers() {
+        let mut page = page_with_advice();
+        let first = own_stroke_job(&mut page, Action::WhatIf);
         let (cue, attempts) = first.stroke.clone().unwrap();
         assert_eq!((Some(cue), attempts), (page.shot().map(|shot| shot.cue), 0..1000));
-        let second = asked(&mut page, HARDER);
+        let second = own_stroke_job(&mut page, HARDER);
         assert!(first.cancel.load(Ordering::Relaxed) && !second.cancel.load(Ordering::Relaxed));
         assert!((second.stroke.as_ref().unwrap().0.speed - 2.6).abs() < 1e-9);
         let tell = |page: &mut CoachPage, id: u64, made| {
@@ -233,26 +234,26 @@ mod tests {
     }
 
     #[test]
-    fn the_coachs_shot_is_as_before_once_the_stroke_is_left_and_is_studied_again() {
-        let mut page = advised();
+    fn leaving_own_stroke_restores_and_analyses_the_coachs_shot() {
+        let mut page = page_with_advice();
         let coach = Arc::clone(page.shot().unwrap());
-        asked(&mut page, Action::WhatIf);
-        asked(&mut page, HARDER);
-        asked(&mut page, HARDER);
-        asked(&mut page, Action::StrokeBack);
+        own_stroke_job(&mut page, Action::WhatIf);
+        own_stroke_job(&mut page, HARDER);
+        own_stroke_job(&mut page, HARDER);
+        own_stroke_job(&mut page, Action::UndoStroke);
         assert_eq!(page.shot().unwrap().cue, coach.cue, "one input changed twice is one step back");
-        assert_eq!(page.can_travel(), (false, true));
-        asked(&mut page, Action::StrokeAgain);
+        assert_eq!(page.can_undo_redo_stroke(), (false, true));
+        own_stroke_job(&mut page, Action::RedoStroke);
         let Some(Effect::Ask(study)) = page.update(Action::LeaveStroke) else { panic!("the study goes on") };
         assert_eq!((study.shot, study.stroke), (Some(coach.cue), None));
         assert!(page.what_if().is_none() && Arc::ptr_eq(page.shot().unwrap(), &coach));
     }
 
     #[test]
-    fn a_stroke_beside_a_shot_that_is_no_longer_shown_is_forgotten() {
-        let mut page = advised();
-        asked(&mut page, Action::WhatIf);
-        page.take_skill(crate::coach::Skill::CLUB);
+    fn own_stroke_is_discarded_when_its_shot_is_hidden() {
+        let mut page = page_with_advice();
+        own_stroke_job(&mut page, Action::WhatIf);
+        page.set_skill(crate::coach::Skill::CLUB);
         assert!(page.what_if().is_none() && page.shot().is_none());
         page.update(Action::NextInfoPanel);
         assert!(page.own_stroke.is_none());

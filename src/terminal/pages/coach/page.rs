@@ -39,7 +39,7 @@ impl Page for CoachPage {
 
     fn tick(&mut self, seconds: f64) {
         if let Some(pending) = &mut self.pending {
-            pending.waited += seconds;
+            pending.elapsed += seconds;
         }
         if let Some(duration) = self.shot().map(|shot| shot.recording.duration()) {
             self.playback.tick(seconds, duration);

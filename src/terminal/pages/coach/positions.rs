@@ -11,18 +11,18 @@ use crate::{
 };
 
 /// Maximum length of a typed or pasted text, bytes: a share code with room to spare.
-const LONGEST: usize = 600;
+const MAX_TEXT_LENGTH: usize = 600;
 
 impl CoachPage {
     /// Asks the user for ball positions.
     pub(super) fn ask_positions(&mut self) {
         self.playback.pause();
-        self.question = Some(Question::Positions(TextField::new(LONGEST)));
+        self.question = Some(Question::Positions(TextField::new(MAX_TEXT_LENGTH)));
     }
 
     /// Puts the balls in the pasted positions.
     pub(super) fn paste(&mut self, text: &str) {
-        if let Err(sentence) = self.take_typed(text) {
+        if let Err(sentence) = self.apply_positions(text) {
             // The paste may be an accident, so there is no question that asks for a correction.
             self.message = Some(Message::warning(format!("pasted text not used: {sentence}")));
         }
@@ -32,14 +32,15 @@ impl CoachPage {
     ///
     /// # Errors
     /// Returns a message if the text contains no possible position.
-    pub(super) fn take_typed(&mut self, text: &str) -> Result<(), String> {
+    pub(super) fn apply_positions(&mut self, text: &str) -> Result<(), String> {
         // A longer text is neither positions nor a share code. It is cut so that an error message cannot repeat all of it.
-        let end = (0..=LONGEST.min(text.len())).rev().find(|end| text.is_char_boundary(*end)).unwrap_or_default();
+        let end =
+            (0..=MAX_TEXT_LENGTH.min(text.len())).rev().find(|end| text.is_char_boundary(*end)).unwrap_or_default();
         let text = text[..end].trim();
         if is_code(text) {
             let exercise = decode(text).map_err(|error| error.to_string())?;
             let table = exercise.table().map_err(|error| error.to_string())?;
-            self.take_position(&table, exercise.layout, exercise.rule, CueBall::White);
+            self.set_position(&table, exercise.layout, exercise.rule, CueBall::White);
             self.message = Some(Message::good(format!("the balls of \"{}\"; Enter asks the coach", exercise.title)));
             return Ok(());
         }

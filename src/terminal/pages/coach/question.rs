@@ -57,10 +57,10 @@ impl Question {
 
 impl CoachPage {
     /// Performs what the open question asked about. If the typed text is not valid, the question stays open for a correction.
-    pub(super) fn yes(&mut self) -> Option<Effect> {
+    pub(super) fn accept_answer(&mut self) -> Option<Effect> {
         let question = self.question.take()?;
         let done = match &question {
-            Question::Positions(typed) => self.take_typed(typed.text()).map(|()| None),
+            Question::Positions(typed) => self.apply_positions(typed.text()).map(|()| None),
             Question::Stroke(typed) => self.set_stroke_in_words(typed.text()),
             Question::Title(typed, position) => {
                 named(typed.text(), position).map(|exercise| Some(self.save(exercise, false)))

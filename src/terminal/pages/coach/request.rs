@@ -22,20 +22,20 @@ use crate::{
 
 /// A request that the coach has not answered yet.
 #[derive(Debug)]
-pub struct Pending {
+pub struct PendingRequest {
     id: u64,
     cancel: Arc<AtomicBool>,
     /// The query of this request. The page's query may have changed since then.
     pub query: CoachQuery,
     /// Time since the request, s.
-    pub waited: f64,
+    pub elapsed: f64,
     /// The best shot so far.
-    pub so_far: Option<Proposal>,
+    pub best_so_far: Option<Proposal>,
 }
 
 /// A background analysis of a shot that is running.
 #[derive(Debug)]
-pub struct Studying {
+pub struct RunningAnalysis {
     id: u64,
     cancel: Arc<AtomicBool>,
     shot: Arc<Shot>,
@@ -44,11 +44,11 @@ pub struct Studying {
 impl CoachPage {
     pub(super) fn ask(&mut self) -> Effect {
         self.playback.pause();
-        let former = self.advised().into_iter().flat_map(|advised| &advised.choices);
+        let former = self.current_advice().into_iter().flat_map(|advised| &advised.choices);
         let former = former.map(|choice| choice.proposal.shot.cue).collect();
         let job = CoachJob { former, ..self.job(None) };
         let (cancel, query) = (Arc::clone(&job.cancel), job.query.clone());
-        self.pending = Some(Pending { id: job.id, cancel, query, waited: 0.0, so_far: None });
+        self.pending = Some(PendingRequest { id: job.id, cancel, query, elapsed: 0.0, best_so_far: None });
         Effect::Ask(Box::new(job))
     }
 
@@ -74,7 +74,7 @@ impl CoachPage {
         let Some(pending) = self.pending.take() else { return };
         pending.cancel.store(true, Ordering::Relaxed);
         let mut words = "the coach has stopped thinking".to_owned();
-        if let Some(so_far) = pending.so_far {
+        if let Some(so_far) = pending.best_so_far {
             if pending.query == self.query {
                 words += "; this is the best shot so far";
             }
@@ -87,12 +87,12 @@ impl CoachPage {
     pub fn receive(&mut self, answer: CoachAnswer) -> Option<Effect> {
         let names = self.cue_ball().names();
         let awaited = self.pending.as_mut().filter(|pending| pending.id == answer.id);
-        let is_study = self.studying.as_ref().is_some_and(|studying| studying.id == answer.id);
+        let is_study = self.running_analysis.as_ref().is_some_and(|running_analysis| running_analysis.id == answer.id);
         match (answer.news, awaited) {
             (CoachNews::Better(proposal), Some(pending)) => {
-                pending.so_far = Some(proposal);
+                pending.best_so_far = Some(proposal);
                 if pending.query == self.query {
-                    self.watch_from_the_stroke();
+                    self.watch_from_start();
                 }
             }
             (CoachNews::Advice(advice), Some(pending)) => {
@@ -129,7 +129,7 @@ impl CoachPage {
                 if let Some((_, choice)) = self.studied() {
                     (choice.next, choice.is_studied) = (next, true);
                 }
-                self.studying = None;
+                self.running_analysis = None;
             }
             _ => {}
         }
@@ -140,15 +140,15 @@ impl CoachPage {
     /// The shot under analysis, and the explanation of its advice's ranking, for storing results. Another shot may be displayed by now.
     /// `None` if the advice no longer exists.
     fn studied(&mut self) -> Option<(&mut Option<Why>, &mut Choice)> {
-        let shot = &self.studying.as_ref()?.shot;
+        let shot = &self.running_analysis.as_ref()?.shot;
         self.history.present_mut().advised.iter_mut().find_map(|AdviceState { why, choices, .. }| {
             Some((why, choices.iter_mut().find(|choice| Arc::ptr_eq(&choice.proposal.shot, shot))?))
         })
     }
 
     /// Whether the message contains nothing but the success rate of the first shot.
-    pub(super) fn is_bare_chance(&self, message: &Message) -> bool {
-        let best = self.advised().and_then(|advised| advised.choices.first());
+    pub(super) fn is_only_success_rate(&self, message: &Message) -> bool {
+        let best = self.current_advice().and_then(|advised| advised.choices.first());
         let chance = best.and_then(|choice| chance(&choice.proposal, &self.query));
         chance.is_some_and(|chance| message.text == made_words(&self.query, &chance))
     }
@@ -160,11 +160,11 @@ impl CoachPage {
         advised.retain(|known| known.query != query);
         advised.extend(AdviceState::new(query, advice));
         if is_asked {
-            self.watch_from_the_stroke();
+            self.watch_from_start();
         }
     }
 
-    pub(super) fn watch_from_the_stroke(&mut self) {
+    pub(super) fn watch_from_start(&mut self) {
         self.playback.jump(0.0);
         self.mode = Mode::Watching;
     }
@@ -172,27 +172,27 @@ impl CoachPage {
     /// Starts the background analysis of the displayed shot, if it is incomplete, and cancels the analysis of any other shot. While the
     /// player has an own stroke, no analysis runs.
     pub fn study(&mut self) -> Option<Effect> {
-        let advised = self.advised().filter(|_| self.pending.is_none() && self.own_stroke.is_none());
+        let advised = self.current_advice().filter(|_| self.pending.is_none() && self.own_stroke.is_none());
         let wanted = advised.map(AdviceState::choice).filter(|choice| !choice.is_studied);
         let wanted = wanted.map(|choice| Arc::clone(&choice.proposal.shot));
-        if let (Some(studying), Some(shot)) = (&self.studying, &wanted)
-            && Arc::ptr_eq(&studying.shot, shot)
+        if let (Some(running_analysis), Some(shot)) = (&self.running_analysis, &wanted)
+            && Arc::ptr_eq(&running_analysis.shot, shot)
         {
             return None;
         }
-        if let Some(old) = self.studying.take() {
+        if let Some(old) = self.running_analysis.take() {
             old.cancel.store(true, Ordering::Relaxed);
         }
         let shot = wanted?;
-        let found = self.advised().and_then(AdviceState::unexplained).cloned();
+        let found = self.current_advice().and_then(AdviceState::unexplained_search).cloned();
         let job = CoachJob { found, ..self.job(Some(shot.cue)) };
-        self.studying = Some(Studying { id: job.id, cancel: Arc::clone(&job.cancel), shot });
+        self.running_analysis = Some(RunningAnalysis { id: job.id, cancel: Arc::clone(&job.cancel), shot });
         Some(Effect::Ask(Box::new(job)))
     }
 
     pub(super) fn choose(&mut self, choose: impl FnOnce(&mut AdviceState)) {
         let names = self.cue_ball().names();
-        if let Some(advised) = self.advised_mut() {
+        if let Some(advised) = self.current_advice_mut() {
             choose(advised);
             let words = format!("shot {} of {}", advised.chosen + 1, advised.choices.len());
             let proposal = &advised.choice().proposal;
@@ -203,11 +203,11 @@ impl CoachPage {
             });
         }
         self.leave_example();
-        self.watch_from_the_stroke();
+        self.watch_from_start();
     }
 
     pub(super) fn continue_from_end(&mut self) -> Option<Effect> {
-        let choice = self.advised()?.choice();
+        let choice = self.current_advice()?.choice();
         let (end, next) = (choice.proposal.shot.recording.final_layout(), choice.next.clone());
         if let Err(error) = end.validate(self.table()) {
             return self.refuse(error);
@@ -243,8 +243,8 @@ impl CoachPage {
         if words.is_empty() {
             return;
         }
-        let hint = if self.shown().is_some() {
-            self.watch_from_the_stroke();
+        let hint = if self.displayed_advice().is_some() {
+            self.watch_from_start();
             "its shot is shown"
         } else if had_shot {
             "Enter asks the coach, u takes it back"

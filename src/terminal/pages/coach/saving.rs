@@ -13,27 +13,27 @@ use crate::{
 };
 
 /// The bundled table for which positions on custom tables are saved.
-const FOR_ALL: &str = "match";
+const FALLBACK_TABLE: &str = "match";
 
 /// Maximum length of a name that is derived from a title, characters.
-const LONGEST_NAME: usize = 40;
+const MAX_NAME_LENGTH: usize = 40;
 
 impl CoachPage {
     /// Asks for the title of the current position. The position includes the displayed shot if that makes the point. Positions can be
-    /// shared, so one on a custom table is saved for [`FOR_ALL`], without the shot, which is different there.
+    /// shared, so one on a custom table is saved for [`FALLBACK_TABLE`], without the shot, which is different there.
     pub(super) fn ask_title(&mut self) {
         self.playback.pause();
         let shot = self.shot().filter(|shot| shot.solved).map(|shot| shot.cue);
         let on = |table: &str| Exercise::new_own("", self.query.rule, table, *self.layout());
         let here = Exercise { shot, ..on(&self.table().name) };
         let is_bundled = here.table().is_ok_and(|known| known == *self.table());
-        let position = if is_bundled { here } else { on(FOR_ALL) };
+        let position = if is_bundled { here } else { on(FALLBACK_TABLE) };
         if position.table().is_ok() {
             self.question = Some(Question::Title(TextField::new(MAX_TITLE_BYTES), Box::new(position)));
         } else {
             let name = &self.table().name;
             let words = format!(
-                "a position of your own table \"{name}\" is saved for \"{FOR_ALL}\", where these balls cannot lie"
+                "a position of your own table \"{name}\" is saved for \"{FALLBACK_TABLE}\", where these balls cannot lie"
             );
             self.message = Some(Message::warning(words));
         }
@@ -96,7 +96,7 @@ fn title_name_tags(typed: &str) -> Result<(String, String, Vec<String>), String>
             _ => {}
         }
     }
-    let name: String = name.chars().take(LONGEST_NAME).collect();
+    let name: String = name.chars().take(MAX_NAME_LENGTH).collect();
     let name = name.trim_end_matches('-').to_owned();
     if !is_name(&name) {
         return Err(format!("\"{title}\" gives no name; use letters or digits"));
@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_title_makes_a_name_that_is_accepted_and_tags_are_told_from_it() {
+    fn title_gives_valid_name_and_tags_are_split_off() {
         let (title, name, tags) = title_name_tags("  Draw to the #draw  corner, (hard!)  #club #").unwrap();
         assert_eq!((title.as_str(), name.as_str()), ("Draw to the corner, (hard!)", "draw-to-the-corner-hard"));
         assert_eq!(tags, ["draw", "club"]);

@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// Prefix of the status line while the table is shared.
-const SHOWN: &str = "shown to others";
+const SHARED_PREFIX: &str = "shown to others";
 
 /// Sharing state of the table.
 #[derive(Debug)]
@@ -25,12 +25,12 @@ pub enum Sharing {
     /// The table is shared with spectators.
     Shared,
     /// The page shows the table of another player, read-only.
-    Following(Followed),
+    Following(FollowedPlayer),
 }
 
 /// Another player whose table this page shows.
 #[derive(Debug)]
-pub struct Followed {
+pub struct FollowedPlayer {
     /// The other player's name.
     pub name: String,
     /// The folder in which the other player's program writes the shared table.
@@ -39,14 +39,14 @@ pub struct Followed {
     seen: Seen,
 }
 
-impl Followed {
+impl FollowedPlayer {
     /// Creates the state before the shared table has been read.
     pub const fn new(name: String, folder: PathBuf) -> Self {
         Self { name, folder, seen: Seen::Nothing }
     }
 
     /// The reason why there is no table to show; `None` if there is one.
-    pub fn emptiness(&self) -> Option<String> {
+    pub fn empty_reason(&self) -> Option<String> {
         let name = &self.name;
         match &self.seen {
             Seen::Nothing => {
@@ -58,7 +58,7 @@ impl Followed {
     }
 
     /// A sentence on what the other player is doing; `None` if the displayed shot makes that clear.
-    pub fn doing(&self) -> Option<String> {
+    pub fn activity_words(&self) -> Option<String> {
         let Seen::Table(seen) = &self.seen else { return None };
         let name = &self.name;
         match seen.shown.doing {
@@ -72,7 +72,7 @@ impl Followed {
 
 impl CoachPage {
     /// The player whose table this page follows; `None` if the table is the user's own.
-    pub const fn followed(&self) -> Option<&Followed> {
+    pub const fn followed(&self) -> Option<&FollowedPlayer> {
         match &self.sharing {
             Sharing::Following(followed) => Some(followed),
             _ => None,
@@ -80,21 +80,21 @@ impl CoachPage {
     }
 
     /// Whether the table is shared with spectators.
-    const fn is_shown(&self) -> bool {
+    const fn is_shared(&self) -> bool {
         matches!(self.sharing, Sharing::Shared)
     }
 
     /// Starts or stops sharing the table with spectators.
     pub(super) fn toggle_sharing(&mut self) {
-        self.sharing = if self.is_shown() { Sharing::Private } else { Sharing::Shared };
-        self.message = Some(match (&self.player, self.is_shown()) {
+        self.sharing = if self.is_shared() { Sharing::Private } else { Sharing::Shared };
+        self.message = Some(match (&self.player, self.is_shared()) {
             (Some(player), true) => Message::plain(format!("carom follow {player} shows this table")),
             _ => Message::plain("others can no longer see this table"),
         });
     }
 
     /// Stops sharing the table.
-    pub fn hide(&mut self) {
+    pub fn stop_sharing(&mut self) {
         self.sharing = Sharing::Private;
         // The message may say that the table is shared.
         self.message = None;
@@ -102,8 +102,8 @@ impl CoachPage {
 
     /// The state that spectators see; `None` if the table is not shared. `is_open` tells whether this page is the open one; otherwise
     /// spectators see the table as the player has left it.
-    pub fn shown_table(&self, is_open: bool) -> Option<ShownTable> {
-        if !self.is_shown() {
+    pub fn shared_table(&self, is_open: bool) -> Option<ShownTable> {
+        if !self.is_shared() {
             return None;
         }
         let doing = match self.mode {
@@ -114,10 +114,10 @@ impl CoachPage {
         };
         let CoachQuery { rule, skill, .. } = self.query;
         let shown = ShownTable::new(doing, self.table().clone(), *self.layout(), rule, skill);
-        Some(ShownTable { cue_ball: self.cue_ball(), selected: self.selected, shot: self.shown_shot(), ..shown })
+        Some(ShownTable { cue_ball: self.cue_ball(), selected: self.selected, shot: self.shared_shot(), ..shown })
     }
 
-    fn shown_shot(&self) -> Option<ShownShot> {
+    fn shared_shot(&self) -> Option<ShownShot> {
         let (shot, made, author) = if let Some(own) = self.what_if() {
             (&own.shot, own.made, Author::Player)
         } else {
@@ -137,26 +137,26 @@ impl CoachPage {
     }
 
     /// The message of the status line, with a prefix while the table is shared.
-    pub(super) fn marked(&self, message: Message) -> Message {
-        if self.is_shown() { message.prefixed(SHOWN) } else { message }
+    pub(super) fn with_sharing_prefix(&self, message: Message) -> Message {
+        if self.is_shared() { message.prefixed(SHARED_PREFIX) } else { message }
     }
 
     /// Switches the page to the shared table of another player.
     pub fn follow(&mut self, name: String, folder: PathBuf) {
-        self.sharing = Sharing::Following(Followed::new(name, folder));
+        self.sharing = Sharing::Following(FollowedPlayer::new(name, folder));
     }
 
     /// Handles a new state of the followed table.
-    pub fn see(&mut self, seen: Seen) {
+    pub fn receive_shared(&mut self, seen: Seen) {
         let Sharing::Following(followed) = &mut self.sharing else { return };
         followed.seen = seen.clone();
         self.playback.pause();
         if let Seen::Table(seen) = seen {
-            self.see_table(*seen);
+            self.show_shared_table(*seen);
         }
     }
 
-    fn see_table(&mut self, seen: SeenTable) {
+    fn show_shared_table(&mut self, seen: SeenTable) {
         let SeenTable { shown, age, shot } = seen;
         self.query = CoachQuery { rule: shown.rule, skill: shown.skill, ..self.query.clone() };
         self.selected = shown.selected;
@@ -164,16 +164,16 @@ impl CoachPage {
         let mut snapshot = Snapshot { cue_ball: shown.cue_ball, ..Snapshot::new(table, shown.layout) };
         self.mode = Mode::Placing;
         self.playback.jump(0.0);
-        if let Some((shot, shown_shot)) = shot.zip(shown.shot) {
+        if let Some((shot, shared_shot)) = shot.zip(shown.shot) {
             if shown.doing != Doing::Placing {
                 self.mode = Mode::Watching;
             }
-            self.playback.set_speed(shown_shot.speed);
+            self.playback.set_speed(shared_shot.speed);
             let duration = shot.recording.duration();
-            let time = if shown_shot.over { duration } else { shown_shot.time_after(age) };
-            self.playback.follow(time, duration, shown_shot.playing);
-            let made = shown_shot.made.map(|(made, of)| SuccessRate::new(made, of));
-            let is_early = shown_shot.author == Author::Search;
+            let time = if shared_shot.over { duration } else { shared_shot.time_after(age) };
+            self.playback.follow(time, duration, shared_shot.playing);
+            let made = shared_shot.made.map(|(made, of)| SuccessRate::new(made, of));
+            let is_early = shared_shot.author == Author::Search;
             let proposal = Proposal { shot, made, risk: None, next: None, is_early };
             let advice = Advice { proposals: vec![proposal], seed: 1, effort: None, found: None };
             snapshot.advised.extend(AdviceState::new(self.query.clone(), advice));

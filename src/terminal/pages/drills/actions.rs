@@ -8,7 +8,8 @@ use crate::{
         pages::{
             Page,
             drills::{
-                Balls, DrillsPage, Question, RepetitionOptions, Turn, question::LONGEST, turn_actions::tasks_effect,
+                DrillsPage, Question, RepetitionOptions, TransferredPosition, Turn, question::MAX_TEXT_LENGTH,
+                turn_actions::tasks_effect,
             },
         },
         ui::{Message, TextField},
@@ -24,14 +25,16 @@ impl DrillsPage {
             DrillCondition::Always => None,
             DrillCondition::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; 0 lists all"),
             DrillCondition::MarkedOwn => {
-                refuse(!self.catalogue.is_own(), "bundled exercises cannot be removed, only my positions")
+                refuse(!self.catalogue.is_own_marked(), "bundled exercises cannot be removed, only my positions")
             }
             DrillCondition::Filtered => refuse(!self.catalogue.is_filtered(), "everything is listed"),
-            DrillCondition::Sought => refuse(!self.catalogue.is_searching(), "no words are looked for"),
-            DrillCondition::NotSought => refuse(self.catalogue.is_searching(), "Esc ends the search first"),
-            DrillCondition::OfExercise => refuse(self.records.exercise.is_none(), "this record is of all exercises"),
-            DrillCondition::Filmed => refuse(self.film.played().is_none(), "there is no filmed shot on the table yet"),
-            DrillCondition::Estimated => {
+            DrillCondition::Searching => refuse(!self.catalogue.is_searching(), "no words are looked for"),
+            DrillCondition::NotSearching => refuse(self.catalogue.is_searching(), "Esc ends the search first"),
+            DrillCondition::OpenedFromExercise => {
+                refuse(self.records.exercise.is_none(), "this record is of all exercises")
+            }
+            DrillCondition::HasFilm => refuse(self.film.played().is_none(), "there is no filmed shot on the table yet"),
+            DrillCondition::HasEstimate => {
                 refuse(self.records.skill().is_none(), "there is no estimate of your skill yet")
             }
             _ => match &self.turn {
@@ -45,46 +48,46 @@ impl DrillsPage {
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
             Action::Back => self.back(),
-            Action::Line(lines) if self.page() == DrillContext::Record => {
+            Action::MoveMark(lines) if self.page() == DrillContext::Record => {
                 let all = self.book.sessions_of(self.records.scope()).len();
                 self.records.scroll(lines, all);
             }
-            Action::Line(lines) if self.page() == DrillContext::Films => self.film.move_mark(lines),
-            Action::Line(lines) => self.catalogue.move_mark(lines),
+            Action::MoveMark(lines) if self.page() == DrillContext::Films => self.film.move_mark(lines),
+            Action::MoveMark(lines) => self.catalogue.move_mark(lines),
             Action::OpenFilms => self.open_films(),
             Action::Open if self.page() == DrillContext::Films => return self.open_film(0),
-            Action::Filmed(shots) => return self.open_film(shots),
-            Action::Playback(key) if self.page() == DrillContext::Film => self.film.watch(key),
-            Action::Category(step) => self.catalogue.choose_category(step),
-            Action::Grade(grade) => self.catalogue.choose_grade(grade),
-            Action::All if self.catalogue.elsewhere() > 0 => self.catalogue.search_everywhere(),
-            Action::All => self.catalogue.show_all(),
+            Action::CycleFilm(shots) => return self.open_film(shots),
+            Action::Playback(key) if self.page() == DrillContext::Film => self.film.apply_playback_key(key),
+            Action::CycleCategory(step) => self.catalogue.choose_category(step),
+            Action::ToggleGrade(grade) => self.catalogue.choose_grade(grade),
+            Action::ShowAll if self.catalogue.matches_elsewhere() > 0 => self.catalogue.search_everywhere(),
+            Action::ShowAll => self.catalogue.show_all(),
             Action::ClearSearch => self.catalogue.search(""),
             Action::Search => {
                 let marked = self.catalogue.marked().map(|exercise| exercise.name.clone()).unwrap_or_default();
                 let before = self.catalogue.search_text();
-                self.question = Some(Question::Search { typed: TextField::new(LONGEST), before, marked });
+                self.question = Some(Question::Search { typed: TextField::new(MAX_TEXT_LENGTH), before, marked });
             }
             Action::Open => return self.open_marked(),
-            Action::Exam(level) => return self.begin_exam(level),
+            Action::DrawExam(level) => return self.begin_exam(level),
             Action::BeginExam => self.pages = vec![DrillContext::Library, DrillContext::Exercise],
-            Action::Record => return Some(self.open_records()),
-            Action::Scope => self.records.toggle_scope(),
-            Action::KeepSkill => {
+            Action::OpenRecord => return Some(self.open_records()),
+            Action::ToggleRecordScope => self.records.toggle_scope(),
+            Action::SaveSkill => {
                 return self.records.skill().map(|skill| Effect::Drill(vec![DrillTask::KeepSkill(skill)]));
             }
             Action::Share => return self.share(),
-            Action::Add => self.question = Some(Question::Code(TextField::new(LONGEST))),
+            Action::AddByCode => self.question = Some(Question::Code(TextField::new(MAX_TEXT_LENGTH))),
             Action::Remove => {
                 self.question = self.catalogue.marked().map(|exercise| Question::Remove(exercise.name.clone()));
             }
-            Action::Player if self.turn.is_none() => {
+            Action::NextPlayer if self.turn.is_none() => {
                 self.player.choose_next();
                 self.message = Some(Message::plain(format!("the player: {}", player_words(self.player.skill))));
             }
-            Action::ToCoach => self.send_to_coach(),
-            Action::Answer(true) => return self.yes(),
-            Action::Answer(false) => self.no(),
+            Action::SendToCoach => self.send_to_coach(),
+            Action::Answer(true) => return self.accept_answer(),
+            Action::Answer(false) => self.decline_answer(),
             other => return self.update_turn(other),
         }
         None
@@ -96,7 +99,7 @@ impl DrillsPage {
         if let Some(exam) = exam {
             exam.finish_watching();
             // An exam without attempts needs no confirmation.
-            let made = exam.newest().attempts.len();
+            let made = exam.latest_session().attempts.len();
             if made > 0 {
                 self.question = Some(Question::Leave(made, exam.session.exercises.len()));
                 return;
@@ -105,7 +108,7 @@ impl DrillsPage {
         self.pages.pop();
         self.film.playback.pause();
         if self.page() == DrillContext::Library {
-            let kept = self.turn.as_ref().filter(|turn| turn.is_under_way()).map(|turn| turn.session.goal);
+            let kept = self.turn.as_ref().filter(|turn| turn.is_in_progress()).map(|turn| turn.session.goal);
             self.leave_page();
             if let Some(goal) = kept {
                 let later = if goal.is_game() { ", c on the coach's page at the next start" } else { "" };
@@ -117,9 +120,9 @@ impl DrillsPage {
 
     /// Returns to the library, or to the coach page if the library is left too.
     fn leave_page(&mut self) {
-        let is_left = self.is_left();
+        let is_closed = self.is_closed();
         self.leave_turn();
-        if !is_left {
+        if !is_closed {
             self.pages = vec![DrillContext::Library];
         }
     }
@@ -222,7 +225,7 @@ impl DrillsPage {
     }
 
     fn send_to_coach(&mut self) {
-        let turn = self.turn.as_ref().map(|turn| Balls {
+        let turn = self.turn.as_ref().map(|turn| TransferredPosition {
             table: turn.table.clone(),
             layout: turn.layout,
             rule: turn.exercise.rule,
@@ -232,30 +235,30 @@ impl DrillsPage {
             let exercise = self.catalogue.marked()?;
             let Exercise { layout, rule, .. } = *exercise;
             let table = exercise.table_with(self.own_table.as_deref());
-            let found = table.map(|table| Balls { table, layout, rule, cue_ball: CueBall::White });
+            let found = table.map(|table| TransferredPosition { table, layout, rule, cue_ball: CueBall::White });
             Some(found.map_err(|error| error.to_string()))
         };
         match turn.map(Ok).or_else(marked) {
-            Some(Ok(found)) => self.for_coach = Some(found),
+            Some(Ok(found)) => self.position_for_coach = Some(found),
             Some(Err(sentence)) => self.message = Some(Message::warning(sentence)),
             None => {}
         }
     }
 
-    fn no(&mut self) {
+    fn decline_answer(&mut self) {
         if let Some(Question::Search { before, marked, .. }) = self.question.take() {
             self.catalogue.search(&before);
             self.catalogue.mark_named(&marked);
         }
     }
 
-    fn yes(&mut self) -> Option<Effect> {
+    fn accept_answer(&mut self) -> Option<Effect> {
         let save =
             |exercise: Box<Exercise>, replace| Some(Effect::Drill(vec![DrillTask::SavePosition(exercise, replace)]));
         let question = self.question.take()?;
         let answer = match &question {
             Question::Search { .. } => {
-                if self.catalogue.elsewhere() > 0 {
+                if self.catalogue.matches_elsewhere() > 0 {
                     self.catalogue.search_everywhere();
                 }
                 return None;
@@ -268,10 +271,12 @@ impl DrillsPage {
             Question::Replace(exercise) => return save(exercise.clone(), true),
             Question::Remove(name) => return Some(Effect::Drill(vec![DrillTask::RemovePosition(name.clone())])),
             Question::Leave(..) => {
-                self.left_exam = self.unfinished().cloned();
+                self.unfinished_exam = self.unfinished().cloned();
                 self.leave_page();
-                let kept =
-                    self.left_exam.as_ref().map(|_| "the exam is kept; c on the coach's page (F2) goes on with it");
+                let kept = self
+                    .unfinished_exam
+                    .as_ref()
+                    .map(|_| "the exam is kept; c on the coach's page (F2) goes on with it");
                 self.message = kept.map(Message::plain);
                 return None;
             }

@@ -6,7 +6,7 @@ use crate::{
         Effect,
         pages::{
             Page,
-            drills::{DrillsPage, goals::FIRST_GAME},
+            drills::{DrillsPage, goals::DEFAULT_INNINGS},
         },
     },
 };
@@ -39,11 +39,11 @@ impl DrillsPage {
         let effect = if let Some(left) = left {
             Some(Effect::Drill(self.practise(left)))
         } else if let Some(left) = earlier() {
-            Some(self.resume(left, self.player.at_coach))
+            Some(self.resume(left, self.player.coach_page_skill))
         } else {
             match self.catalogue.library.get(OPENING).cloned() {
                 Ok(opening) => {
-                    Some(self.begin(Goal::Match { innings: FIRST_GAME, against_coach: true }, vec![opening]))
+                    Some(self.begin(Goal::Match { innings: DEFAULT_INNINGS, against_coach: true }, vec![opening]))
                 }
                 Err(error) => self.refuse(error),
             }

@@ -77,7 +77,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn what_is_met_first_is_what_the_coach_tells_of_the_same_stroke(
+        fn first_contact_matches_the_coachs_description(
             seed in any::<u64>(), degrees in -180.0..180.0_f64, side in -0.4..0.4_f64, raised in 0.0..30.0_f64,
         ) {
             let table = Table::default();
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn the_way_ends_where_something_is_met_and_its_dots_before() {
+    fn aim_line_ends_at_first_contact_and_dots_before_it() {
         let table = Table::default();
         let layout = Layout::parse("2d,2d 7d,3.5d 1d,0.5d", &table).unwrap();
         let cue = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 90_f64.to_radians(), speed: 3.0 };

@@ -43,7 +43,7 @@ impl Book {
     }
 
     /// Adds a session, or replaces its earlier version. A session without attempts is removed.
-    pub fn put(&mut self, session: &Session) {
+    pub fn insert(&mut self, session: &Session) {
         let known = self.sessions.iter().position(|known| known.id == session.id);
         match known {
             Some(known) if session.attempts.is_empty() => drop(self.sessions.remove(known)),
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn a_session_takes_its_own_place_and_one_without_attempts_is_none() {
+    fn session_is_replaced_in_place_and_removed_without_attempts() {
         let first = session("1", Goal::Free, "x-");
         let name = first.exercises[0].name.clone();
         let mut book = Book::new(vec![first, session("2", Goal::Free, "")], Vec::new());
@@ -96,13 +96,13 @@ mod tests {
             book.scores_of(&name).iter().map(|(_, record)| (record.made, record.tried)).collect()
         };
         assert_eq!((book.sessions.len(), score(&book)), (1, vec![(1, 2)]));
-        book.put(&session("1", Goal::Free, "x-xx"));
+        book.insert(&session("1", Goal::Free, "x-xx"));
         assert_eq!((book.sessions.len(), score(&book)), (1, vec![(3, 4)]));
         // Strokes of a game are no repetitions of the exercise.
-        book.put(&session("3", Goal::Game { innings: 9 }, "xxx"));
+        book.insert(&session("3", Goal::Game { innings: 9 }, "xxx"));
         assert_eq!((book.sessions.len(), score(&book)), (2, vec![(3, 4)]));
         assert_eq!((book.sessions_of(Some(&name)).len(), book.sessions_of(None).len()), (1, 2));
-        book.put(&session("1", Goal::Free, ""));
+        book.insert(&session("1", Goal::Free, ""));
         assert_eq!((book.sessions.len(), score(&book)), (1, vec![]));
     }
 }

@@ -25,18 +25,18 @@ impl Catalogue {
 
     /// Marks the first exercise of a rule.
     pub fn mark_first_of(&mut self, rule: Rule) {
-        self.mark = self.found().iter().position(|exercise| exercise.rule == rule).unwrap_or(0);
+        self.mark = self.filtered().iter().position(|exercise| exercise.rule == rule).unwrap_or(0);
     }
 
     /// Replaces the library. The mark stays on its exercise if the new library contains it.
-    pub fn take(&mut self, library: Library) {
+    pub fn set_library(&mut self, library: Library) {
         let marked = self.marked().map(|exercise| exercise.name.clone());
         self.library = library;
         self.mark_named(&marked.unwrap_or_default());
     }
 
     /// The exercises that are shown.
-    pub fn found(&self) -> Vec<&Exercise> {
+    pub fn filtered(&self) -> Vec<&Exercise> {
         self.library.find(&self.filter).collect()
     }
 
@@ -46,7 +46,7 @@ impl Catalogue {
     }
 
     /// Whether the marked exercise is a position that the player has saved.
-    pub fn is_own(&self) -> bool {
+    pub fn is_own_marked(&self) -> bool {
         self.marked().is_some_and(|exercise| !self.library.is_bundled(&exercise.name))
     }
 
@@ -57,7 +57,7 @@ impl Catalogue {
 
     /// Moves the mark by `lines`, downwards if positive.
     pub fn move_mark(&mut self, lines: isize) {
-        self.mark = self.mark.saturating_add_signed(lines).min(self.found().len().saturating_sub(1));
+        self.mark = self.mark.saturating_add_signed(lines).min(self.filtered().len().saturating_sub(1));
     }
 
     /// Whether a filter is active.
@@ -97,7 +97,7 @@ impl Catalogue {
     }
 
     /// Number of matches of the search in other categories and grades, if it has no match in the current list; otherwise 0.
-    pub fn elsewhere(&self) -> usize {
+    pub fn matches_elsewhere(&self) -> usize {
         let wider = Filter { text: self.filter.text.clone(), ..Filter::default() };
         if self.is_searching() && self.marked().is_none() { self.library.find(&wider).count() } else { 0 }
     }
@@ -125,7 +125,7 @@ impl Catalogue {
         let sought = text.to_lowercase();
         let is_titled = |exercise: &Exercise| exercise.title.to_lowercase().contains(&sought);
         if !self.marked().is_some_and(is_titled)
-            && let Some(titled) = self.found().into_iter().position(is_titled)
+            && let Some(titled) = self.filtered().into_iter().position(is_titled)
         {
             self.mark = titled;
         }
@@ -137,38 +137,38 @@ mod tests {
     use super::*;
 
     #[test]
-    fn categories_go_round_with_everything_between_the_last_and_the_first() {
+    fn category_cycle_includes_all_categories() {
         let mut catalogue = Catalogue::new(Library::bundled().clone());
-        let all = catalogue.found().len();
+        let all = catalogue.filtered().len();
         catalogue.choose_category(-1);
         assert_eq!(catalogue.filter.category, Some(Category::Own));
         assert!(catalogue.marked().is_none(), "nobody has saved anything");
         catalogue.move_mark(5);
         catalogue.choose_category(1);
-        assert_eq!((catalogue.found().len(), catalogue.mark), (all, 0));
+        assert_eq!((catalogue.filtered().len(), catalogue.mark), (all, 0));
         for category in Category::ALL {
             catalogue.choose_category(1);
-            assert!(catalogue.found().iter().all(|exercise| exercise.category == category));
+            assert!(catalogue.filtered().iter().all(|exercise| exercise.category == category));
         }
     }
 
     #[test]
-    fn what_is_sought_is_marked_where_a_title_has_it() {
+    fn search_marks_first_exercise_with_matching_title() {
         let mut catalogue = Catalogue::new(Library::bundled().clone());
         catalogue.search("natural");
         assert!(catalogue.marked().unwrap().title.to_lowercase().contains("natural"), "{:?}", catalogue.marked());
     }
 
     #[test]
-    fn the_mark_stays_at_its_exercise_while_the_list_changes() {
+    fn mark_stays_on_its_exercise_while_list_changes() {
         let mut catalogue = Catalogue::new(Library::bundled().clone());
         catalogue.move_mark(isize::MAX);
         let last = catalogue.marked().unwrap().clone();
-        assert_eq!(catalogue.mark + 1, catalogue.found().len());
+        assert_eq!(catalogue.mark + 1, catalogue.filtered().len());
         catalogue.search(&last.title.to_uppercase());
         assert_eq!(catalogue.marked(), Some(&last));
         catalogue.search("no such exercise");
-        assert!(catalogue.marked().is_none() && catalogue.is_filtered() && !catalogue.is_own());
+        assert!(catalogue.marked().is_none() && catalogue.is_filtered() && !catalogue.is_own_marked());
         catalogue.show_all();
         catalogue.choose_grade(last.grade);
         catalogue.choose_grade(last.grade);

@@ -69,7 +69,7 @@ impl FilmsScreen {
     }
 
     /// Applies a playback key to the watched shot.
-    pub fn watch(&mut self, key: PlaybackKey) {
+    pub fn apply_playback_key(&mut self, key: PlaybackKey) {
         if let Some(Ok(played)) = &self.played {
             self.playback.act(key, played.shot.recording.events(), played.replay.duration());
         }

@@ -3,25 +3,25 @@
 use crate::drills::Goal;
 
 /// Default length of a run in points, and of a game or match in innings.
-const FIRST_RUN: u32 = 5;
-pub(super) const FIRST_GAME: u32 = 10;
+const DEFAULT_RUN_POINTS: u32 = 5;
+pub(super) const DEFAULT_INNINGS: u32 = 10;
 /// Maximum length of a run in points, and of a game or match in innings.
-const LONGEST: u32 = 100;
+const MAX_GOAL_LENGTH: u32 = 100;
 
 /// The last length of each goal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lengths {
     /// Points of a run.
-    run: u32,
+    run_points: u32,
     /// Innings of a game.
-    game: u32,
+    game_innings: u32,
     /// Innings of a match.
-    both: u32,
+    match_innings: u32,
 }
 
 impl Default for Lengths {
     fn default() -> Self {
-        Self { run: FIRST_RUN, game: FIRST_GAME, both: FIRST_GAME }
+        Self { run_points: DEFAULT_RUN_POINTS, game_innings: DEFAULT_INNINGS, match_innings: DEFAULT_INNINGS }
     }
 }
 
@@ -29,17 +29,17 @@ impl Lengths {
     /// Returns the goal after `goal` in the cycle, with its last length.
     pub(super) fn next_goal(&mut self, goal: Goal) -> Goal {
         match goal {
-            Goal::Free => Goal::Run(self.run),
+            Goal::Free => Goal::Run(self.run_points),
             Goal::Run(points) => {
-                self.run = points;
-                Goal::Game { innings: self.game }
+                self.run_points = points;
+                Goal::Game { innings: self.game_innings }
             }
             Goal::Game { innings } => {
-                self.game = innings;
-                Goal::Match { innings: self.both, against_coach: false }
+                self.game_innings = innings;
+                Goal::Match { innings: self.match_innings, against_coach: false }
             }
             Goal::Match { innings, against_coach } => {
-                self.both = innings;
+                self.match_innings = innings;
                 if against_coach { Goal::Free } else { Goal::Match { innings, against_coach: true } }
             }
             Goal::Exam => Goal::Free,
@@ -48,8 +48,8 @@ impl Lengths {
 }
 
 /// Returns the goal with `more` points or innings added.
-pub(super) fn longer(goal: Goal, more: i32) -> Goal {
-    let counted = |count: u32| count.saturating_add_signed(more).clamp(1, LONGEST);
+pub(super) fn with_added_length(goal: Goal, more: i32) -> Goal {
+    let counted = |count: u32| count.saturating_add_signed(more).clamp(1, MAX_GOAL_LENGTH);
     match goal {
         Goal::Run(points) => Goal::Run(counted(points)),
         Goal::Game { innings } => Goal::Game { innings: counted(innings) },

@@ -24,37 +24,37 @@ pub enum DrillAction {
     /// Returns to the previous screen.
     Back,
     /// Moves the mark in a list by lines, downwards if positive.
-    Line(isize),
+    MoveMark(isize),
     /// Lists another category: the next one if positive, the one before if negative.
-    Category(isize),
+    CycleCategory(isize),
     /// Lists one grade only, or all grades again.
-    Grade(u8),
+    ToggleGrade(u8),
     /// Starts a search.
     Search,
     /// Lists everything again. If a search has no match in the list, lists its matches elsewhere.
-    All,
+    ShowAll,
     /// Ends the search.
     ClearSearch,
     /// Opens the marked exercise.
     Open,
     /// Chooses another player, whose execution errors are simulated.
-    Player,
+    NextPlayer,
     /// Draws an exam of this level and describes it.
-    Exam(u8),
+    DrawExam(u8),
     /// Begins the exam.
     BeginExam,
     /// Opens the record, of the open exercise if there is one.
-    Record,
+    OpenRecord,
     /// Shows the exercise's share code, and copies it if the terminal supports that.
     Share,
     /// Asks for a share code and adds it as an own position.
-    Add,
+    AddByCode,
     /// Asks whether to remove an own position.
     Remove,
     /// Puts the exercise's balls on the coach's table.
-    ToCoach,
+    SendToCoach,
     /// Changes the stroke.
-    Stroke(StrokeChange),
+    ChangeStroke(StrokeChange),
     /// Asks for the stroke in a player's words.
     TypeStroke,
     /// Copies the model shot into the stroke; the model shot stays on the table for comparison.
@@ -70,33 +70,33 @@ pub enum DrillAction {
     /// Opens the list of filmed shots.
     OpenFilms,
     /// Opens another filmed shot, a later one if positive.
-    Filmed(isize),
+    CycleFilm(isize),
     /// Shows the model shot, or hides it.
-    Hint,
+    ToggleHint,
     /// Turns the side view of the jump on or off.
-    TurnSideView,
+    ToggleSideView,
     /// Switches between numbers (degrees and speed) and the form of the advice for the stroke.
-    TurnNumbers,
+    ToggleNumbers,
     /// Turns the pages of a text that does not fit, forwards if positive.
-    TurnText(isize),
+    TurnTextPage(isize),
     /// Turns the shift of the balls by half a ball at each repetition on or off.
-    Shift,
+    ToggleShift,
     /// Chooses the next goal.
-    Goal,
+    NextGoal,
     /// Makes the goal longer if positive, else shorter.
-    Count(isize),
+    ChangeGoalLength(isize),
     /// Records a point (`true`) or a miss at a real table.
-    Log(bool),
+    LogAttempt(bool),
     /// Undoes the last record from a real table.
     Undo,
     /// Undoes the last change of the stroke.
-    StrokeBack,
+    UndoStroke,
     /// Redoes the last undone change of the stroke.
-    StrokeAgain,
+    RedoStroke,
     /// Switches the record between all exercises and the open one.
-    Scope,
+    ToggleRecordScope,
     /// Saves the estimated skill as the player's own.
-    KeepSkill,
+    SaveSkill,
     /// Answers the open question: `true` for yes or the typed text, `false` for no.
     Answer(bool),
 }
@@ -113,9 +113,9 @@ pub enum DrillCondition {
     /// If a filter is active.
     Filtered,
     /// If a search is active.
-    Sought,
+    Searching,
     /// If no search is active.
-    NotSought,
+    NotSearching,
     /// While the player sets the stroke.
     Aiming,
     /// While a stroke can be played, the player's or the coach's.
@@ -123,13 +123,13 @@ pub enum DrillCondition {
     /// While no stroke is being played, and no exam is under way.
     Free,
     /// As [`Self::Free`], and another session may begin: in free repetition this is after the end of the watched shot.
-    Restart,
-    /// As [`Self::Restart`], and the exercise is repeated. In a game each stroke is played from where the balls have stopped.
-    Repeated,
-    /// As [`Self::Restart`], and a point at a real table can be recorded.
-    Noted,
+    Restartable,
+    /// As [`Self::Restartable`], and the exercise is repeated. In a game each stroke is played from where the balls have stopped.
+    Repeating,
+    /// As [`Self::Restartable`], and a point at a real table can be recorded.
+    Recordable,
     /// If another session may begin and the goal has a length.
-    Counted,
+    HasGoalLength,
     /// While a shot is watched.
     Watching,
     /// While a shot is watched whose end has not been shown yet.
@@ -137,27 +137,27 @@ pub enum DrillCondition {
     /// While a shot is watched whose end has been shown.
     Ended,
     /// If the model shot is known.
-    ModelShot,
+    HasModelShot,
     /// If the model shot is known, while the player sets the stroke and no comparison is shown.
-    Adoptable,
+    ModelShotCopyable,
     /// While the model shot is compared with the stroke.
-    Compared,
+    Comparing,
     /// While there is no such comparison.
-    Alone,
+    NotComparing,
     /// If a record from a real table can be undone.
     Undoable,
     /// If the stroke was changed.
-    StrokeChanged,
+    StrokeUndoable,
     /// If the player has set a stroke. Enter also continues after a shot, and one Enter too many must not play an unaimed stroke.
-    Set,
+    StrokeSet,
     /// If an undone change of the stroke can be redone.
-    StrokeUndone,
+    StrokeRedoable,
     /// If the record was opened from the page of an exercise.
-    OfExercise,
+    OpenedFromExercise,
     /// If there is an estimate of the skill.
-    Estimated,
+    HasEstimate,
     /// If a filmed shot is on the table.
-    Filmed,
+    HasFilm,
 }
 
 /// The screens of the drill page.
@@ -204,38 +204,38 @@ const BACK: Binding<A, W> =
 #[rustfmt::skip]
 pub const LIBRARY: &[Binding<A, W>] = &[
     bind(Library, W::Marked, &[key(Enter, A::Open)], Some(("practise", 1)), "open the marked exercise"),
-    bind(Library, W::Marked, lines!(A::Line), Some(("choose", 2)), "mark another exercise").each(marks!("exercise")),
-    bind(Library, W::Always, &[key(Left, A::Category(-1)), key(Right, A::Category(1)), key(BackTab, A::Category(-1)),
-        key(Tab, A::Category(1))], Some(("category", 2)), "list another category")
+    bind(Library, W::Marked, lines!(A::MoveMark), Some(("choose", 2)), "mark another exercise").each(marks!("exercise")),
+    bind(Library, W::Always, &[key(Left, A::CycleCategory(-1)), key(Right, A::CycleCategory(1)), key(BackTab, A::CycleCategory(-1)),
+        key(Tab, A::CycleCategory(1))], Some(("category", 2)), "list another category")
         .each(&["list the category before", "list the next category"]),
     bind(Library, W::Always, &[letter('/', A::Search)], Some(("find", 1)), "find words in titles, points and tags")
         .known_as("diamonds systems banks"),
-    bind(Library, W::Filtered, &[letter('0', A::All)], Some(("all", 1)),
+    bind(Library, W::Filtered, &[letter('0', A::ShowAll)], Some(("all", 1)),
         "list everything again; where a search has found nothing in a category, what it finds in the others"),
-    bind(Library, W::Always, &[letter('e', A::Exam(1)), letter('E', A::Exam(2)), letter('X', A::Exam(3))], Some(("exam", 1)),
+    bind(Library, W::Always, &[letter('e', A::DrawExam(1)), letter('E', A::DrawExam(2)), letter('X', A::DrawExam(3))], Some(("exam", 1)),
         "an exam of 20 exercises, one attempt each: of grade 1 to 3, 2 to 4, 3 to 5").each(&[
         "an exam of grade 1 to 3: 20 exercises, one attempt each", "an exam of grade 2 to 4: 20 exercises, one attempt each",
         "an exam of grade 3 to 5: 20 exercises, one attempt each",
         ]),
-    bind(Library, W::Always, &[letter('p', A::Player)], Some(("player", 1)), "choose the player whose errors are played"),
-    bind(Library, W::Always, &[letter('r', A::Record)], Some(("record", 1)), "the record of all exercises, and the skill that it shows"),
+    bind(Library, W::Always, &[letter('p', A::NextPlayer)], Some(("player", 1)), "choose the player whose errors are played"),
+    bind(Library, W::Always, &[letter('r', A::OpenRecord)], Some(("record", 1)), "the record of all exercises, and the skill that it shows"),
     bind(Library, W::Always, &[
-        letter('1', A::Grade(1)), letter('2', A::Grade(2)), letter('3', A::Grade(3)), letter('4', A::Grade(4)),
-        letter('5', A::Grade(5)),
+        letter('1', A::ToggleGrade(1)), letter('2', A::ToggleGrade(2)), letter('3', A::ToggleGrade(3)), letter('4', A::ToggleGrade(4)),
+        letter('5', A::ToggleGrade(5)),
         ], None, "list one grade alone, 1 the easiest; once more lists all").each(&[
         "list grade 1 alone, the easiest; once more lists all", "list grade 2 alone; once more lists all",
         "list grade 3 alone; once more lists all", "list grade 4 alone; once more lists all",
         "list grade 5 alone, the hardest; once more lists all",
         ]),
-    bind(Library, W::Marked, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
+    bind(Library, W::Marked, &[letter('c', A::SendToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
     bind(Library, W::Marked, &[letter('y', A::Share)], Some(("share", 1)), "show the exercise as a code of one line, and copy it")
         .known_as("export clipboard"),
     bind(Film, W::Always, &[letter('f', A::OpenFilms)], Some(("film", 1)), "filmed shots: watch real balls beside simulated ones"),
-    bind(Library, W::Always, &[letter('a', A::Add)], Some(("add", 1)), "add a position from a code that is typed or pasted")
+    bind(Library, W::Always, &[letter('a', A::AddByCode)], Some(("add", 1)), "add a position from a code that is typed or pasted")
         .known_as("import"),
     bind(Library, W::MarkedOwn, &[letter('x', A::Remove), key(Delete, A::Remove)], None, "remove one of my positions; asks first"),
-    bind(Program, W::Sought, &[key(Esc, A::ClearSearch)], Some(("end search", 1)), "list what the search has left out again"),
-    bind(Program, W::NotSought, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before"),
+    bind(Program, W::Searching, &[key(Esc, A::ClearSearch)], Some(("end search", 1)), "list what the search has left out again"),
+    bind(Program, W::NotSearching, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before"),
 ];
 
 /// Key bindings of the search.
@@ -244,7 +244,7 @@ pub const SEARCH: &[Binding<A, W>] = &[
     bind(Library, W::Always, &[key(Enter, A::Answer(true))], Some(("choose from these", 1)),
         "choose from what is found, in all categories where this one has nothing"),
     bind(Library, W::Always, &[key(Esc, A::Answer(false))], Some(("cancel", 1)), "list what was listed before"),
-    bind(Library, W::Marked, &[key(Down, A::Line(1)), key(Up, A::Line(-1))], None, "mark another exercise")
+    bind(Library, W::Marked, &[key(Down, A::MoveMark(1)), key(Up, A::MoveMark(-1))], None, "mark another exercise")
         .each(&["mark the next exercise", "mark the exercise before"]),
 ];
 
@@ -257,7 +257,7 @@ pub const EXAM: &[Binding<A, W>] = &[
 
 /// Key bindings of an exercise.
 #[rustfmt::skip]
-pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
+pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::ChangeStroke, W::Aiming, [
     bind(Stroke, W::Running, &[key(Enter, A::Next)], Some(("to the end", 1)), "to the end of the shot"),
     bind(Stroke, W::Ended, &[key(Enter, A::Next)], Some(("next", 1)), "the next repetition, or the next exercise of an exam"),
     bind(Stroke, W::Watching, &[letter(' ', P(Toggle))], Some(("replay", 1)), "play and pause the shot"),
@@ -265,31 +265,31 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
         key(Down, P(Pace(-1))), key(Up, P(Pace(1)))], None, "play slower or faster")
         .each(&["play slower", "play faster"]),
     bind(Stroke, W::Playable, &[letter(' ', A::Play)], Some(("play", 1)), "play the stroke, with the player's errors"),
-    bind(Stroke, W::Set, &[key(Enter, A::Play)], None, "play the stroke, once it was changed"),
+    bind(Stroke, W::StrokeSet, &[key(Enter, A::Play)], None, "play the stroke, once it was changed"),
 ], [
-    bind(Stroke, W::ModelShot, &[letter('v', A::Hint)], Some(("hint", 1)),
+    bind(Stroke, W::HasModelShot, &[letter('v', A::ToggleHint)], Some(("hint", 1)),
         "show the model shot, and hide it; the attempt then counts as one with a hint"),
-    bind(Stroke, W::Adoptable, &[letter('w', A::WhatIf)], Some(("what if", 1)),
+    bind(Stroke, W::ModelShotCopyable, &[letter('w', A::WhatIf)], Some(("what if", 1)),
         "take the model shot over into your stroke, to change it and see what comes of it; the attempt then counts as one \
          with a hint").known_as("adopt compare try hint"),
-    bind(Stroke, W::Always, &[letter('i', A::TurnSideView)], None, "the jump from the side: height over way, or the table alone"),
-    bind(Stroke, W::Always, &[letter('N', A::TurnNumbers)], None,
+    bind(Stroke, W::Always, &[letter('i', A::ToggleSideView)], None, "the jump from the side: height over way, or the table alone"),
+    bind(Stroke, W::Always, &[letter('N', A::ToggleNumbers)], None,
         "your stroke in degrees and by its speed, or by the diamond and in table lengths again")
         .known_as("angle speed diamonds lengths"),
-    bind(Stroke, W::Always, &[key(PageDown, A::TurnText(1)), key(PageUp, A::TurnText(-1))], None,
+    bind(Stroke, W::Always, &[key(PageDown, A::TurnTextPage(1)), key(PageUp, A::TurnTextPage(-1))], None,
         "turn the pages of a text that is longer than its room").each(&[
         "the next page of a text that is longer than its room", "the page before of a text that is longer than its room",
         ]),
-    bind(Score, W::Noted, &[letter('m', A::Log(true)), letter('n', A::Log(false))], Some(("made/miss", 2)),
+    bind(Score, W::Recordable, &[letter('m', A::LogAttempt(true)), letter('n', A::LogAttempt(false))], Some(("made/miss", 2)),
         "note a point, a miss at a real table; nothing is played here").each(&[
         "note a point at a real table; nothing is played here", "note a miss at a real table; nothing is played here",
         ]),
     bind(Score, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last note from a real table back"),
-    bind(Score, W::Restart, &[letter('o', A::Goal)], Some(("goal", 1)),
+    bind(Score, W::Restartable, &[letter('o', A::NextGoal)], Some(("goal", 1)),
         "free repetition, a run of points, a game that plays on from where the balls stop, a match of two sides, or one against the coach"),
-    bind(Position, W::Repeated, &[letter('x', A::Shift)], Some(("shift", 1)),
+    bind(Position, W::Repeating, &[letter('x', A::ToggleShift)], Some(("shift", 1)),
         "shift the balls by half a ball at each repetition, or not"),
-    bind(Score, W::Counted, &[letter('<', A::Count(-1)), letter('>', A::Count(1))], Some(("length", 2)),
+    bind(Score, W::HasGoalLength, &[letter('<', A::ChangeGoalLength(-1)), letter('>', A::ChangeGoalLength(1))], Some(("length", 2)),
         "a shorter or longer goal").each(&["a shorter goal", "a longer goal"]),
     bind(Stroke, W::Aiming, &[letter('t', A::TypeStroke)], Some(("type", 1)),
         "type your stroke, or what changes of it, as players say it: red 1/2 right, 1.5 left, 2 up, 3 lengths")
@@ -298,15 +298,15 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::Stroke, W::Aiming, [
         key(Right, P(Event(1)))], Some(("event", 2)), "step from event to event")
         .each(&["step to the event before", "step to the next event"]),
 ], [
-    bind(Stroke, W::StrokeChanged, &[letter('z', A::StrokeBack)], None, "take the last change of the stroke back"),
-    bind(Stroke, W::StrokeUndone, &[letter('Z', A::StrokeAgain), ctrl('r', A::StrokeAgain)], None,
+    bind(Stroke, W::StrokeUndoable, &[letter('z', A::UndoStroke)], None, "take the last change of the stroke back"),
+    bind(Stroke, W::StrokeRedoable, &[letter('Z', A::RedoStroke), ctrl('r', A::RedoStroke)], None,
         "make a change of the stroke again that was taken back"),
-    bind(Position, W::Free, &[letter('c', A::ToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
-    bind(Position, W::Restart, &[letter('p', A::Player)], None, "choose the player whose errors are played"),
-    bind(Score, W::Always, &[letter('r', A::Record)], Some(("record", 1)), "the record of this exercise"),
-    bind(Program, W::Compared, &[key(Esc, A::LeaveWhatIf)], Some(("model shot off", 1)),
+    bind(Position, W::Free, &[letter('c', A::SendToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
+    bind(Position, W::Restartable, &[letter('p', A::NextPlayer)], None, "choose the player whose errors are played"),
+    bind(Score, W::Always, &[letter('r', A::OpenRecord)], Some(("record", 1)), "the record of this exercise"),
+    bind(Program, W::Comparing, &[key(Esc, A::LeaveWhatIf)], Some(("model shot off", 1)),
         "take the model shot off the table; your stroke stays as it is set"),
-    bind(Program, W::Alone, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before"),
+    bind(Program, W::NotComparing, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before"),
 ]);
 
 /// Key bindings of an exam's result.
@@ -318,9 +318,9 @@ pub const RESULT: &[Binding<A, W>] = &[
 /// Key bindings of a record.
 #[rustfmt::skip]
 pub const RECORD: &[Binding<A, W>] = &[
-    bind(Record, W::OfExercise, &[letter('a', A::Scope)], Some(("all or one", 1)), "the record of all exercises, or of this one"),
-    bind(Record, W::Estimated, &[letter('w', A::KeepSkill)], Some(("use this skill", 1)), "take the estimated skill as yours, by your notes, and play with it"),
-    bind(Record, W::Always, &[key(Down, A::Line(1)), key(Up, A::Line(-1)), key(PageDown, A::Line(10)), key(PageUp, A::Line(-10))], Some(("scroll", 2)), "earlier sessions").each(&[
+    bind(Record, W::OpenedFromExercise, &[letter('a', A::ToggleRecordScope)], Some(("all or one", 1)), "the record of all exercises, or of this one"),
+    bind(Record, W::HasEstimate, &[letter('w', A::SaveSkill)], Some(("use this skill", 1)), "take the estimated skill as yours, by your notes, and play with it"),
+    bind(Record, W::Always, &[key(Down, A::MoveMark(1)), key(Up, A::MoveMark(-1)), key(PageDown, A::MoveMark(10)), key(PageUp, A::MoveMark(-10))], Some(("scroll", 2)), "earlier sessions").each(&[
         "earlier sessions, by one line", "later sessions, by one line", "earlier sessions, by ten lines", "later sessions, by ten lines",
         ]),
     BACK,
@@ -330,21 +330,21 @@ pub const RECORD: &[Binding<A, W>] = &[
 #[rustfmt::skip]
 pub const FILMS: &[Binding<A, W>] = &[
     bind(Film, W::Always, &[key(Enter, A::Open)], Some(("watch", 1)), "watch the marked shot"),
-    bind(Film, W::Always, lines!(A::Line), Some(("choose", 2)), "mark another shot").each(marks!("shot")),
+    bind(Film, W::Always, lines!(A::MoveMark), Some(("choose", 2)), "mark another shot").each(marks!("shot")),
     BACK,
 ];
 
 /// Key bindings of a filmed shot.
 #[rustfmt::skip]
 pub const FILM: &[Binding<A, W>] = &[
-    bind(Film, W::Filmed, &[letter(' ', P(Toggle))], Some(("play", 1)), "play and pause the shot"),
-    bind(Film, W::Filmed, &[letter(',', P(Event(-1))), letter('.', P(Event(1))), key(Left, P(Event(-1))),
+    bind(Film, W::HasFilm, &[letter(' ', P(Toggle))], Some(("play", 1)), "play and pause the shot"),
+    bind(Film, W::HasFilm, &[letter(',', P(Event(-1))), letter('.', P(Event(1))), key(Left, P(Event(-1))),
         key(Right, P(Event(1)))], Some(("event", 2)), "step from event to event")
         .each(&["step to the event before", "step to the next event"]),
-    bind(Film, W::Filmed, &[letter('-', P(Pace(-1))), letter('+', P(Pace(1))), letter('=', P(Pace(1))),
+    bind(Film, W::HasFilm, &[letter('-', P(Pace(-1))), letter('+', P(Pace(1))), letter('=', P(Pace(1))),
         key(Down, P(Pace(-1))), key(Up, P(Pace(1)))], Some(("speed", 2)), "play slower or faster")
         .each(&["play slower", "play faster"]),
-    bind(Film, W::Always, &[letter('[', A::Filmed(-1)), letter(']', A::Filmed(1))], Some(("other shot", 2)),
+    bind(Film, W::Always, &[letter('[', A::CycleFilm(-1)), letter(']', A::CycleFilm(1))], Some(("other shot", 2)),
         "watch the shot before, the next shot").each(&["watch the shot before", "watch the next shot"]),
     BACK,
 ];

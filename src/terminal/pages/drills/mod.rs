@@ -60,7 +60,7 @@ pub struct Player {
     /// The skill of the settings.
     settings_skill: Skill,
     /// The skill on the coach page. Only an explicit choice changes it.
-    pub at_coach: Skill,
+    pub coach_page_skill: Skill,
 }
 
 impl Player {
@@ -71,7 +71,7 @@ impl Player {
 
     /// Chooses `skill`, for the coach page too.
     const fn choose(&mut self, skill: Skill) {
-        (self.skill, self.at_coach) = (skill, skill);
+        (self.skill, self.coach_page_skill) = (skill, skill);
     }
 }
 
@@ -85,7 +85,7 @@ struct RepetitionOptions {
 
 /// A position that is transferred between this page and the coach page.
 #[derive(Clone, Debug)]
-pub struct Balls {
+pub struct TransferredPosition {
     /// The table.
     pub table: Table,
     /// The positions of the balls.
@@ -129,7 +129,7 @@ pub struct DrillsPage {
     own_table: Option<Box<Table>>,
     options: RepetitionOptions,
     /// A position for the coach page, until the app takes it.
-    pub for_coach: Option<Balls>,
+    pub position_for_coach: Option<TransferredPosition>,
     /// The coach page's rule when the library was last opened.
     opened_for: Option<Rule>,
     /// The level of the last chosen exam.
@@ -137,7 +137,7 @@ pub struct DrillsPage {
     /// The stack of screens; the last one is open.
     pages: Vec<DrillContext>,
     /// An unfinished exam that was left, until the app takes it.
-    pub left_exam: Option<Session>,
+    pub unfinished_exam: Option<Session>,
     /// Unfinished runs, games and matches that were left, one for each exercise. Opening the exercise resumes it.
     unfinished_sessions: Vec<Session>,
     rng: Xoshiro256PlusPlus,
@@ -162,18 +162,18 @@ impl DrillsPage {
             settings_table: String::new(),
             own_table: None,
             options: RepetitionOptions { goal: Goal::Free, shifted: false, lengths: Lengths::default() },
-            for_coach: None,
+            position_for_coach: None,
             opened_for: None,
             exam_level: 0,
             pages: Vec::new(),
-            left_exam: None,
+            unfinished_exam: None,
             unfinished_sessions: Vec::new(),
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         }
     }
 
     /// Applies the settings that concern this page.
-    pub fn take_settings(&mut self, settings: &Settings) {
+    pub fn apply_settings(&mut self, settings: &Settings) {
         (self.units, self.jumps, self.player.settings_skill) = (settings.units, settings.jumps, settings.skill);
         self.settings_table.clone_from(&settings.table);
         if let Some(turn) = &mut self.turn {
@@ -187,7 +187,7 @@ impl DrillsPage {
         self.message = None;
         self.own_table = (!PRESETS.contains(&&*table.name)).then(|| Box::new(table.clone()));
         let mut tasks = vec![self.load()];
-        if skill != self.player.at_coach {
+        if skill != self.player.coach_page_skill {
             self.player.choose(skill);
             tasks.extend(self.change_player());
         }
@@ -207,10 +207,10 @@ impl DrillsPage {
 
     /// Resumes a session that was left in an earlier run of the program.
     pub fn resume(&mut self, session: Session, skill: Skill) -> Effect {
-        self.left_exam = self.unfinished().filter(|open| open.is_exam() && open.id != session.id).cloned();
+        self.unfinished_exam = self.unfinished().filter(|open| open.is_exam() && open.id != session.id).cloned();
         self.own_table = session.table.clone().or(self.own_table.take());
         self.leave_turn();
-        self.player.at_coach = skill;
+        self.player.coach_page_skill = skill;
         self.player.skill = session.skill;
         let mut tasks = vec![self.load()];
         tasks.extend(self.practise(session));
@@ -242,12 +242,12 @@ impl DrillsPage {
     /// The open game or match, or the last one that was left, if it is not over. Like an exam it can be resumed at the next start of
     /// the program, whatever the user does in between.
     pub fn open_game(&self) -> Option<&Session> {
-        let open = self.turn.as_ref().filter(|turn| turn.is_under_way()).map(|turn| &turn.session);
+        let open = self.turn.as_ref().filter(|turn| turn.is_in_progress()).map(|turn| &turn.session);
         open.into_iter().chain(self.unfinished_sessions.iter().rev()).find(|session| session.is_game())
     }
 
     /// Whether the user has gone back to the coach page.
-    pub const fn is_left(&self) -> bool {
+    pub const fn is_closed(&self) -> bool {
         self.pages.is_empty()
     }
 
@@ -257,7 +257,7 @@ impl DrillsPage {
     }
 
     /// The key context: that of the screen, or of the search over it.
-    pub fn place(&self) -> DrillContext {
+    pub fn key_context(&self) -> DrillContext {
         match &self.question {
             Some(Question::Search { .. }) => DrillContext::Search,
             _ => self.page(),
@@ -279,10 +279,10 @@ impl DrillsPage {
     /// Closes the exercise. Its attempts are on the disk already; an unfinished run, game or match is kept for resuming.
     fn leave_turn(&mut self) {
         if let Some(mut turn) = self.turn.take() {
-            turn.stop_asking();
-            if turn.is_under_way() {
+            turn.cancel_request();
+            if turn.is_in_progress() {
                 self.unfinished_sessions.retain(|left| left.exercises != turn.session.exercises);
-                self.unfinished_sessions.push(turn.newest().clone());
+                self.unfinished_sessions.push(turn.latest_session().clone());
             }
         }
         self.pages.retain(|page| *page == DrillContext::Library);
@@ -367,7 +367,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_exercise_says_so_where_the_settings_have_another_table() {
+    fn exercise_notes_a_table_other_than_the_settings() {
         let said = |set| other_table_words("match", "match", set);
         assert_eq!(said(""), None, "no settings were read");
         assert_eq!(said("match"), None);

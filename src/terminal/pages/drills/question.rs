@@ -6,7 +6,7 @@ use crate::{
 };
 
 /// Maximum length of a typed or pasted text, bytes. A share code that a chat program has wrapped into many lines fits.
-pub(super) const LONGEST: usize = 4000;
+pub(super) const MAX_TEXT_LENGTH: usize = 4000;
 
 /// A question that waits for an answer.
 #[derive(Clone, Debug, PartialEq)]

@@ -19,8 +19,8 @@ impl DrillsPage {
     pub fn receive(&mut self, report: DrillReport) -> Vec<DrillTask> {
         match report {
             DrillReport::Loaded(loaded) => {
-                self.loaded(*loaded);
-                let mut tasks = self.catch_up();
+                self.on_loaded(*loaded);
+                let mut tasks = self.load_newer_session();
                 if self.page() == DrillContext::Record {
                     tasks.push(DrillTask::Estimate(self.records.ask(), self.book.sessions.clone().into()));
                 }
@@ -29,15 +29,15 @@ impl DrillsPage {
             DrillReport::ModelShot(id, answer) => {
                 let model_shot = answer.unwrap_or_else(|sentence| self.refuse(sentence));
                 if let Some(turn) = &mut self.turn {
-                    turn.advised(id, model_shot);
+                    turn.on_model_shot(id, model_shot);
                 }
             }
             DrillReport::Played(id, played, saved) => {
                 match (played, &mut self.turn) {
                     (Ok(outcome), turn) => {
-                        self.book.put(&outcome.session);
+                        self.book.insert(&outcome.session);
                         if let Some(turn) = turn {
-                            turn.played(*outcome);
+                            turn.on_played(*outcome);
                         }
                     }
                     (Err(sentence), Some(turn)) if turn.session.id == id && matches!(turn.stage, Stage::Waiting) => {
@@ -51,7 +51,7 @@ impl DrillsPage {
             }
             DrillReport::Judged(id, number, chance) => {
                 if let Some(turn) = &mut self.turn {
-                    turn.judged(&id, number, chance);
+                    turn.on_judged(&id, number, chance);
                 }
             }
             DrillReport::StrokeJudged(id, made) => {
@@ -59,17 +59,17 @@ impl DrillsPage {
                     what_if.judged(id, made);
                 }
             }
-            DrillReport::Saved(session, saved) => return self.saved(&session, saved),
+            DrillReport::Saved(session, saved) => return self.on_saved(&session, saved),
             DrillReport::Changed(stored) => {
-                self.book.put(&stored);
-                let tasks = self.go_on_with(*stored);
+                self.book.insert(&stored);
+                let tasks = self.replace_session(*stored);
                 self.message = Some(Message::warning(
                     "another program has changed this session; its version is loaded, without your last action",
                 ));
                 return tasks;
             }
             DrillReport::PositionSaved(exercise, outcome) => match outcome {
-                Ok(true) => self.position_saved(&exercise),
+                Ok(true) => self.on_position_saved(&exercise),
                 Ok(false) if self.question.is_some() => {
                     self.message = Some(Message::warning(taken_words(&exercise.name)));
                 }
@@ -107,7 +107,7 @@ impl DrillsPage {
         Vec::new()
     }
 
-    fn loaded(&mut self, loaded: LoadedRecords) {
+    fn on_loaded(&mut self, loaded: LoadedRecords) {
         let LoadedRecords { sessions, positions, skill, troubles } = loaded;
         self.book = Book::new(sessions, troubles);
         self.set_own_positions(positions);
@@ -121,29 +121,30 @@ impl DrillsPage {
     }
 
     /// Loads the newer version of the open session if another instance of the program has continued it.
-    fn catch_up(&mut self) -> Vec<DrillTask> {
+    fn load_newer_session(&mut self) -> Vec<DrillTask> {
         let Some(turn) = &self.turn else { return Vec::new() };
-        let stored = self.book.sessions.iter().find(|stored| stored.id == turn.session.id && turn.is_behind(stored));
+        let stored =
+            self.book.sessions.iter().find(|stored| stored.id == turn.session.id && turn.is_older_than(stored));
         let Some(stored) = stored.cloned() else { return Vec::new() };
         self.message = Some(Message::plain("another program has continued this session; its version is loaded"));
-        self.go_on_with(stored)
+        self.replace_session(stored)
     }
 
     /// Replaces the open session with the version of another instance of the program.
-    fn go_on_with(&mut self, stored: Session) -> Vec<DrillTask> {
+    fn replace_session(&mut self, stored: Session) -> Vec<DrillTask> {
         let Some(turn) = self.turn.as_mut().filter(|turn| turn.session.id == stored.id) else { return Vec::new() };
         if stored.is_exam() && stored.is_over() {
             self.pages = vec![DrillContext::Library, DrillContext::Result];
         }
-        turn.go_on_with(stored)
+        turn.replace_session(stored)
     }
 
     /// Handles the result of saving a session, with a message about the recorded or undone attempt.
-    fn saved(&mut self, session: &Session, saved: Result<(), String>) -> Vec<DrillTask> {
+    fn on_saved(&mut self, session: &Session, saved: Result<(), String>) -> Vec<DrillTask> {
         let before = self.book.sessions.iter().find(|known| known.id == session.id);
         let taken_back = before.and_then(|before| before.attempts.get(session.attempts.len())).cloned();
-        self.book.put(session);
-        let tasks = self.turn.as_mut().map_or_else(Vec::new, |turn| turn.saved(session));
+        self.book.insert(session);
+        let tasks = self.turn.as_mut().map_or_else(Vec::new, |turn| turn.on_saved(session));
         let record = session.record();
         let what = |attempt: &Attempt| if attempt.made { "made" } else { "missed" };
         let now = match record.tried {
@@ -181,11 +182,11 @@ impl DrillsPage {
 
     fn set_own_positions(&mut self, own: Vec<Exercise>) {
         let (library, refused) = Library::with_own(own);
-        self.catalogue.take(library);
+        self.catalogue.set_library(library);
         self.book.troubles.extend(refused.iter().map(ToString::to_string));
     }
 
-    fn position_saved(&mut self, exercise: &Exercise) {
+    fn on_position_saved(&mut self, exercise: &Exercise) {
         let own = self.own().filter(|own| own.name != exercise.name).cloned();
         let own = own.chain([exercise.clone()]).collect();
         self.set_own_positions(own);

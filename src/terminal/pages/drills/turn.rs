@@ -25,7 +25,7 @@ use crate::{
 };
 
 /// Counter for the numbers of requests to the coach, shared by all exercises: an answer may arrive when another exercise is open.
-pub(super) static QUESTIONS: AtomicU64 = AtomicU64::new(1);
+pub(super) static NEXT_REQUEST: AtomicU64 = AtomicU64::new(1);
 
 /// Stage of an attempt.
 #[derive(Debug)]
@@ -151,14 +151,14 @@ impl Turn {
     }
 
     /// Whether to warn that the player has not changed the initial stroke. Returns `true` only once.
-    pub(super) fn takes_warning(&mut self) -> bool {
+    pub(super) fn should_warn_unchanged(&mut self) -> bool {
         let warns = self.is_aiming() && !self.is_coachs_turn() && !self.stroke.can_travel().0;
         warns && !std::mem::replace(&mut self.is_warned, true)
     }
 
     /// Whether a run, a game or a match has begun and is not over, so that another session would end it.
-    pub(super) fn is_under_way(&self) -> bool {
-        let newest = self.newest();
+    pub(super) fn is_in_progress(&self) -> bool {
+        let newest = self.latest_session();
         !matches!(newest.goal, Goal::Free | Goal::Exam) && !newest.attempts.is_empty() && !newest.is_over()
     }
 
@@ -169,7 +169,7 @@ impl Turn {
 
     /// Jumps to the end of the watched stroke, if there is one.
     pub(super) fn finish_watching(&mut self) {
-        if let Some(watched) = self.watched_mut().filter(|watched| !watched.is_settled) {
+        if let Some(watched) = self.watched_mut().filter(|watched| !watched.is_end_shown) {
             watched.finish();
         }
     }
@@ -252,14 +252,14 @@ impl Turn {
     }
 
     /// Whether the last attempt of the session is still being watched, so that its result must not be shown yet.
-    pub(super) fn is_open(&self) -> bool {
-        self.watched().is_some_and(|watched| !watched.is_settled)
+    pub(super) fn is_result_hidden(&self) -> bool {
+        self.watched().is_some_and(|watched| !watched.is_end_shown)
     }
 
     /// The session without an attempt whose result must not be shown yet.
     pub fn settled_session(&self) -> Session {
         let mut session = self.session.clone();
-        if self.is_open() {
+        if self.is_result_hidden() {
             session.undo();
         }
         session
@@ -267,7 +267,7 @@ impl Turn {
 
     /// The result of the watched stroke; `None` if it must not be shown yet.
     pub fn verdict(&self, unit: LengthUnit) -> Option<Message> {
-        let watched = self.watched().filter(|watched| watched.is_settled)?;
+        let watched = self.watched().filter(|watched| watched.is_end_shown)?;
         let AttemptOutcome { played, .. } = &watched.outcome;
         let mut text = played.words(self.cue_ball, unit);
         if watched.is_by_coach() {
@@ -281,10 +281,10 @@ impl Turn {
 
     /// Requests the model shot for the current position, and cancels the previous request.
     pub(super) fn ask(&mut self) -> Vec<DrillTask> {
-        self.stop_asking();
+        self.cancel_request();
         self.what_if = None;
         self.model_shot = ModelShotState::Pending;
-        self.advice_id = QUESTIONS.fetch_add(1, Ordering::Relaxed);
+        self.advice_id = NEXT_REQUEST.fetch_add(1, Ordering::Relaxed);
         let is_exact = self.layout == self.exercise.layout;
         vec![DrillTask::Advise(Box::new(AdviceTask {
             id: self.advice_id,
@@ -301,13 +301,13 @@ impl Turn {
     }
 
     /// Cancels the pending request for a model shot.
-    pub(super) fn stop_asking(&mut self) {
+    pub(super) fn cancel_request(&mut self) {
         self.cancel.store(true, Ordering::Relaxed);
         self.cancel = Arc::default();
     }
 
     /// Handles the answer to request `id`; late answers are dropped.
-    pub(super) fn advised(&mut self, id: u64, model_shot: Option<ModelShot>) {
+    pub(super) fn on_model_shot(&mut self, id: u64, model_shot: Option<ModelShot>) {
         if id == self.advice_id {
             if let Some(model_shot) = model_shot.as_ref().filter(|_| self.is_coachs_turn()) {
                 self.stroke = OwnStroke::new(model_shot.advice.cue);
@@ -333,7 +333,7 @@ impl Turn {
     }
 
     /// Handles the result of a played stroke and starts its playback.
-    pub(super) fn played(&mut self, outcome: AttemptOutcome) {
+    pub(super) fn on_played(&mut self, outcome: AttemptOutcome) {
         if outcome.session.id != self.session.id || !matches!(self.stage, Stage::Waiting) {
             return;
         }
@@ -343,13 +343,13 @@ impl Turn {
         playback.toggle(duration);
         let noted = outcome.session.attempts.last().and_then(|attempt| attempt.intended);
         let meant = noted.unwrap_or(*self.stroke());
-        let mut watched = Watched { outcome, meant, chance: None, playback, is_settled: false };
+        let mut watched = Watched { outcome, meant, chance: None, playback, is_end_shown: false };
         watched.settle();
         self.stage = Stage::Watching(Box::new(watched));
     }
 
     /// Stores the success rate of the stroke that was meant in attempt `number` of the session `id`.
-    pub(super) fn judged(&mut self, id: &str, number: usize, chance: f64) {
+    pub(super) fn on_judged(&mut self, id: &str, number: usize, chance: f64) {
         if self.session.id != id || self.session.attempts.len() <= number {
             return;
         }
@@ -361,31 +361,31 @@ impl Turn {
     }
 
     /// The session including changes whose saving is in progress.
-    pub(super) fn newest(&self) -> &Session {
+    pub(super) fn latest_session(&self) -> &Session {
         self.unsaved.as_ref().unwrap_or(&self.session)
     }
 
     /// Returns the task that saves the changed `session`.
     pub(super) fn save(&mut self, session: Session) -> DrillTask {
-        let before = self.newest().attempts.clone();
+        let before = self.latest_session().attempts.clone();
         self.unsaved = Some(session.clone());
         DrillTask::Save(Box::new(session), before)
     }
 
     /// Whether another instance of the program has continued the session (its version is `stored`) and no save is in progress here.
-    pub(super) fn is_behind(&self, stored: &Session) -> bool {
+    pub(super) fn is_older_than(&self, stored: &Session) -> bool {
         let (known, stored) = (&self.session.attempts, &stored.attempts);
         self.is_aiming() && self.unsaved.is_none() && known.len() < stored.len() && Attempt::is_prefix(known, stored)
     }
 
     /// Continues with the version of another instance of the program.
-    pub(super) fn go_on_with(&mut self, stored: Session) -> Vec<DrillTask> {
+    pub(super) fn replace_session(&mut self, stored: Session) -> Vec<DrillTask> {
         self.stage = Stage::Aiming;
         self.begin(stored)
     }
 
     /// Handles the end of saving a session, successful or not. Requests a new model shot if the next position is a different one.
-    pub(super) fn saved(&mut self, session: &Session) -> Vec<DrillTask> {
+    pub(super) fn on_saved(&mut self, session: &Session) -> Vec<DrillTask> {
         let Some(ahead) = self.unsaved.take_if(|ahead| ahead.id == session.id) else { return Vec::new() };
         if ahead != *session {
             self.unsaved = Some(ahead);
@@ -396,7 +396,7 @@ impl Turn {
 
     /// Whether a record from a real table can be undone.
     pub(super) fn can_undo(&self) -> bool {
-        let newest = self.newest();
+        let newest = self.latest_session();
         newest.venue == Venue::Table && !newest.attempts.is_empty()
     }
 

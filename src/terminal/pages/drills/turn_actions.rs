@@ -5,7 +5,7 @@ use crate::{
     drills::{Attempt, Goal, Session, Venue},
     terminal::{
         DrillAction as Action, DrillCondition as Condition, DrillContext, DrillTask, Effect, ModelShot,
-        pages::drills::{DrillsPage, ModelShotState, Question, Stage, Turn, goals::longer},
+        pages::drills::{DrillsPage, ModelShotState, Question, Stage, Turn, goals::with_added_length},
         shot::{OwnStroke, PlaybackKey, stroke},
         ui::{Message, TextField},
         words::player_words,
@@ -30,21 +30,25 @@ impl Turn {
                 | Condition::Running
                 | Condition::Ended
                 | Condition::Free
-                | Condition::Restart
-                | Condition::Repeated
-                | Condition::Noted
-                | Condition::Counted
-                | Condition::Adoptable,
+                | Condition::Restartable
+                | Condition::Repeating
+                | Condition::Recordable
+                | Condition::HasGoalLength
+                | Condition::ModelShotCopyable,
             ) => Some("the stroke is being played"),
             (
                 Stage::Aiming,
-                Condition::Playable | Condition::Set | Condition::Aiming | Condition::Watching | Condition::Adoptable,
+                Condition::Playable
+                | Condition::StrokeSet
+                | Condition::Aiming
+                | Condition::Watching
+                | Condition::ModelShotCopyable,
             ) if self.is_coach_thinking() => Some("the coach is still thinking"),
-            (Stage::Aiming, Condition::Playable | Condition::Set) if self.is_coachs_turn() => None,
-            (Stage::Aiming, Condition::ModelShot) if self.is_coachs_turn() && self.hint().is_some() => {
+            (Stage::Aiming, Condition::Playable | Condition::StrokeSet) if self.is_coachs_turn() => None,
+            (Stage::Aiming, Condition::HasModelShot) if self.is_coachs_turn() && self.hint().is_some() => {
                 Some("the coach's stroke is shown already")
             }
-            (Stage::Aiming, Condition::Aiming | Condition::Watching | Condition::Adoptable)
+            (Stage::Aiming, Condition::Aiming | Condition::Watching | Condition::ModelShotCopyable)
                 if self.is_coachs_turn() =>
             {
                 Some("the coach plays this stroke: Space")
@@ -52,48 +56,56 @@ impl Turn {
             (_, Condition::Playable | Condition::Aiming) => {
                 refuse(!self.is_aiming(), "a shot is being watched; Enter goes on")
             }
-            (_, Condition::Noted) => match self.session.goal {
+            (_, Condition::Recordable) => match self.session.goal {
                 Goal::Match { against_coach: true, .. } => {
                     Some("the coach cannot play at a real table; o chooses another goal")
                 }
                 Goal::Match { .. } => Some("a match is played only here; o chooses another goal"),
-                _ => self.disabled_reason(Condition::Restart),
+                _ => self.disabled_reason(Condition::Restartable),
             },
-            (_, Condition::Repeated) => {
+            (_, Condition::Repeating) => {
                 refuse(self.session.is_game(), "a game plays on from where the balls stop; o chooses another goal")
-                    .or_else(|| self.disabled_reason(Condition::Restart))
+                    .or_else(|| self.disabled_reason(Condition::Restartable))
             }
             (_, Condition::Watching) => refuse(self.watched().is_none(), "no shot is being watched"),
             (_, Condition::Running | Condition::Ended) => match self.watched() {
                 None => Some("no shot is being watched"),
-                Some(watched) if watched.is_settled => refuse(when == Condition::Running, "the shot is at its end"),
+                Some(watched) if watched.is_end_shown => refuse(when == Condition::Running, "the shot is at its end"),
                 Some(_) => refuse(when == Condition::Ended, IS_RUNNING),
             },
-            (_, Condition::Free | Condition::Restart | Condition::Counted) if self.session.is_exam() => {
+            (_, Condition::Free | Condition::Restartable | Condition::HasGoalLength) if self.session.is_exam() => {
                 Some("an exam is under way; Esc leaves it")
             }
             // Another session would remove the stroke before its result is shown. A run asks for confirmation, which shows the result.
-            (_, Condition::Restart | Condition::Counted) if self.is_open() && !self.is_under_way() => Some(IS_RUNNING),
-            (_, Condition::Counted) => {
+            (_, Condition::Restartable | Condition::HasGoalLength)
+                if self.is_result_hidden() && !self.is_in_progress() =>
+            {
+                Some(IS_RUNNING)
+            }
+            (_, Condition::HasGoalLength) => {
                 refuse(self.session.goal == Goal::Free, "free repetition has no end; o chooses a goal")
             }
-            (_, Condition::ModelShot) => refuse(self.session.is_exam(), "an exam gives no hints")
+            (_, Condition::HasModelShot) => refuse(self.session.is_exam(), "an exam gives no hints")
                 .or(refuse(matches!(self.model_shot, ModelShotState::Pending), "the coach is still thinking"))
                 .or(refuse(self.model_shot().is_none(), "the coach has found no shot that makes the point")),
-            (_, Condition::Alone) => refuse(self.what_if().is_some(), "Esc takes the model shot off the table first"),
-            (_, Condition::Adoptable) => self
-                .disabled_reason(Condition::ModelShot)
+            (_, Condition::NotComparing) => {
+                refuse(self.what_if().is_some(), "Esc takes the model shot off the table first")
+            }
+            (_, Condition::ModelShotCopyable) => self
+                .disabled_reason(Condition::HasModelShot)
                 .or_else(|| self.disabled_reason(Condition::Aiming))
-                .or_else(|| self.disabled_reason(Condition::Alone)),
-            (_, Condition::Compared) => refuse(self.what_if().is_none(), "the model shot is not next to your stroke"),
-            (Stage::Aiming, Condition::StrokeChanged) => refuse(!self.stroke.can_travel().0, "the stroke is unchanged"),
-            (Stage::Aiming, Condition::Set) => {
+                .or_else(|| self.disabled_reason(Condition::NotComparing)),
+            (_, Condition::Comparing) => refuse(self.what_if().is_none(), "the model shot is not next to your stroke"),
+            (Stage::Aiming, Condition::StrokeUndoable) => {
+                refuse(!self.stroke.can_travel().0, "the stroke is unchanged")
+            }
+            (Stage::Aiming, Condition::StrokeSet) => {
                 refuse(!self.stroke.can_travel().0, "the stroke is unchanged; Space twice plays it anyway")
             }
-            (Stage::Aiming, Condition::StrokeUndone) => {
+            (Stage::Aiming, Condition::StrokeRedoable) => {
                 refuse(!self.stroke.can_travel().1, "no change of the stroke was taken back")
             }
-            (_, Condition::StrokeChanged | Condition::Set | Condition::StrokeUndone) => {
+            (_, Condition::StrokeUndoable | Condition::StrokeSet | Condition::StrokeRedoable) => {
                 self.disabled_reason(Condition::Aiming)
             }
             (_, Condition::Undoable) => refuse(!self.can_undo(), "no note from a real table can be taken back"),
@@ -104,9 +116,9 @@ impl Turn {
     /// Whether an action starts another session.
     fn is_ended_by(&self, action: Action) -> bool {
         match action {
-            Action::Shift | Action::Goal | Action::Count(_) | Action::Player => true,
-            Action::Play => self.newest().venue == Venue::Table,
-            Action::Log(_) => self.newest().venue != Venue::Table,
+            Action::ToggleShift | Action::NextGoal | Action::ChangeGoalLength(_) | Action::NextPlayer => true,
+            Action::Play => self.latest_session().venue == Venue::Table,
+            Action::LogAttempt(_) => self.latest_session().venue != Venue::Table,
             _ => false,
         }
     }
@@ -124,14 +136,14 @@ impl DrillsPage {
     /// Performs an action on the open exercise. Asks for confirmation if the action would end an unfinished run, game or match.
     pub(super) fn update_turn(&mut self, action: Action) -> Option<Effect> {
         let turn = self.turn.as_mut()?;
-        if action == Action::Play && turn.takes_warning() {
+        if action == Action::Play && turn.should_warn_unchanged() {
             self.message = Some(Message::warning(UNCHANGED));
             return None;
         }
-        if turn.is_under_way() && turn.is_ended_by(action) {
+        if turn.is_in_progress() && turn.is_ended_by(action) {
             // The question counts the stroke that is still being watched, so the score next to it must count it too.
             turn.finish_watching();
-            let Session { goal, attempts, .. } = turn.newest();
+            let Session { goal, attempts, .. } = turn.latest_session();
             let own = attempts.iter().filter(|attempt| !attempt.by_coach).count();
             self.question = Some(Question::GiveUp(action, goal.name(), own));
             return None;
@@ -143,28 +155,28 @@ impl DrillsPage {
     pub(super) fn act(&mut self, action: Action) -> Option<Effect> {
         let turn = self.turn.as_mut()?;
         match action {
-            Action::Stroke(change) => match turn.change_stroke(change) {
+            Action::ChangeStroke(change) => match turn.change_stroke(change) {
                 Ok(tasks) => return tasks_effect(tasks),
                 Err(error) => self.message = Some(Message::warning(error.to_string())),
             },
             Action::TypeStroke => self.question = Some(Question::Stroke(TextField::new(stroke::LONGEST))),
-            Action::StrokeBack => return tasks_effect(turn.step_history(OwnStroke::undo)),
-            Action::StrokeAgain => return tasks_effect(turn.step_history(OwnStroke::redo)),
+            Action::UndoStroke => return tasks_effect(turn.step_history(OwnStroke::undo)),
+            Action::RedoStroke => return tasks_effect(turn.step_history(OwnStroke::redo)),
             Action::WhatIf => return tasks_effect(turn.copy_model_shot()),
             Action::LeaveWhatIf => turn.what_if = None,
             Action::Play => return self.play(),
             Action::Next => return self.next(),
-            Action::Playback(key) => self.watch(key),
-            Action::Hint => {
+            Action::Playback(key) => self.apply_playback_key(key),
+            Action::ToggleHint => {
                 turn.what_if = None;
                 turn.shows_hint = !turn.shows_hint;
                 turn.text_page = 0;
                 turn.with_hint |= turn.shows_hint && turn.is_aiming();
             }
-            Action::TurnSideView => self.message = Some(Message::plain(turn.toggle_side_view())),
-            Action::TurnNumbers => self.is_in_numbers = !self.is_in_numbers,
-            Action::TurnText(pages) => turn.text_page += pages,
-            Action::Shift => {
+            Action::ToggleSideView => self.message = Some(Message::plain(turn.toggle_side_view())),
+            Action::ToggleNumbers => self.is_in_numbers = !self.is_in_numbers,
+            Action::TurnTextPage(pages) => turn.text_page += pages,
+            Action::ToggleShift => {
                 self.options.shifted = !turn.session.shifted;
                 let news = if self.options.shifted {
                     "from the second repetition on, each ball is shifted by half a ball"
@@ -174,21 +186,21 @@ impl DrillsPage {
                 self.message = Some(Message::plain(news));
                 return tasks_effect(self.restart(None));
             }
-            Action::Goal => {
+            Action::NextGoal => {
                 self.options.goal = self.options.lengths.next_goal(turn.session.goal);
                 return tasks_effect(self.restart_for(self.options.goal, None));
             }
-            Action::Count(step) => {
+            Action::ChangeGoalLength(step) => {
                 let step = i32::try_from(step).unwrap_or(0);
-                self.options.goal = longer(turn.session.goal, step);
+                self.options.goal = with_added_length(turn.session.goal, step);
                 return tasks_effect(self.restart_for(self.options.goal, None));
             }
-            Action::Player => {
+            Action::NextPlayer => {
                 self.player.choose_next();
                 self.message = Some(Message::plain(format!("the player: {}", player_words(self.player.skill))));
                 return tasks_effect(self.restart(None));
             }
-            Action::Log(made) => return self.log(made),
+            Action::LogAttempt(made) => return self.log(made),
             Action::Undo => return self.undo(),
             _ => {}
         }
@@ -197,14 +209,14 @@ impl DrillsPage {
 
     /// Restarts the open exercise if the player has changed. While a stroke is played or watched, the restart comes after it.
     pub(super) fn change_player(&mut self) -> Vec<DrillTask> {
-        let is_on_its_way = self.turn.as_ref().is_some_and(|turn| turn.is_waiting() || turn.is_open());
+        let is_on_its_way = self.turn.as_ref().is_some_and(|turn| turn.is_waiting() || turn.is_result_hidden());
         if self.has_other_player() && !is_on_its_way { self.restart(None) } else { Vec::new() }
     }
 
     /// Whether the player has changed since the session began. An exam or a run that has begun keeps its player to the end.
     fn has_other_player(&self) -> bool {
         let is_other =
-            |turn: &Turn| !turn.session.is_exam() && !turn.is_under_way() && turn.session.skill != self.player.skill;
+            |turn: &Turn| !turn.session.is_exam() && !turn.is_in_progress() && turn.session.skill != self.player.skill;
         self.turn.as_ref().is_some_and(is_other)
     }
 
@@ -222,7 +234,7 @@ impl DrillsPage {
         let Some(turn) = &mut self.turn else { return Vec::new() };
         let is_match = matches!(goal, Goal::Match { .. });
         // Both sides of a match play in the program.
-        let venue = if is_match { Venue::Program } else { venue.unwrap_or(turn.newest().venue) };
+        let venue = if is_match { Venue::Program } else { venue.unwrap_or(turn.latest_session().venue) };
         let mut session = turn.new_session(goal, shifted && !is_match, venue, skill, seed);
         session.table = own_table;
         turn.begin(session)
@@ -230,7 +242,7 @@ impl DrillsPage {
 
     fn play(&mut self) -> Option<Effect> {
         let mut tasks = Vec::new();
-        let newest = self.turn.as_ref()?.newest();
+        let newest = self.turn.as_ref()?.latest_session();
         if newest.venue == Venue::Table || newest.is_over() {
             // Strokes in the program and records from a real table belong to separate sessions.
             tasks = self.restart(Some(Venue::Program));
@@ -242,7 +254,7 @@ impl DrillsPage {
     fn next(&mut self) -> Option<Effect> {
         let turn = self.turn.as_mut()?;
         let Stage::Watching(watched) = &mut turn.stage else { return None };
-        if !watched.is_settled {
+        if !watched.is_end_shown {
             // The first press jumps to the end, where the result is shown.
             watched.finish();
             return None;
@@ -262,7 +274,7 @@ impl DrillsPage {
         }
     }
 
-    fn watch(&mut self, key: PlaybackKey) {
+    fn apply_playback_key(&mut self, key: PlaybackKey) {
         let Some(watched) = self.turn.as_mut().and_then(Turn::watched_mut) else { return };
         let Some(shot) = watched.outcome.shot.clone() else { return };
         watched.playback.act(key, shot.recording.events(), shot.recording.duration());
@@ -272,7 +284,7 @@ impl DrillsPage {
     /// Records an attempt at a real table.
     fn log(&mut self, made: bool) -> Option<Effect> {
         let turn = self.turn.as_ref()?;
-        let (newest, was_with_hint, layout) = (turn.newest(), turn.with_hint, turn.layout);
+        let (newest, was_with_hint, layout) = (turn.latest_session(), turn.with_hint, turn.layout);
         let mut tasks = Vec::new();
         if newest.venue != Venue::Table || newest.is_over() {
             tasks = self.restart(Some(Venue::Table));
@@ -280,7 +292,7 @@ impl DrillsPage {
         let turn = self.turn.as_mut()?;
         // A hint that was shown for these positions also counts in the new session.
         turn.with_hint |= was_with_hint && turn.layout == layout;
-        let mut session = turn.newest().clone();
+        let mut session = turn.latest_session().clone();
         match session.log(made) {
             Ok(()) => {
                 // Not if the positions of this repetition have not been shown yet.
@@ -304,7 +316,7 @@ impl DrillsPage {
 
     fn undo(&mut self) -> Option<Effect> {
         let turn = self.turn.as_mut()?;
-        let mut session = turn.newest().clone();
+        let mut session = turn.latest_session().clone();
         session.undo();
         Some(Effect::Drill(vec![turn.save(session)]))
     }

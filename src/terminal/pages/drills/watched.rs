@@ -17,7 +17,7 @@ pub struct Watched {
     /// Playback position and speed of the shot.
     pub playback: Playback,
     /// Whether the end of the shot has been shown. Before that, nothing on the screen may reveal the result.
-    pub is_settled: bool,
+    pub is_end_shown: bool,
 }
 
 impl Watched {
@@ -33,7 +33,7 @@ impl Watched {
 
     /// Allows the result to be shown if the playback has reached the end.
     pub(super) fn settle(&mut self) {
-        self.is_settled |= self.playback.time >= self.duration();
+        self.is_end_shown |= self.playback.time >= self.duration();
     }
 
     /// Jumps to the end, where the result is shown.

@@ -4,7 +4,7 @@ use std::sync::{Arc, atomic::Ordering};
 
 use crate::terminal::{
     DrillTask, JudgedStroke,
-    pages::drills::{ModelShotState, Turn, turn::QUESTIONS},
+    pages::drills::{ModelShotState, Turn, turn::NEXT_REQUEST},
     shot::{WhatIf, what_if},
 };
 
@@ -40,7 +40,7 @@ impl Turn {
         let (table, layout, rule) = (self.table.clone(), self.layout, self.exercise.rule);
         let shooter = self.session.shooter();
         let Some(what_if) = &mut self.what_if else { return Vec::new() };
-        let id = QUESTIONS.fetch_add(1, Ordering::Relaxed);
+        let id = NEXT_REQUEST.fetch_add(1, Ordering::Relaxed);
         let (cue, cancel) = (what_if.shot.cue, what_if.ask(id));
         vec![DrillTask::Judge(Box::new(JudgedStroke { id, table, layout, rule, shooter, cue, cancel }))]
     }

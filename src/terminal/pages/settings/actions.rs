@@ -11,7 +11,7 @@ use crate::{
         keymap::Chord,
         pages::{
             Page as _,
-            settings::{LONGEST, Question, SettingsPage, TABLE},
+            settings::{MAX_TEXT_LENGTH, Question, SettingsPage, TABLE},
             wrapping_index,
         },
         ui::TextField,
@@ -31,38 +31,38 @@ impl SettingsPage {
     /// Performs the action of an enabled key binding.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
-            Action::Back => self.is_left = true,
-            Action::Turn if self.page == Page::Keys => self.page = Page::Values,
-            Action::Turn => self.page = Page::Keys,
-            Action::Line(lines) if self.page == Page::Keys => self.keys.move_mark(lines),
-            Action::Line(lines) => self.mark = self.mark.saturating_add_signed(lines).min(ENTRIES.len() - 1),
-            Action::ChooseKeyPage(pages) => self.keys.choose_place(pages),
-            Action::Value(step) => return self.step(step),
-            Action::Type => self.question = Some(Question::Value(TextField::new(LONGEST))),
-            Action::Press => self.question = Some(Question::Key),
-            Action::Default if self.page == Page::Keys => {
-                let change = self.keys.to_default(&mut self.settings.keys);
+            Action::Back => self.is_closed = true,
+            Action::ToggleKeys if self.page == Page::Keys => self.page = Page::Values,
+            Action::ToggleKeys => self.page = Page::Keys,
+            Action::MoveMark(lines) if self.page == Page::Keys => self.keys.move_mark(lines),
+            Action::MoveMark(lines) => self.mark = self.mark.saturating_add_signed(lines).min(ENTRIES.len() - 1),
+            Action::ChooseKeyPage(pages) => self.keys.choose_page(pages),
+            Action::ChangeValue(step) => return self.step(step),
+            Action::TypeValue => self.question = Some(Question::Value(TextField::new(MAX_TEXT_LENGTH))),
+            Action::AskForKey => self.question = Some(Question::Key),
+            Action::ResetToDefault if self.page == Page::Keys => {
+                let change = self.keys.reset(&mut self.settings.keys);
                 return Some(self.task(Some(change)));
             }
-            Action::Default => {
+            Action::ResetToDefault => {
                 let entry = self.marked();
                 let default = (entry.get)(&Settings::default());
-                return self.give_value(entry, &default, Change::Default);
+                return self.assign_value(entry, &default, Change::Default);
             }
             Action::Answer(false) => self.question = None,
-            Action::Answer(true) => return self.yes(),
+            Action::Answer(true) => return self.accept_answer(),
         }
         None
     }
 
-    fn yes(&mut self) -> Option<Effect> {
+    fn accept_answer(&mut self) -> Option<Effect> {
         match self.question.take()? {
-            Question::Taken(pressed) => Some(self.give(pressed)),
+            Question::ReplaceKey(pressed) => Some(self.assign(pressed)),
             Question::Key => None,
             // Nothing was typed: write the current value to the file if the file has another one.
             Question::Value(typed) if typed.text().trim().is_empty() => {
                 let entry = self.marked();
-                self.other_in_file(entry).and_then(|_| self.set(&(entry.get)(&self.settings)))
+                self.different_value_in_file(entry).and_then(|_| self.set(&(entry.get)(&self.settings)))
             }
             Question::Value(typed) => {
                 let effect = self.set(typed.text().trim());
@@ -106,16 +106,21 @@ impl SettingsPage {
         let own =
             self.tables.iter().find(|path| entry.key == TABLE && !PRESETS.contains(&typed) && has_name(path, typed));
         let path = own.map(|path| path.to_string_lossy().into_owned());
-        self.give_value(entry, path.as_deref().unwrap_or(typed), Change::Value)
+        self.assign_value(entry, path.as_deref().unwrap_or(typed), Change::Value)
     }
 
     /// Sets the setting `key` to a value that was chosen on another page.
     pub fn choose(&mut self, key: &str, typed: &str) -> Option<Effect> {
-        self.give_value(ENTRIES.iter().find(|entry| entry.key == key)?, typed, Change::Value)
+        self.assign_value(ENTRIES.iter().find(|entry| entry.key == key)?, typed, Change::Value)
     }
 
     /// Applies a value if it is accepted, and requests the change of the file.
-    fn give_value(&mut self, entry: &Entry, typed: &str, change: fn(&'static str, String) -> Change) -> Option<Effect> {
+    fn assign_value(
+        &mut self,
+        entry: &Entry,
+        typed: &str,
+        change: fn(&'static str, String) -> Change,
+    ) -> Option<Effect> {
         match self.settings.with(entry, typed) {
             Ok(settings) => self.settings = settings,
             Err(sentence) => return self.refuse(sentence),
@@ -125,20 +130,20 @@ impl SettingsPage {
     }
 
     /// Handles the key that the user pressed as the new key of the marked command.
-    pub fn pressed(&mut self, key: &KeyEvent) -> Option<Effect> {
+    pub fn on_key_pressed(&mut self, key: &KeyEvent) -> Option<Effect> {
         match self.keys.check(Chord::of(key), &self.settings.keys) {
             Ok(chord) if self.keys.other_commands(chord, &self.settings.keys).is_empty() => {
                 self.question = None;
-                return Some(self.give(chord));
+                return Some(self.assign(chord));
             }
-            Ok(chord) => self.question = Some(Question::Taken(chord)),
+            Ok(chord) => self.question = Some(Question::ReplaceKey(chord)),
             Err(sentence) => return self.refuse(sentence),
         }
         None
     }
 
-    fn give(&mut self, pressed: Chord) -> Effect {
-        let change = self.keys.give(pressed, &mut self.settings.keys);
+    fn assign(&mut self, pressed: Chord) -> Effect {
+        let change = self.keys.assign(pressed, &mut self.settings.keys);
         self.task(Some(change))
     }
 }

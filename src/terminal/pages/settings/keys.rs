@@ -17,19 +17,19 @@ pub enum SettingsAction {
     /// Returns to the previous page.
     Back,
     /// Moves the mark by lines, downwards if positive.
-    Line(isize),
+    MoveMark(isize),
     /// Chooses the next value of the marked setting, or the one before if negative.
-    Value(isize),
+    ChangeValue(isize),
     /// Opens the text field for a value.
-    Type,
+    TypeValue,
     /// Resets the marked setting or key to its default.
-    Default,
+    ResetToDefault,
     /// Switches between settings and keys.
-    Turn,
+    ToggleKeys,
     /// Lists the keys of another page of the program: the next one if positive, the one before if negative.
     ChooseKeyPage(isize),
     /// Asks for a new key for the marked command.
-    Press,
+    AskForKey,
     /// Answers the open question: `true` for yes or the typed text, `false` for no.
     Answer(bool),
 }
@@ -71,26 +71,26 @@ const BACK: Binding<A, W> =
 /// Key bindings of the settings.
 #[rustfmt::skip]
 pub const VALUES: &[Binding<A, W>] = &[
-    bind(Settings, W::Always, &[key(Left, A::Value(-1)), key(Right, A::Value(1)), letter('h', A::Value(-1)), letter('l', A::Value(1))],
+    bind(Settings, W::Always, &[key(Left, A::ChangeValue(-1)), key(Right, A::ChangeValue(1)), letter('h', A::ChangeValue(-1)), letter('l', A::ChangeValue(1))],
         Some(("change", 2)), "take the value before, the next value")
         .each(&["take the value before", "take the next value"]),
-    bind(Settings, W::Always, &[key(Enter, A::Type)], Some(("type", 1)), "type a value"),
-    bind(Settings, W::Always, lines!(A::Line), Some(("choose", 2)), "mark another setting").each(marks!("setting")),
-    bind(Settings, W::Changed, &[key(Delete, A::Default), key(Backspace, A::Default)], Some(("default", 1)), "back to the default"),
-    bind(Settings, W::Always, &[key(Tab, A::Turn)], Some(("keys", 1)), "to the keys"),
+    bind(Settings, W::Always, &[key(Enter, A::TypeValue)], Some(("type", 1)), "type a value"),
+    bind(Settings, W::Always, lines!(A::MoveMark), Some(("choose", 2)), "mark another setting").each(marks!("setting")),
+    bind(Settings, W::Changed, &[key(Delete, A::ResetToDefault), key(Backspace, A::ResetToDefault)], Some(("default", 1)), "back to the default"),
+    bind(Settings, W::Always, &[key(Tab, A::ToggleKeys)], Some(("keys", 1)), "to the keys"),
     BACK,
 ];
 
 /// Key bindings of the list of keys.
 #[rustfmt::skip]
 pub const KEYS: &[Binding<A, W>] = &[
-    bind(OwnKeys, W::Always, &[key(Enter, A::Press)], Some(("new key", 1)), "choose a key for what is marked"),
+    bind(OwnKeys, W::Always, &[key(Enter, A::AskForKey)], Some(("new key", 1)), "choose a key for what is marked"),
     bind(OwnKeys, W::Always, &[key(Left, A::ChooseKeyPage(-1)), key(Right, A::ChooseKeyPage(1)), letter('h', A::ChooseKeyPage(-1)), letter('l', A::ChooseKeyPage(1))],
         Some(("page", 2)), "list the keys of another page")
         .each(&["list the keys of the page before", "list the keys of the next page"]),
-    bind(OwnKeys, W::Always, lines!(A::Line), Some(("choose", 2)), "mark something else").each(marks!("line")),
-    bind(OwnKeys, W::Changed, &[key(Delete, A::Default), key(Backspace, A::Default)], Some(("default", 1)), "back to the default keys"),
-    bind(OwnKeys, W::Always, &[key(Tab, A::Turn)], Some(("settings", 1)), "to the settings"),
+    bind(OwnKeys, W::Always, lines!(A::MoveMark), Some(("choose", 2)), "mark something else").each(marks!("line")),
+    bind(OwnKeys, W::Changed, &[key(Delete, A::ResetToDefault), key(Backspace, A::ResetToDefault)], Some(("default", 1)), "back to the default keys"),
+    bind(OwnKeys, W::Always, &[key(Tab, A::ToggleKeys)], Some(("settings", 1)), "to the settings"),
     BACK,
 ];
 

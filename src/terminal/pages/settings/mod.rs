@@ -25,7 +25,7 @@ use crate::{
 const TABLE: &str = "table";
 
 /// Maximum length of a typed value, bytes. The longest are paths of tables.
-const LONGEST: usize = 1000;
+const MAX_TEXT_LENGTH: usize = 1000;
 
 /// An open question.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +35,7 @@ pub enum Question {
     /// The new key, which the user must press.
     Key,
     /// Whether to use this key although it has another command.
-    Taken(Chord),
+    ReplaceKey(Chord),
 }
 
 /// The state of the settings page.
@@ -65,7 +65,7 @@ pub struct SettingsPage {
     sent: u64,
     received: u64,
     /// Whether the user has left the page.
-    pub is_left: bool,
+    pub is_closed: bool,
 }
 
 impl SettingsPage {
@@ -84,14 +84,14 @@ impl SettingsPage {
             mark: 0,
             sent: 0,
             received: 0,
-            is_left: false,
+            is_closed: false,
         }
     }
 
     /// Opens the page at the last open screen. The file is read again; the current settings stay.
     pub fn open(&mut self) -> Effect {
         self.message = None;
-        self.is_left = false;
+        self.is_closed = false;
         self.task(None)
     }
 
@@ -102,11 +102,12 @@ impl SettingsPage {
 
     /// Whether a setting differs from its default, now or in the file.
     pub fn is_changed(&self, entry: &Entry) -> bool {
-        (entry.get)(&self.settings) != (entry.get)(&Settings::default()) || self.other_in_file(entry).is_some()
+        (entry.get)(&self.settings) != (entry.get)(&Settings::default())
+            || self.different_value_in_file(entry).is_some()
     }
 
     /// The value of a setting in the file, if it differs from the current one.
-    pub fn other_in_file(&self, entry: &Entry) -> Option<String> {
+    pub fn different_value_in_file(&self, entry: &Entry) -> Option<String> {
         // The content of the file is unknown while it is being changed.
         let file = self.file.as_ref().filter(|_| self.received == self.sent)?;
         Some((entry.get)(file)).filter(|value| *value != (entry.get)(&self.settings))
@@ -124,14 +125,14 @@ impl SettingsPage {
     }
 
     /// Formats a value for display: without the quotes of TOML, and a custom table by its name instead of its path.
-    pub fn shown(&self, value: &str) -> String {
+    pub fn display_value(&self, value: &str) -> String {
         let value = value.trim_matches(['"', '\'']);
         let own = self.tables.iter().find(|path| path.as_os_str() == value).and_then(|path| path.file_stem());
         own.map_or_else(|| value.to_owned(), |name| name.to_string_lossy().into_owned())
     }
 
     /// The key context.
-    pub const fn place(&self) -> SettingsContext {
+    pub const fn key_context(&self) -> SettingsContext {
         if let Some(Question::Key) = self.question { SettingsContext::Pressing } else { self.page }
     }
 

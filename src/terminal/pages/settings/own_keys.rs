@@ -47,7 +47,7 @@ impl OwnKeys {
     }
 
     /// Cycles through the pages whose keys are listed, forwards if positive.
-    pub fn choose_place(&mut self, pages: isize) {
+    pub fn choose_page(&mut self, pages: isize) {
         self.page = wrapping_index(self.page, pages, self.pages.len());
         self.mark = 0;
     }
@@ -99,7 +99,7 @@ impl OwnKeys {
     }
 
     /// Makes `pressed` a key of the marked command.
-    pub fn give(&self, pressed: Chord, keys: &mut Keys) -> Change {
+    pub fn assign(&self, pressed: Chord, keys: &mut Keys) -> Change {
         keys.remove(pressed);
         let chords = self.chords();
         let added = chords.first().filter(|_| !chords.contains(&pressed)).map(|meant| (pressed, *meant));
@@ -110,7 +110,7 @@ impl OwnKeys {
     }
 
     /// Restores the default keys of the marked command.
-    pub fn to_default(&self, keys: &mut Keys) -> Change {
+    pub fn reset(&self, keys: &mut Keys) -> Change {
         let gone = keys.about(self.chords());
         for pressed in &gone {
             keys.remove(*pressed);

@@ -12,7 +12,7 @@ use crate::{
         Effect, Keeping, Launch, TrainingAction as Action, TrainingCondition as Condition, TrainingContext,
         pages::{
             Page,
-            training::{Form, Named, Question, TrainingPage, Watch, name_in},
+            training::{Form, NamedRun, Question, TrainingPage, Watch, name_in},
         },
         tasks::training::NO_POLICY,
         ui::Message,
@@ -23,11 +23,11 @@ use crate::{
 const fn controls_run(when: Condition) -> bool {
     matches!(
         when,
-        Condition::MayTrain
-            | Condition::MarkedCanGoOn
-            | Condition::CanGoOn
-            | Condition::AtWork
-            | Condition::Working
+        Condition::CanTrain
+            | Condition::MarkedResumable
+            | Condition::Resumable
+            | Condition::Active
+            | Condition::Running
             | Condition::Paused
     )
 }
@@ -41,33 +41,33 @@ impl TrainingPage {
         }
         let Some(watch) = &self.watch else {
             return match when {
-                Condition::Always | Condition::MayTrain => None,
+                Condition::Always | Condition::CanTrain => None,
                 Condition::Marked => refuse(self.list.marked().is_none(), "there is no run yet; n starts one"),
-                Condition::MarkedCanGoOn => self.refusal_of_marked(),
+                Condition::MarkedResumable => self.refusal_of_marked(),
                 _ => Some("no run is watched"),
             };
         };
         match when {
-            Condition::Always | Condition::MayTrain => None,
+            Condition::Always | Condition::CanTrain => None,
             Condition::Marked => refuse(self.list.marked().is_none(), "there is no run yet"),
-            Condition::MarkedCanGoOn => self.refusal_of_marked(),
-            Condition::Charts => refuse(!watch.charts.any(), "no chart is shown; 1 to 9 show some"),
+            Condition::MarkedResumable => self.refusal_of_marked(),
+            Condition::HasChart => refuse(!watch.charts.any(), "no chart is shown; 1 to 9 show some"),
             Condition::Zoomed => refuse(!watch.charts.is_zoomed(), "all of the run is shown; + shows a part"),
             Condition::Paused => refuse(!watch.is_paused(), "the run is not paused"),
-            Condition::AtWork | Condition::Working => {
-                refuse(!watch.is_at_work(), "the run is not training; r resumes one that is unfinished")
-                    .or(refuse(when == Condition::Working && watch.is_paused(), "the run is paused"))
+            Condition::Active | Condition::Running => {
+                refuse(!watch.is_active(), "the run is not training; r resumes one that is unfinished")
+                    .or(refuse(when == Condition::Running && watch.is_paused(), "the run is paused"))
             }
-            Condition::CanGoOn => {
-                refuse(self.is_launched(watch.folder()), "the run is being started").or(watch.refusal_to_go_on())
+            Condition::Resumable => {
+                refuse(self.is_launched(watch.folder()), "the run is being started").or(watch.resume_refusal())
             }
-            Condition::Known => refuse(!watch.is_known(), "there is no run yet")
+            Condition::RunExists => refuse(!watch.is_known(), "there is no run yet")
                 .or(refuse(watch.condition() == RunCondition::Removed, "the run has been removed")),
             Condition::HasPolicy => self
-                .disabled_reason(Condition::Known)
+                .disabled_reason(Condition::RunExists)
                 .or(refuse(watch.lacks_config(), "config.json of the run cannot be read: its table is not known"))
                 .or(refuse(!watch.has_policy, NO_POLICY)),
-            Condition::Shots => {
+            Condition::HasReplay => {
                 refuse(watch.replay.reel.is_none(), "no shots yet: they come with the first measurement")
             }
         }
@@ -76,25 +76,25 @@ impl TrainingPage {
     /// The reason why the marked run cannot be resumed; `None` if it can.
     fn refusal_of_marked(&self) -> Option<&'static str> {
         let is_launched = self.list.marked().is_some_and(|run| self.is_launched(&run.folder));
-        is_launched.then_some("the run is being started").or(self.list.refusal_to_go_on())
+        is_launched.then_some("the run is being started").or(self.list.resume_refusal())
     }
 
     /// Performs the action of an enabled key binding.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
             Action::Back => self.back(),
-            Action::Line(lines) => self.list.move_mark(lines),
-            Action::Choose => self.choose(),
-            Action::New => {
+            Action::MoveMark(lines) => self.list.move_mark(lines),
+            Action::ChooseRun => self.choose(),
+            Action::NewRun => {
                 self.form = Form::new();
                 self.pages.push(TrainingContext::Form);
             }
             Action::Resume => return self.resume(),
-            Action::Field(fields) => self.form.move_mark(fields),
-            Action::Value(step) => self.form.choose(step, self.list.runs()),
+            Action::MoveField(fields) => self.form.move_mark(fields),
+            Action::ChangeValue(step) => self.form.choose(step, self.list.runs()),
             Action::Erase => self.form.erase(),
             Action::Start => return self.start(),
-            Action::Answer(true) => return self.yes(),
+            Action::Answer(true) => return self.accept_answer(),
             Action::Answer(false) => self.question = None,
             other => return self.steer(other),
         }
@@ -121,7 +121,7 @@ impl TrainingPage {
         if watch.folder() == folder {
             self.message = Some(Message::warning("a run cannot be compared with itself; choose another one"));
         } else {
-            watch.other = Some(Named::new(&folder, &self.places.runs));
+            watch.other = Some(NamedRun::new(&folder, &self.places.runs));
             self.pages.pop();
         }
     }
@@ -163,18 +163,18 @@ impl TrainingPage {
         let progress = watch.progress();
         let Watch { charts, replay, .. } = watch;
         match action {
-            Action::Show(n) => charts.toggle(n),
-            Action::Chart(steps) => charts.select(steps),
-            Action::Enlarge => charts.enlarged = !charts.enlarged,
-            Action::Log => charts.toggle_log(),
-            Action::Smooth => charts.smooth(),
+            Action::ToggleChart(n) => charts.toggle(n),
+            Action::SelectChart(steps) => charts.select(steps),
+            Action::ToggleEnlarged => charts.enlarged = !charts.enlarged,
+            Action::ToggleLogScale => charts.toggle_log(),
+            Action::NextSmoothing => charts.smooth(),
             Action::Zoom(steps) => *message = charts.zoom(steps, progress).err().map(Message::warning),
             Action::Pan(steps) => charts.pan(steps, progress),
-            Action::All => charts.show_all(),
-            Action::Follow => charts.follow_end(),
-            Action::Compare if watch.other.is_some() => watch.other = None,
-            Action::Compare => {
-                self.list.mark_beside(&name_in(&self.folder, watch.folder()));
+            Action::ShowAll => charts.show_all(),
+            Action::FollowEnd => charts.follow_end(),
+            Action::ToggleComparison if watch.other.is_some() => watch.other = None,
+            Action::ToggleComparison => {
+                self.list.mark_neighbour(&name_in(&self.folder, watch.folder()));
                 self.pages.push(TrainingContext::Compare);
             }
             Action::Pause => {
@@ -183,16 +183,16 @@ impl TrainingPage {
             }
             Action::Stop => *question = Some(Question::Stop),
             Action::Abandon => *question = Some(Question::Abandon),
-            Action::Use => return Some(Effect::LoadPolicy(watch.folder().to_owned())),
-            Action::Keep => *question = Some(Question::name(&watch.own.name)),
+            Action::UsePolicy => return Some(Effect::LoadPolicy(watch.folder().to_owned())),
+            Action::SavePolicy => *question = Some(Question::name(&watch.own.name)),
             Action::Play => replay.toggle(),
-            Action::Shot(shots) => replay.step(shots),
+            Action::StepShot(shots) => replay.step(shots),
             _ => {}
         }
         None
     }
 
-    fn yes(&mut self) -> Option<Effect> {
+    fn accept_answer(&mut self) -> Option<Effect> {
         let question = self.question.take()?;
         // The run may have ended between the question and its answer.
         if let Some(reason) = self.disabled_reason(question.when()) {
@@ -203,11 +203,11 @@ impl TrainingPage {
             Question::Long { .. } => self.launch(),
             Question::Stop => Some(Effect::Send(Request::Stop, folder?)),
             Question::Abandon => Some(Effect::Send(Request::Abandon, folder?)),
-            Question::Replace(name) => Some(self.keep(name, true)),
+            Question::Replace(name) => Some(self.save_policy(name, true)),
             Question::Name(typed) => {
                 let name = typed.text().trim().to_owned();
                 if is_name(&name) {
-                    return Some(self.keep(name, false));
+                    return Some(self.save_policy(name, false));
                 }
                 self.question = Some(Question::Name(typed));
                 self.refuse(SavePolicyError::Name(name))
@@ -215,7 +215,7 @@ impl TrainingPage {
         }
     }
 
-    fn keep(&self, name: String, replace: bool) -> Effect {
+    fn save_policy(&self, name: String, replace: bool) -> Effect {
         let from = self.watch.as_ref().map(|watch| watch.folder().join(POLICY)).unwrap_or_default();
         let folder = self.places.policies.clone();
         Effect::Keep(Box::new(Keeping { from, folder, name, replace }))

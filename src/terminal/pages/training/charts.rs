@@ -8,16 +8,16 @@ use crate::{
 /// Widths of the smoothing, as fractions of the shown range, and the index of the default. The raw values are visible behind the
 /// smoothed curve.
 const SMOOTHING: [f64; 4] = [0.0, 0.01, 0.03, 0.1];
-const FIRST_SMOOTHING: usize = 1;
+const DEFAULT_SMOOTHING: usize = 1;
 /// Minimum width of the shown range, shots.
-const LEAST_SHOTS: f64 = 100.0;
+const MIN_SHOTS: f64 = 100.0;
 /// A range that follows the end moves in steps of this fraction of its width. If it moved with every new record of the run, each
 /// would send kilobytes to the terminal.
 const FOLLOW_STEP: f64 = 0.25;
 /// Minimum width of a range that follows the end, as a fraction of the whole run. A narrower one would move with every new record.
-const NARROWEST: f64 = 1.0 / 32.0;
+const MIN_VIEW: f64 = 1.0 / 32.0;
 /// The reason why a range that follows the end cannot become narrower.
-const FOLLOWS: &str = "no narrower view follows the run; Left holds it still, then + shows less";
+const ZOOM_REFUSAL: &str = "no narrower view follows the run; Left holds it still, then + shows less";
 /// Fraction of the shown range by which panning moves it.
 const PAN_STEP: f64 = 0.25;
 
@@ -60,7 +60,7 @@ impl Default for Charts {
             log: [false; Quantity::COUNT],
             selected: 0,
             enlarged: false,
-            smoothing: FIRST_SMOOTHING,
+            smoothing: DEFAULT_SMOOTHING,
             part: None,
         }
     }
@@ -136,7 +136,7 @@ impl Charts {
         if let Some(end) = end {
             return (end - width, end);
         }
-        let width = width.max(NARROWEST * (all.1 - all.0));
+        let width = width.max(MIN_VIEW * (all.1 - all.0));
         if width >= all.1 - all.0 {
             return all;
         }
@@ -153,10 +153,10 @@ impl Charts {
         let (all, (from, to)) = (whole(progress.shots, progress.planned), self.range(progress));
         let is_moved = self.part.is_some_and(|part| part.end.is_some());
         let width = if steps > 0 {
-            let least = if is_moved { LEAST_SHOTS } else { LEAST_SHOTS.max(NARROWEST * (all.1 - all.0)) };
+            let least = if is_moved { MIN_SHOTS } else { MIN_SHOTS.max(MIN_VIEW * (all.1 - all.0)) };
             let width = (0.5 * (to - from)).max(least);
             if width >= to - from {
-                return Err(if least > LEAST_SHOTS { FOLLOWS } else { "this is the closest zoom" });
+                return Err(if least > MIN_SHOTS { ZOOM_REFUSAL } else { "this is the closest zoom" });
             }
             width
         } else {
@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn zooming_follows_the_end_until_somebody_moves_the_part() {
+    fn zoomed_range_follows_the_end_until_panned() {
         let mut charts = Charts::default();
         let all = charts.range(at(700_000));
         charts.zoom(1, at(700_000)).unwrap();
@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn a_part_that_follows_the_end_moves_in_steps() {
+    fn following_range_moves_in_steps() {
         let mut charts = Charts::default();
         for _ in 0..4 {
             charts.zoom(1, at(700_000)).unwrap();
@@ -241,10 +241,10 @@ mod tests {
     }
 
     #[test]
-    fn a_part_that_follows_the_end_is_never_so_narrow_that_it_moves_with_every_line() {
+    fn following_range_has_a_minimum_width() {
         let mut charts = Charts::default();
         let refused = (0..30).find_map(|_| charts.zoom(1, at(700_000)).err());
-        assert_eq!(refused, Some(FOLLOWS));
+        assert_eq!(refused, Some(ZOOM_REFUSAL));
         let (from, to) = charts.range(at(700_000));
         assert!((to - from - 31_250.0).abs() < 1e-6, "{from} {to}");
         charts.pan(-1, at(700_000));
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn the_part_never_leaves_the_run() {
+    fn range_stays_within_the_run() {
         let mut charts = Charts::default();
         charts.zoom(1, at(10)).unwrap();
         for steps in [-1, -1, -1, -1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1] {
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hidden_chart_is_not_selected() {
+    fn hidden_chart_is_not_selected() {
         let mut charts = Charts::default();
         charts.toggle(0);
         assert!(charts.is_selected(1) && !charts.is_selected(0));

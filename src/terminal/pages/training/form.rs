@@ -25,7 +25,7 @@ const BUDGETS: [u64; 9] =
     [100_000, 300_000, 1_000_000, 3_000_000, 5_000_000, 10_000_000, 30_000_000, 100_000_000, 300_000_000];
 
 /// Estimated duration above which starting a run needs a confirmation, s.
-const DAY: f64 = 86_400.0;
+const MIN_CONFIRMED_DURATION: f64 = 86_400.0;
 /// Usual training speed of each agent, shots a second, including evaluations, on one core that is shared with other work.
 ///
 /// Measured in the first 20 s of `carom train`: `ddpg` on `match`, the others on `thesis`. An idle core is two to three times as fast.
@@ -33,7 +33,7 @@ const DAY: f64 = 86_400.0;
 const USUAL_SPEEDS: [(&str, f64); 4] =
     [("ddpg", 3000.0), ("q-learning", 15_000.0), ("dqn", 2500.0), ("thesis-ddpg", 12_000.0)];
 /// Assumed speed of an agent that has not been measured, shots a second.
-const SLOWEST: f64 = 2500.0;
+const MIN_SPEED: f64 = 2500.0;
 
 /// A field of the form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -166,7 +166,7 @@ impl Form {
     ///
     /// # Errors
     /// Returns a message with the accepted range if the number would be too large. The field stays unchanged.
-    pub fn typed(&mut self, letters: &str) -> Result<bool, String> {
+    pub fn type_digits(&mut self, letters: &str) -> Result<bool, String> {
         let digits: String = letters.chars().filter(char::is_ascii_digit).collect();
         let (name, is_fresh) = (self.field.name(), self.is_fresh);
         let Some(number) = self.number().filter(|_| !digits.is_empty()) else { return Ok(false) };
@@ -191,13 +191,13 @@ impl Form {
     pub fn long_run(&self) -> Option<(u64, f64)> {
         let shots = self.shots.parse::<u64>().ok()?;
         let seconds = shots as f64 / self.usual_speed();
-        (seconds > DAY).then_some((shots, seconds))
+        (seconds > MIN_CONFIRMED_DURATION).then_some((shots, seconds))
     }
 
     /// Usual training speed of the chosen agent, shots a second.
     fn usual_speed(&self) -> f64 {
         let name = AGENTS[self.agent].name;
-        USUAL_SPEEDS.iter().find(|(agent, _)| *agent == name).map_or(SLOWEST, |(_, speed)| *speed)
+        USUAL_SPEEDS.iter().find(|(agent, _)| *agent == name).map_or(MIN_SPEED, |(_, speed)| *speed)
     }
 
     /// The name of the run's folder.

@@ -41,10 +41,10 @@ use crate::{
 pub use form::{Field, Form};
 pub use question::Question;
 pub use runs::RunList;
-pub use watch::{Named, Watch, name_in};
+pub use watch::{NamedRun, Watch, name_in};
 
 /// Time that a started run has to show up. Within this time, nothing else is started in its folder.
-const LAUNCHING: Duration = Duration::from_secs(5);
+const LAUNCH_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// The state of the training page.
 #[derive(Debug)]
@@ -64,7 +64,7 @@ pub struct TrainingPage {
     /// The message of the status line.
     pub message: Option<Message>,
     /// Whether the program shows only this page, so that there is no page to return to.
-    pub alone: bool,
+    pub is_only_page: bool,
     /// Whether the user is a guest, who can only watch runs.
     pub is_guest: bool,
     /// The folder and start time of the last started run, until it is seen training or has failed.
@@ -84,7 +84,7 @@ impl TrainingPage {
             watch: None,
             question: None,
             message: None,
-            alone: false,
+            is_only_page: false,
             is_guest: false,
             launched: None,
             pages: Vec::new(),
@@ -100,8 +100,8 @@ impl TrainingPage {
     }
 
     /// Opens this page as the only one: with a run, or with the list of the runs in the folder `list`, by default the user's.
-    pub fn open_alone(&mut self, run: Option<PathBuf>, list: Option<PathBuf>) {
-        self.alone = true;
+    pub fn open_as_only_page(&mut self, run: Option<PathBuf>, list: Option<PathBuf>) {
+        self.is_only_page = true;
         self.pages = vec![TrainingContext::Runs];
         if let Some(list) = list {
             self.folder = list;
@@ -121,11 +121,11 @@ impl TrainingPage {
 
     /// Whether a process for the run in `folder` has been started and may not have reported yet.
     fn is_launched(&self, folder: &Path) -> bool {
-        self.launched.as_ref().is_some_and(|(launched, since)| launched == folder && since.elapsed() < LAUNCHING)
+        self.launched.as_ref().is_some_and(|(launched, since)| launched == folder && since.elapsed() < LAUNCH_TIMEOUT)
     }
 
     /// Whether the user has left the page.
-    pub const fn is_left(&self) -> bool {
+    pub const fn is_closed(&self) -> bool {
         self.pages.is_empty()
     }
 
@@ -137,7 +137,7 @@ impl TrainingPage {
     /// The data that the page needs from background tasks now.
     pub fn subscriptions(&self) -> Subscriptions {
         let lists = matches!(self.page(), TrainingContext::Runs | TrainingContext::Form | TrainingContext::Compare);
-        let folder = |named: &Named| named.run.folder.clone();
+        let folder = |named: &NamedRun| named.run.folder.clone();
         Subscriptions {
             runs: lists.then(|| self.folder.clone()),
             followed: [
@@ -151,8 +151,8 @@ impl TrainingPage {
     /// Handles the result of a background task. Returns a policy with its table if the coach must use it.
     pub fn receive(&mut self, report: TrainingReport) -> Option<(Table, CoachQuery)> {
         match report {
-            TrainingReport::Runs(found) => self.list.take(found),
-            TrainingReport::Followed(FollowSlot::Main, folder, update) => self.followed(&folder, *update),
+            TrainingReport::Runs(found) => self.list.set_runs(found),
+            TrainingReport::Followed(FollowSlot::Main, folder, update) => self.on_run_update(&folder, *update),
             TrainingReport::Followed(FollowSlot::Compared, folder, update) => {
                 let other = self.watch.as_mut().and_then(|watch| watch.other.as_mut());
                 if let Some(other) = other.filter(|other| other.run.folder == folder) {
@@ -161,7 +161,7 @@ impl TrainingPage {
             }
             TrainingReport::Recorded(folder, reel) => {
                 if let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) {
-                    watch.replay.offer(reel);
+                    watch.replay.queue(reel);
                 }
             }
             TrainingReport::HasPolicy(folder, has_policy) => {
@@ -170,7 +170,7 @@ impl TrainingPage {
                 }
                 self.close_question();
             }
-            TrainingReport::TrainerFailed(folder, failure) => self.failed(&folder, &failure),
+            TrainingReport::TrainerFailed(folder, failure) => self.on_launch_failure(&folder, &failure),
             TrainingReport::Sent(request, Ok(())) => {
                 self.message = Some(Message::plain(match request {
                     Request::Pause => "the run is asked to pause",
@@ -182,14 +182,14 @@ impl TrainingPage {
             TrainingReport::Sent(_, Err(sentence)) => {
                 self.message = Some(Message::warning(format!("the run cannot be asked: {sentence}")));
             }
-            TrainingReport::Kept(keeping, outcome) => self.kept(keeping, outcome),
-            TrainingReport::Policy(folder, policy) => return self.policy(&folder, policy),
+            TrainingReport::Kept(keeping, outcome) => self.on_policy_saved(keeping, outcome),
+            TrainingReport::Policy(folder, policy) => return self.on_policy(&folder, policy),
         }
         None
     }
 
     /// Handles an update of the run in `folder`.
-    fn followed(&mut self, folder: &Path, update: Update) {
+    fn on_run_update(&mut self, folder: &Path, update: Update) {
         let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) else { return };
         let before = watch.condition();
         watch.replay.is_outdated |= update.replaces_records;
@@ -207,8 +207,8 @@ impl TrainingPage {
     }
 
     /// Handles the failure of a process that should train in `folder`. Ignores it if another process trains there.
-    fn failed(&mut self, folder: &Path, failure: &TrainerFailure) {
-        let watch = self.watch.as_ref().filter(|watch| watch.folder() == folder && watch.is_at_work());
+    fn on_launch_failure(&mut self, folder: &Path, failure: &TrainerFailure) {
+        let watch = self.watch.as_ref().filter(|watch| watch.folder() == folder && watch.is_active());
         let at_work = watch.and_then(|watch| watch.own.run.status.as_ref()).map(|status| status.process);
         if at_work.is_some() && at_work != failure.process {
             return;
@@ -219,7 +219,7 @@ impl TrainingPage {
         if let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) {
             watch.failure = Some(failure.sentence.clone());
         }
-        let name = Named::new(folder, &self.places.runs).name;
+        let name = NamedRun::new(folder, &self.places.runs).name;
         self.message = Some(Message::warning(format!("{name}: {}", failure.sentence)));
     }
 
@@ -232,7 +232,7 @@ impl TrainingPage {
         }
     }
 
-    fn kept(&mut self, keeping: Keeping, outcome: Result<bool, String>) {
+    fn on_policy_saved(&mut self, keeping: Keeping, outcome: Result<bool, String>) {
         let name = keeping.name;
         match outcome {
             Ok(true) => {
@@ -248,7 +248,7 @@ impl TrainingPage {
         }
     }
 
-    fn policy(&mut self, folder: &Path, policy: Result<Arc<Policy>, String>) -> Option<(Table, CoachQuery)> {
+    fn on_policy(&mut self, folder: &Path, policy: Result<Arc<Policy>, String>) -> Option<(Table, CoachQuery)> {
         let watch = self.watch.as_ref().filter(|watch| watch.folder() == folder)?;
         let table = watch.table()?.clone();
         match policy {
@@ -277,7 +277,7 @@ impl Page for TrainingPage {
         let is_form = self.page() == TrainingContext::Form && self.question.is_none();
         let taken = match self.field_mut() {
             Some(name) => name.take(typed),
-            None if is_form => match self.form.typed(&typed.letters()) {
+            None if is_form => match self.form.type_digits(&typed.letters()) {
                 Ok(taken) => taken,
                 Err(sentence) => {
                     self.message = Some(Message::warning(sentence));

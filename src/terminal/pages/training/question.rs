@@ -58,7 +58,7 @@ impl Question {
     pub const fn when(&self) -> TrainingCondition {
         match self {
             Self::Long { .. } => TrainingCondition::Always,
-            Self::Stop | Self::Abandon => TrainingCondition::AtWork,
+            Self::Stop | Self::Abandon => TrainingCondition::Active,
             Self::Name(_) | Self::Replace(_) => TrainingCondition::HasPolicy,
         }
     }
@@ -90,7 +90,7 @@ mod tests {
     use crate::storage::is_name;
 
     #[test]
-    fn every_run_is_proposed_a_name_that_is_accepted() {
+    fn proposed_policy_names_are_accepted() {
         let long = "\u{e4}".repeat(80);
         for (run, name) in [
             ("20261120-ddpg", "20261120-ddpg"),

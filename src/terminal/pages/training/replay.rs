@@ -8,7 +8,7 @@ use crate::terminal::{Reel, ReplayShot, shot::Playback};
 /// Time between two frames, s.
 pub const INTERVAL: f64 = 0.1;
 /// Pause between two shots, s.
-const REST: f64 = 1.0;
+const PAUSE: f64 = 1.0;
 
 /// State of the replay.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -43,7 +43,7 @@ pub struct Replay {
 impl Replay {
     /// Accepts a new set, and plays it now or after the one that is playing. A set that is not newer than the latest one is ignored.
     /// So is that set itself, which is read again when the user returns to the run.
-    pub fn offer(&mut self, reel: Reel) {
+    pub fn queue(&mut self, reel: Reel) {
         let newest = self.waiting.as_ref().or(self.reel.as_ref());
         let is_old = |newest: &Reel| newest.after >= reel.after && !self.is_outdated || newest.is_of(&reel);
         if reel.shots.is_empty() || newest.is_some_and(is_old) {
@@ -130,7 +130,7 @@ impl Replay {
                 self.playback.playing = true;
                 self.playback.tick(seconds, self.duration());
                 if self.is_at_the_end() {
-                    self.motion = Motion::Resting(REST);
+                    self.motion = Motion::Resting(PAUSE);
                 }
             }
             Motion::Resting(left) if left > seconds => self.motion = Motion::Resting(left - seconds),
@@ -177,33 +177,33 @@ mod tests {
     }
 
     #[test]
-    fn a_set_plays_once_and_rests_at_its_last_shot() {
+    fn reel_plays_once_and_stops_at_last_shot() {
         let mut replay = Replay::default();
-        replay.offer(reel(1));
+        replay.queue(reel(1));
         assert_eq!(pass(&mut replay), [(1, 0), (1, 1), (1, 2)]);
         assert_eq!(replay.playback.time, replay.duration());
-        replay.offer(reel(1));
+        replay.queue(reel(1));
         assert!(!replay.is_playing(), "the same set is no news");
         replay.toggle();
         assert_eq!(pass(&mut replay).len(), 3);
     }
 
     #[test]
-    fn a_newer_set_waits_for_the_end_of_the_one_that_plays() {
+    fn newer_reel_starts_after_the_current_one() {
         let mut replay = Replay::default();
-        replay.offer(reel(1));
+        replay.queue(reel(1));
         replay.tick(0.3);
-        replay.offer(reel(2));
-        replay.offer(reel(3));
+        replay.queue(reel(2));
+        replay.queue(reel(3));
         assert_eq!(pass(&mut replay), [(1, 0), (1, 1), (1, 2), (3, 0), (3, 1), (3, 2)]);
     }
 
     #[test]
-    fn what_somebody_has_stopped_stays_stopped() {
+    fn replay_stopped_by_user_stays_stopped() {
         let mut replay = Replay::default();
-        replay.offer(reel(1));
+        replay.queue(reel(1));
         replay.step(1);
-        replay.offer(reel(2));
+        replay.queue(reel(2));
         assert!(!replay.is_playing());
         assert_eq!((replay.reel.as_ref().unwrap().after, replay.index), (1, 1));
         replay.toggle();

@@ -21,7 +21,7 @@ pub struct RunList {
 
 impl RunList {
     /// Replaces the list with what was found in the folder.
-    pub fn take(&mut self, found: Result<Listing, String>) {
+    pub fn set_runs(&mut self, found: Result<Listing, String>) {
         match found {
             Ok(Listing { mut runs, unreadable }) => {
                 self.unreadable = unreadable;
@@ -62,7 +62,7 @@ impl RunList {
     }
 
     /// Marks the run below the run `name`, or the one above it if there is none below.
-    pub fn mark_beside(&mut self, name: &str) {
+    pub fn mark_neighbour(&mut self, name: &str) {
         self.mark_named(name);
         let own = self.mark();
         self.move_mark(1);
@@ -72,7 +72,7 @@ impl RunList {
     }
 
     /// The reason why the marked run cannot be resumed; `None` if it can.
-    pub fn refusal_to_go_on(&self) -> Option<&'static str> {
+    pub fn resume_refusal(&self) -> Option<&'static str> {
         match self.marked().map(|run| run.state) {
             None => Some("there is no run yet; n starts one"),
             Some(state) if state.is_at_work() => Some("this run is training; Enter watches it"),

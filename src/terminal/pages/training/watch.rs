@@ -23,21 +23,21 @@ pub fn name_in(runs: &Path, run: &Path) -> String {
 
 /// A run and its name.
 #[derive(Debug)]
-pub struct Named {
+pub struct NamedRun {
     /// The name of the run on the command line.
     pub name: String,
     /// The followed run.
     pub run: Followed,
 }
 
-impl Named {
+impl NamedRun {
     /// Creates the entry of the run in `folder`, which has not been read yet. `runs` is the folder to which names are relative.
     pub fn new(folder: &Path, runs: &Path) -> Self {
         Self { name: name_in(runs, folder), run: Followed::new(folder) }
     }
 
     /// Whether its reward is success or failure, so that a mean is a success rate. `false` if its reward is not known yet.
-    pub fn is_share(&self) -> bool {
+    pub fn is_success_rate(&self) -> bool {
         self.run.config.as_ref().is_some_and(|config| config.plan.reward.rule().is_some())
     }
 }
@@ -46,9 +46,9 @@ impl Named {
 #[derive(Debug)]
 pub struct Watch {
     /// The run.
-    pub own: Named,
+    pub own: NamedRun,
     /// The run to compare with.
-    pub other: Option<Named>,
+    pub other: Option<NamedRun>,
     /// The state of its charts.
     pub charts: Charts,
     /// The replay of its latest shots.
@@ -63,7 +63,7 @@ impl Watch {
     /// Creates the state for the run in `folder`, which has not been read yet. `runs` is the folder to which names are relative.
     pub fn new(folder: &Path, runs: &Path) -> Self {
         let (charts, replay) = (Charts::default(), Replay::default());
-        Self { own: Named::new(folder, runs), other: None, charts, replay, has_policy: false, failure: None }
+        Self { own: NamedRun::new(folder, runs), other: None, charts, replay, has_policy: false, failure: None }
     }
 
     /// The folder of the run.
@@ -87,7 +87,7 @@ impl Watch {
     }
 
     /// Planned shots, if known.
-    pub fn planned(&self) -> Option<u64> {
+    pub fn planned_shots(&self) -> Option<u64> {
         self.own.run.config.as_ref().map(|config| config.plan.shots)
     }
 
@@ -105,12 +105,12 @@ impl Watch {
     pub fn progress(&self) -> Progress {
         let runs = [Some(&self.own.run), self.other.as_ref().map(|other| &other.run)].into_iter().flatten();
         // The last iteration of a run may exceed the plan by a few shots.
-        let planned = self.planned().map(|planned| planned.max(self.own.run.shots()));
+        let planned = self.planned_shots().map(|planned| planned.max(self.own.run.shots()));
         Progress { shots: runs.map(Followed::shots).max().unwrap_or(0), planned }
     }
 
     /// Whether a process is training the run.
-    pub const fn is_at_work(&self) -> bool {
+    pub const fn is_active(&self) -> bool {
         self.condition().is_at_work()
     }
 
@@ -120,7 +120,7 @@ impl Watch {
     }
 
     /// The reason why the run cannot be resumed; `None` if it can.
-    pub const fn refusal_to_go_on(&self) -> Option<&'static str> {
+    pub const fn resume_refusal(&self) -> Option<&'static str> {
         match self.condition() {
             Condition::InPhase(Phase::Stopped | Phase::Failed) | Condition::Died | Condition::Interrupted => None,
             Condition::InPhase(Phase::Finished) => {
@@ -135,7 +135,7 @@ impl Watch {
 
     /// A sentence on the run's problem or on the possible next steps, and whether it is a problem.
     pub fn advice(&self) -> (String, bool) {
-        let Self { own: Named { name, run }, .. } = self;
+        let Self { own: NamedRun { name, run }, .. } = self;
         let resume = format!("r goes on with it, or: carom train --resume {}", shell_word(name));
         let status = run.status.as_ref();
         let reason = status.and_then(|status| status.reason.as_deref());

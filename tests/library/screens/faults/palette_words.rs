@@ -21,14 +21,14 @@ fn in_the_library(word: &str) -> Vec<Action> {
 #[test]
 fn random_position_is_found_by_synonyms() {
     for word in ["random", "shuffle"] {
-        assert_eq!(at_coach(word), [Action::Coach(CoachAction::Random)], "{word}");
+        assert_eq!(at_coach(word), [Action::Coach(CoachAction::RandomPosition)], "{word}");
     }
 }
 
 #[test]
 fn opening_position_is_found_by_synonyms() {
     for word in ["clear", "reset"] {
-        assert!(at_coach(word).contains(&Action::Coach(CoachAction::Opening)), "{word}");
+        assert!(at_coach(word).contains(&Action::Coach(CoachAction::OpeningPosition)), "{word}");
     }
 }
 

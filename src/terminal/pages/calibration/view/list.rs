@@ -35,10 +35,10 @@ fn draw_tests(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> Rect {
     for (end, label) in [(STROKES_END, " strokes "), (BITS_END, " bits ")] {
         write_right(ui.buffer, area.x, (area.right() + 1).saturating_sub(end), area.y, label, ui.theme.faint());
     }
-    let best = sheet.best().map(|next| next.test);
+    let best = sheet.best_next_test().map(|next| next.test);
     for ((n, test), y) in sheet.tests().enumerate().zip(inner.y..inner.bottom()) {
         let is_marked = n == sheet.mark;
-        let (entered, times) = (sheet.strokes(test).len(), sheet.times(test));
+        let (entered, times) = (sheet.strokes(test).len(), sheet.recommended_strokes(test));
         let is_out = sheet.is_left_out(test);
         let style = match () {
             () if is_marked => ui.theme.accent(),
@@ -47,12 +47,12 @@ fn draw_tests(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> Rect {
         };
         list::draw_mark(is_marked, area.x, y, ui);
         ui.buffer.set_stringn(area.x + 2, y, test.name, usize::from(area.width - 2), style);
-        if is_odd(page, test) {
+        if has_implausible_entry(page, test) {
             ui.buffer.set_string(area.x + 14, y, "!", ui.theme.warning());
         }
         let strokes = if is_out { "out".to_owned() } else { format!("{entered}/{times}") };
         write_right(ui.buffer, area.x, area.right() - STROKES_END, y, &strokes, style);
-        if let Some(bits) = sheet.bits(test) {
+        if let Some(bits) = sheet.expected_information(test) {
             let is_best = best == Some(test.name);
             let sign = if is_best { ui.caps.pick("◂", "<") } else { " " };
             let style = if is_best { ui.theme.good() } else { ui.theme.faint() };
@@ -63,13 +63,13 @@ fn draw_tests(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> Rect {
 }
 
 /// Whether a stroke of a test is implausible or one of its marks looks misread.
-fn is_odd(page: &CalibrationPage, test: &Test) -> bool {
+fn has_implausible_entry(page: &CalibrationPage, test: &Test) -> bool {
     page.sheet().strokes(test).into_iter().any(|(place, entry)| is_doubtful(page, place, entry))
 }
 
 /// Whether the stroke with index `place` among all entries is implausible or one of its marks looks misread.
 fn is_doubtful(page: &CalibrationPage, place: usize, entry: &Entry) -> bool {
-    let Some(found) = page.sheet().found() else { return !entry.readings(&page.table).1.is_empty() };
+    let Some(found) = page.sheet().calibration() else { return !entry.readings(&page.table).1.is_empty() };
     !entry.readings(&page.table).1.is_empty()
         || found.misread().contains(&(place + 1))
         || found.outlier_strokes.iter().any(|strange| strange.trial == place + 1)
@@ -110,7 +110,7 @@ fn draw_values(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     if area.height < 3 {
         return;
     }
-    let found = page.sheet().found();
+    let found = page.sheet().calibration();
     let is_unsure = found.is_some_and(Calibration::is_contradictory);
     let inner = draw_title(if is_unsure { "Unsure: marks disagree" } else { "Best known so far" }, area, ui);
     let Some(found) = found else {

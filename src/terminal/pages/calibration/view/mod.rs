@@ -12,8 +12,8 @@ use ratatui::{
 use crate::terminal::{
     Capabilities,
     pages::{
-        Asked, PageArea, PageView, Target,
-        calibration::{CalibrationPage, Question, Side},
+        OpenQuestion, PageArea, PageView, Target,
+        calibration::{CalibrationPage, Question, SidePanel},
     },
     ui::{self, Message, TextField, Ui, columns, split},
 };
@@ -33,18 +33,18 @@ impl PageView for CalibrationPage {
         let [left, right] = halves(body);
         list::draw(self, left, ui);
         match self.side {
-            Side::Test => test::draw(self, right, ui),
-            Side::Values => values::draw(self, right, ui),
+            SidePanel::Test => test::draw(self, right, ui),
+            SidePanel::Values => values::draw(self, right, ui),
         }
         self.message.clone().unwrap_or_else(|| status_line(self))
     }
 
-    fn asked(&self, _: Capabilities) -> Option<Asked<'_>> {
+    fn open_question(&self, _: Capabilities) -> Option<OpenQuestion<'_>> {
         let (question, typed) = question(self)?;
         // The form for a stroke has only enough rows for its question.
         let has_own_keys = matches!(self.question, Some(Question::Marks(_)));
-        let asked = Asked::new(self.message.as_ref().filter(|_| !has_own_keys), &question, typed);
-        Some(Asked { has_own_keys, ..asked })
+        let asked = OpenQuestion::new(self.message.as_ref().filter(|_| !has_own_keys), &question, typed);
+        Some(OpenQuestion { has_own_keys, ..asked })
     }
 
     fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
@@ -67,7 +67,7 @@ fn question(page: &CalibrationPage) -> Option<(String, Option<&TextField>)> {
         }
         Question::Name(field) => ("the table's name = ".to_owned(), Some(field)),
         Question::Replace(name) => (format!("there is a table called {name} already; replace it?"), None),
-        Question::Anew => ("start again? The entries are kept next to the file.".to_owned(), None),
+        Question::StartOver => ("start again? The entries are kept next to the file.".to_owned(), None),
     })
 }
 
@@ -85,8 +85,8 @@ fn status_line(page: &CalibrationPage) -> Message {
         return Message::plain("reading what was entered so far");
     }
     let (entered, wanted) = sheet.count();
-    match sheet.best() {
-        _ if sheet.is_asking() => Message::plain("evaluating the marks"),
+    match sheet.best_next_test() {
+        _ if sheet.is_evaluating() => Message::plain("evaluating the marks"),
         Some(best) if entered == 0 => {
             Message::plain(format!("play a test, then Enter; {} helps most ({})", best.test, bits_words(best.bits)))
         }
@@ -118,7 +118,7 @@ fn draw_header(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     let (entered, wanted) = sheet.count();
     let count = format!("{entered} of {wanted} strokes ");
     let room = usize::from(area.width).saturating_sub(count.len() + 1);
-    let name = if page.is_daily { page.table.name.clone() } else { sheet.base(&page.table).0.name };
+    let name = if page.is_daily { page.table.name.clone() } else { sheet.prior_table(&page.table).0.name };
     let [long, short] = if page.is_daily { ["today's check of", "today:"] } else { ["your table, from", "from"] };
     let what =
         if long.len() + columns(&name) + 2 < room { format!("{long} {name}") } else { format!("{short} {name}") };

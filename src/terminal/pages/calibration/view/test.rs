@@ -37,7 +37,7 @@ const TYPED: [usize; 2] = [3, 18];
 /// The letters of the marks. Numbers are used for the diamonds.
 const LETTERS: [&str; 8] = ["a", "b", "c", "d", "e", "f", "g", "h"];
 /// Minimum rows of the panel "What the marks say".
-const SAID: u16 = 3;
+const MIN_RESULT_ROWS: u16 = 3;
 /// Columns between two dots of a path.
 const DOT_COLUMNS: f64 = 2.0;
 /// Length of the drawn cue and distance between its dots, m.
@@ -77,7 +77,7 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     // If there is room, the results are shown here too.
     let end = (below + asked.len() as u16 + 1).min(inner.bottom());
     let rest = Rect { y: end, height: inner.bottom() - end, ..inner };
-    if let Some(found) = page.sheet().found().filter(|_| rest.height > SAID) {
+    if let Some(found) = page.sheet().calibration().filter(|_| rest.height > MIN_RESULT_ROWS) {
         let rest = draw_title("What the marks say", rest, ui);
         write_paragraphs(&sentences(page, found, ui), rest.inner(Margin::new(1, 0)), ui);
     }

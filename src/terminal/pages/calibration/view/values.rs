@@ -32,7 +32,7 @@ enum Row<'a> {
 
 /// Draws the panel, one page at a time if it does not fit.
 pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
-    let found = page.sheet().found();
+    let found = page.sheet().calibration();
     let width = usize::from(area.width.saturating_sub(2));
     let lines = result_sentences(page, found, ui)
         .into_iter()
@@ -63,7 +63,9 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
 fn result_sentences(page: &CalibrationPage, found: Option<&Calibration>, ui: &Ui) -> Vec<(String, Style)> {
     let sheet = page.sheet();
     let mut lines: Vec<(String, Style)> = Vec::new();
-    lines.extend(sheet.odd(&page.table).iter().map(|odd| (format!("{odd}; it is left out"), ui.theme.warning())));
+    lines.extend(
+        sheet.implausible_entries(&page.table).iter().map(|odd| (format!("{odd}; it is left out"), ui.theme.warning())),
+    );
     match found {
         Some(found) => lines.extend(sentences(page, found, ui)),
         None => lines.push((
@@ -137,7 +139,7 @@ pub fn sentences(page: &CalibrationPage, found: &Calibration, ui: &Ui) -> Vec<(S
     if let Some([before, now]) = page.sheet().judged.as_ref().and_then(|judged| judged.play) {
         lines.push((format!("today {}", now.describe_change_from(&before)), ui.theme.accent()));
     }
-    if let Some(best) = page.sheet().best() {
+    if let Some(best) = page.sheet().best_next_test() {
         let words = format!("next: {} helps most, with {:.1} bits; each bit halves one doubt", best.test, best.bits);
         lines.push((words, ui.theme.text()));
     }

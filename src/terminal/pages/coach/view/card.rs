@@ -203,7 +203,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn thickness_is_told_in_the_shortest_fraction() {
+    fn thickness_uses_the_shortest_fraction() {
         assert_eq!(
             [0.01, 0.0625, 0.25, 0.51, 0.69, 0.99].map(fraction),
             ["graze", "1/16", "1/4", "1/2", "11/16", "full"]

@@ -90,7 +90,7 @@ fn risk_lines(risk: &Risk, width: usize, rows: usize) -> Vec<String> {
 
 /// Draws a panel that explains why the first shot ranks first. Returns `false` if the explanation is not known.
 pub fn draw_why(advised: &AdviceState, area: Rect, ui: &mut Ui) -> bool {
-    if beside_the_list(advised, ui).next().is_none() {
+    if ranking_sentences(advised, ui).next().is_none() {
         return false;
     }
     let inner = draw_title(Span::styled("Why shot 1 leads", ui.theme.text()), area, ui);
@@ -99,7 +99,7 @@ pub fn draw_why(advised: &AdviceState, area: Rect, ui: &mut Ui) -> bool {
 }
 
 /// The explanations of the first shot's rank that add to the list, from long to short; empty if not known.
-fn beside_the_list(advised: &AdviceState, ui: &Ui) -> impl Iterator<Item = String> + use<> {
+fn ranking_sentences(advised: &AdviceState, ui: &Ui) -> impl Iterator<Item = String> + use<> {
     let why = advised.why.as_ref().map(|why| why.facts_beyond_list(ui.theme.cue_ball).collect::<Vec<_>>());
     why.unwrap_or_default().into_iter()
 }
@@ -110,7 +110,7 @@ fn write_why(advised: &AdviceState, word: &str, area: Rect, ui: &mut Ui) {
     if area.is_empty() {
         return;
     }
-    let sentences = beside_the_list(advised, ui).map(|words| format!("{word}{words}"));
+    let sentences = ranking_sentences(advised, ui).map(|words| format!("{word}{words}"));
     let lines = fitting(sentences, width, usize::from(area.height), ui).unwrap_or_default();
     for (line, row) in lines.iter().zip(area.y..) {
         ui.buffer.set_stringn(area.x + 1, row, line, width, ui.theme.faint());
@@ -185,7 +185,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_risk_is_told_in_one_row_too() {
+    fn each_risk_also_fits_in_one_row() {
         let risk = Risk { hand: 0.63, table: 0.24, placing: 0.112 };
         assert_eq!(risk_lines(&risk, 38, 2), ["each error alone would miss:", "hand 63 %, table 24 %, balls 11 %"]);
         assert_eq!(risk_lines(&risk, 41, 1), ["alone miss: hand 63, table 24, balls 11 %"]);

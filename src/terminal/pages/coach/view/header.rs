@@ -17,12 +17,12 @@ use crate::{
 
 /// Minimum and maximum width of the progress bar, columns; and the width from which on the state before it is written in words.
 const BAR: (usize, usize) = (6, 40);
-const WORDY: usize = 16;
+const MIN_BAR_WITH_WORDS: usize = 16;
 /// Widths of the row after the tabs, columns, from which on the name and the size of the default table are shown.
-const NAMED: usize = 60;
-const MEASURED: usize = 90;
+const MIN_WIDTH_WITH_NAME: usize = 60;
+const MIN_WIDTH_WITH_SIZE: usize = 90;
 /// Note that jumps and massés are forbidden. The coach's answer repeats it.
-const FORBIDDEN: &str = " no jumps";
+const NO_JUMPS_NOTE: &str = " no jumps";
 /// Maximum width of the table's name while another player's table is followed, columns.
 const TABLE: usize = 12;
 /// Minimum width of a policy's name that is still readable, columns.
@@ -45,7 +45,7 @@ pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let left = room.saturating_sub(question.width() + name.width() + 1);
     // The bar is more informative than words.
     let wanted = [
-        (Form::Words, WORDY),
+        (Form::Words, MIN_BAR_WITH_WORDS),
         (Form::Sign, BAR.0),
         (Form::Words, 0),
         (Form::Sign, 0),
@@ -66,7 +66,7 @@ pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
 fn question(coach: &CoachPage, has_plan: bool, has_average: bool, ui: &Ui) -> Line<'static> {
     let query = &coach.query;
     if let Some(followed) = coach.followed() {
-        let words = if followed.emptiness().is_some() {
+        let words = if followed.empty_reason().is_some() {
             String::new()
         } else {
             let table = end_of(&coach.table().name, TABLE, ui.caps);
@@ -80,12 +80,12 @@ fn question(coach: &CoachPage, has_plan: bool, has_average: bool, ui: &Ui) -> Li
     let parts = [
         (CoachAction::NextRule, rule_word(query.rule)),
         (CoachAction::NextSkill, player.as_str()),
-        (CoachAction::TurnPlan, plan),
+        (CoachAction::TogglePlan, plan),
     ];
     let mut parts = parts[..if has_plan { 3 } else { 2 }].to_vec();
     let first = format!("{} first", query.first.word(coach.cue_ball().names()));
     if query.first != FirstContact::Any {
-        parts.push((CoachAction::NextFirstMet, &first));
+        parts.push((CoachAction::NextFirstContact, &first));
     }
     let mut line = Line::default();
     for (action, words) in parts {
@@ -101,8 +101,8 @@ fn name(coach: &CoachPage, left: usize, room: usize, ui: &Ui) -> Line<'static> {
         return Line::default();
     }
     let mut line = policy_or_table(coach, left, room, ui);
-    if !coach.query.jumps && line.width() + FORBIDDEN.len() <= left {
-        line.push_span(Span::styled(FORBIDDEN, ui.theme.text()));
+    if !coach.query.jumps && line.width() + NO_JUMPS_NOTE.len() <= left {
+        line.push_span(Span::styled(NO_JUMPS_NOTE, ui.theme.text()));
     }
     line
 }
@@ -110,14 +110,14 @@ fn name(coach: &CoachPage, left: usize, room: usize, ui: &Ui) -> Line<'static> {
 fn policy_or_table(coach: &CoachPage, left: usize, room: usize, ui: &Ui) -> Line<'static> {
     let table = coach.table();
     let is_usual = coach.query.policy.is_none() && table.name == "match";
-    if left < NAME || is_usual && room < NAMED {
+    if left < NAME || is_usual && room < MIN_WIDTH_WITH_NAME {
         return Line::default();
     }
     if let Some((policy, _)) = &coach.query.policy {
         return Line::styled(format!(" {}", end_of(policy, left - 1, ui.caps)), ui.theme.good());
     }
     let mut line = Line::styled(format!(" {}", end_of(&table.name, left - 1, ui.caps)), ui.theme.text());
-    if room >= MEASURED {
+    if room >= MIN_WIDTH_WITH_SIZE {
         line.push_span(Span::styled(format!(" {} x {} m", table.length, table.width), ui.theme.faint()));
     }
     line
@@ -141,7 +141,7 @@ enum Form {
 fn transport(coach: &CoachPage, form: Form, bar: usize, ui: &Ui) -> Line<'static> {
     let playback = coach.playback;
     let is_thinking = coach.spinner().is_some();
-    if coach.followed().is_some_and(|followed| followed.emptiness().is_some()) {
+    if coach.followed().is_some_and(|followed| followed.empty_reason().is_some()) {
         return Line::default();
     }
     let Some(shot) = coach.shot() else {

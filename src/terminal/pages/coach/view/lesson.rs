@@ -79,7 +79,7 @@ fn write_at(
     let (column, row) = mapping.to_cell(metres(table, inside));
     let is_above = place.y > 4.0 - 0.5 * DIAMOND_SETBACK;
     let is_below = place.y < 0.5 * DIAMOND_SETBACK;
-    let is_left = place.x < 0.5 * DIAMOND_SETBACK;
+    let is_closed = place.x < 0.5 * DIAMOND_SETBACK;
     let outer = mapping.outer();
     let (x, y) = if (is_above || is_below) && (0.0..=8.0).contains(&place.x) {
         let y = match (is_above, is_inside) {
@@ -96,7 +96,7 @@ fn write_at(
             () if is_above && !is_inside => bed.y - 1,
             () => row,
         };
-        let x = match (is_left, is_inside) {
+        let x = match (is_closed, is_inside) {
             (true, true) => bed.x,
             (true, false) => outer.x,
             (false, true) => bed.right().saturating_sub(width),
@@ -171,7 +171,7 @@ mod tests {
     use crate::coach::systems::{System, diamonds};
 
     #[test]
-    fn the_way_begins_at_the_diamond_behind_and_ends_at_the_third_cushion() {
+    fn path_runs_from_diamond_behind_to_third_cushion() {
         let table = Table::default();
         let applied = crate::coach::systems::Applied::example(System::Corner5, &table).unwrap();
         let guide = Guide::System(applied);

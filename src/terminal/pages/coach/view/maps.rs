@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn the_legend_has_no_outcome_that_the_rule_does_not_know() {
+    fn legend_omits_outcomes_unknown_to_the_rule() {
         use Outcome::{NoBall, OneBall, TooFewCushions};
         let [plain, foul] = [OneBall, TooFewCushions].map(|last| cornered([[NoBall, OneBall], [NoBall, last]]));
         let said = |rule, maps| words_by(rule, TooFewCushions, "too few cushions", maps);
@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn the_corners_of_a_map_are_its_ends() {
+    fn map_corners_are_the_ends_of_its_ranges() {
         use Outcome::{NoBall, NoStroke, OneBall, Point, TooFewCushions};
         let map = cornered([[NoStroke, NoBall], [OneBall, TooFewCushions]]);
         let corners =

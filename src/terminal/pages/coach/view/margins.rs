@@ -202,7 +202,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_tightest_input_is_measured_in_the_players_errors() {
+    fn tightest_margin_is_relative_to_the_players_errors() {
         let margin = |input: Input, less, more| Margin { input, unit: input.unit(), less, more };
         let margins = [
             margin(Input::Side, Some(3.0), Some(0.6)),

@@ -1,6 +1,5 @@
 //! The view of the coach page: the table, the coach's advice, and the playback of the shot.
 
-mod asked;
 mod balls;
 mod card;
 mod chances;
@@ -11,6 +10,7 @@ mod margins;
 mod own_stroke;
 mod panes;
 mod plan;
+mod query;
 mod shot;
 mod words;
 
@@ -23,11 +23,10 @@ use crate::{
     terminal::{
         AdviceState, Capabilities, InfoPanel, Mapping, Mode, Shot,
         pages::{
-            Asked, PageArea, PageView, Target,
+            OpenQuestion, PageArea, PageView, Target,
             coach::{
-                CoachPage, Followed,
+                CoachPage, FollowedPlayer,
                 view::{
-                    asked::draw_asked,
                     balls::draw_balls,
                     card::draw_card,
                     chances::{choice_at, draw_chances, draw_why, why_line},
@@ -38,6 +37,7 @@ use crate::{
                     own_stroke::{COACH, draw_own_stroke},
                     panes::Panes,
                     plan::{FAILED, draw_plan, plan_spots},
+                    query::draw_query,
                     shot::{draw_proposal, draw_shot},
                     words::draw_shot_words,
                 },
@@ -53,12 +53,12 @@ use crate::{
 };
 
 /// Positions of hidden balls, m: far enough from the table that nothing of them is drawn on it.
-const NOWHERE: [DVec2; BALLS] = [DVec2::splat(1e3), DVec2::new(1e3, -1e3), DVec2::new(-1e3, 1e3)];
+const OFF_TABLE: [DVec2; BALLS] = [DVec2::splat(1e3), DVec2::new(1e3, -1e3), DVec2::new(-1e3, 1e3)];
 
 impl PageView for CoachPage {
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> Message {
         draw_header(self, area.header, ui);
-        if let Some(words) = self.followed().and_then(Followed::emptiness) {
+        if let Some(words) = self.followed().and_then(FollowedPlayer::empty_reason) {
             let [style, place] = [ui.theme.text(), ui.theme.faint()];
             let hint = "q ends it.".to_owned();
             write_paragraphs(&[(words, style), (hint, place)], area.body.inner(Margin::new(2, 2)), ui);
@@ -66,7 +66,7 @@ impl PageView for CoachPage {
         }
         let profile = self.profile();
         let (panes, side) = panes(self, area.screen);
-        let choice = self.shown().map(AdviceState::choice);
+        let choice = self.displayed_advice().map(AdviceState::choice);
         let planned = choice.filter(|_| self.info == InfoPanel::Plan && self.what_if().is_none());
         let mut spots = planned.map_or_else(Vec::new, |choice| plan_spots(choice, ui.theme));
         let lesson = self.lesson.as_ref();
@@ -75,7 +75,7 @@ impl PageView for CoachPage {
         }
         // The lesson's example is not about the balls on the table.
         let is_example = lesson.is_some_and(|lesson| !lesson.is_of_shot);
-        let nowhere = Layout::new(NOWHERE);
+        let nowhere = Layout::new(OFF_TABLE);
         let kiss = kiss_note(self);
         let view = TableView {
             shot: self.shot().map(AsRef::as_ref).filter(|_| !is_example),
@@ -104,18 +104,17 @@ impl PageView for CoachPage {
         let room = usize::from(area.status.width.saturating_sub(2));
         // A message with the success rate alone repeats the panel above, so the explanation of the ranking replaces it if no panel shows
         // that.
-        let message = self
-            .message
-            .clone()
-            .filter(|message| says_why || !self.is_bare_chance(message) || ranking_line(self, room, ui).is_none());
+        let message = self.message.clone().filter(|message| {
+            says_why || !self.is_only_success_rate(message) || ranking_line(self, room, ui).is_none()
+        });
         let message = message.unwrap_or_else(|| status_line(self, says_why, room, ui));
-        self.marked(message)
+        self.with_sharing_prefix(message)
     }
 
-    fn asked(&self, _: Capabilities) -> Option<Asked<'_>> {
+    fn open_question(&self, _: Capabilities) -> Option<OpenQuestion<'_>> {
         let question = self.question.as_ref()?;
         let words = question.text(self.cue_ball().names(), self.selected);
-        Some(Asked::new(self.message.as_ref(), &words, question.field()))
+        Some(OpenQuestion::new(self.message.as_ref(), &words, question.field()))
     }
 
     fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
@@ -132,14 +131,14 @@ impl PageView for CoachPage {
             return None;
         }
         let (_, chances) = info_panels(self.info, &panes).find(|(panel, _)| *panel == InfoPanel::Chances)?;
-        let advised = self.shown().filter(|_| chances.contains(at) && self.what_if().is_none())?;
+        let advised = self.displayed_advice().filter(|_| chances.contains(at) && self.what_if().is_none())?;
         choice_at(advised, chances, at.y).map(Target::Shot)
     }
 }
 
 /// Position and label of the kiss that spoils the most strokes, with its share of them. Shown before the first proposed shot is played.
 fn kiss_note(coach: &CoachPage) -> Option<(DVec2, String)> {
-    let advised = coach.shown().filter(|advised| advised.chosen == 0 && coach.what_if().is_none());
+    let advised = coach.displayed_advice().filter(|advised| advised.chosen == 0 && coach.what_if().is_none());
     let kiss =
         advised.filter(|_| coach.described_shot().is_some() && coach.info == InfoPanel::Shot)?.why.as_ref()?.kiss?;
     let names = coach.cue_ball().names();
@@ -177,8 +176,9 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
         };
         draw_shot_words(coach, described, area, ui)
     });
-    let explained =
-        coach.shown().filter(|_| is_beside && chosen == InfoPanel::Chances && coach.described_shot().is_some());
+    let explained = coach
+        .displayed_advice()
+        .filter(|_| is_beside && chosen == InfoPanel::Chances && coach.described_shot().is_some());
     let is_explained = explained.is_some_and(|advised| draw_why(advised, panes.events, ui));
     // If all panels are below the table, the panel "Chances" is among them and shows the explanation.
     let says_why = shot_explains_why || is_explained || !is_beside;
@@ -189,7 +189,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
             None => draw_info(coach, panel, !shot_explains_why && !is_explained, area, ui),
         }
     }
-    if let (InfoPanel::Margins, Some(advised), Some(shot)) = (chosen, coach.shown(), shot)
+    if let (InfoPanel::Margins, Some(advised), Some(shot)) = (chosen, coach.displayed_advice(), shot)
         && let Some(study) = &advised.choice().study
     {
         let unit = coach.units.length;
@@ -213,7 +213,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
     draw_spin_or_hit(spin, shot.map(Shot::meeting), panes.hit, ui);
     match () {
         () if described.is_some() && is_beside || is_explained => {}
-        () if shot.is_none() && coach.followed().is_none() => draw_asked(coach, panes.events, ui),
+        () if shot.is_none() && coach.followed().is_none() => draw_query(coach, panes.events, ui),
         () => draw_listed(coach, shot, time, panes.events, ui),
     }
     says_why
@@ -241,7 +241,7 @@ pub fn table_mapping(coach: &CoachPage, area: Rect) -> Mapping {
 
 /// Draws one of the info panels. `says_why` lets the panel "Chances" explain why the first shot ranks first.
 fn draw_info(coach: &CoachPage, panel: InfoPanel, says_why: bool, area: Rect, ui: &mut Ui) {
-    let advised = coach.shown();
+    let advised = coach.displayed_advice();
     let is_followed = coach.followed().is_some();
     let choice = advised.map(AdviceState::choice);
     let empty = match (coach.spinner(), choice) {
@@ -268,7 +268,7 @@ fn draw_info(coach: &CoachPage, panel: InfoPanel, says_why: bool, area: Rect, ui
 /// displayed or nothing fits.
 fn ranking_line(coach: &CoachPage, room: usize, ui: &Ui) -> Option<String> {
     let is_described = coach.info == InfoPanel::Shot && coach.what_if().is_none() && coach.described_shot().is_some();
-    why_line(coach.shown().filter(|_| is_described)?, room, ui)
+    why_line(coach.displayed_advice().filter(|_| is_described)?, room, ui)
 }
 
 /// The text of the status line, `room` columns wide, if there is no message.
@@ -282,7 +282,7 @@ fn status_line(coach: &CoachPage, says_why: bool, room: usize, ui: &Ui) -> Messa
         });
         return Message::plain(format!("{} {words}", pictures[picture % pictures.len()]));
     }
-    if let Some(doing) = coach.followed().and_then(Followed::doing) {
+    if let Some(doing) = coach.followed().and_then(FollowedPlayer::activity_words) {
         return Message::plain(doing);
     }
     // For the player's own stroke its panel shows the result already.

@@ -12,18 +12,18 @@ use crate::{
 };
 
 /// Rows of the panels if all of them are below the table: minimum (a title and seven lines), the screen height from which on they grow,
-/// and maximum. They get one more row for every [`ROWS_A_PANEL_ROW`] rows above that height.
+/// and maximum. They get one more row for every [`ROWS_PER_PANEL_ROW`] rows above that height.
 const BELOW: (u16, u16, u16) = (8, 40, 12);
-const ROWS_A_PANEL_ROW: u16 = 5;
+const ROWS_PER_PANEL_ROW: u16 = 5;
 /// Rows of the panels below the table if there is a column next to it: a title and three balls.
 const BELOW_BESIDE: u16 = 4;
 /// Minimum and maximum width of the column next to the table.
 const BESIDE: (u16, u16) = (16, 36);
 /// Widths of the panels info, shot, tip, hit and events if they are side by side: the minimum, and with more room. The tip's panel may
-/// be wider, up to [`MOST_TIP_WIDTH`].
+/// be wider, up to [`MAX_TIP_WIDTH`].
 const NARROW: [u16; 5] = [38, 32, 12, 12, 22];
 const WIDE: [u16; 5] = [39, 33, 14, 16, 29];
-const MOST_TIP_WIDTH: u16 = 18;
+const MAX_TIP_WIDTH: u16 = 18;
 /// Width of each further info panel.
 const MORE_WIDTH: u16 = 38;
 /// Screen width from which on all of these fit.
@@ -45,7 +45,7 @@ const MANY_ROWS: u16 = 13;
 
 /// Minimum size of the table with all panels below it, relative to the table with some panels next to it. Losing a twentieth is
 /// acceptable for seeing several panels at once.
-const LARGE: f64 = 0.95;
+const MIN_RELATIVE_SIZE: f64 = 0.95;
 
 /// The screen areas of the coach page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,7 +72,7 @@ impl Panes {
         let below = Self::all_below(table, area);
         let beside = Self::some_beside(table, area);
         let rows = |panes: &Self| Mapping::fit(table, panes.table).bed.height;
-        let is_large = f64::from(rows(&below)) >= LARGE * f64::from(rows(&beside));
+        let is_large = f64::from(rows(&below)) >= MIN_RELATIVE_SIZE * f64::from(rows(&beside));
         if area.width >= ALL_BELOW_WIDTH && is_large { below } else { beside }
     }
 
@@ -99,7 +99,7 @@ impl Panes {
     fn all_below(table: &Table, area: Rect) -> Self {
         let middle = Self::middle(area);
         let (least, from, most) = BELOW;
-        let rows = (least + area.height.saturating_sub(from) / ROWS_A_PANEL_ROW).min(most);
+        let rows = (least + area.height.saturating_sub(from) / ROWS_PER_PANEL_ROW).min(most);
         let room = Rect { height: middle.height.saturating_sub(rows), ..middle };
         let outer = Mapping::fit(table, room).outer();
         let top = outer.bottom().min(middle.bottom());
@@ -117,7 +117,7 @@ impl Panes {
         // The cue ball's face needs twice as many columns as rows, and its panel has a title row.
         let spare = area.width.saturating_sub(width(widths));
         let [info, shot, tip, hit, events] = widths;
-        let tip = (tip + spare).min(2 * (rows - 1)).clamp(tip, MOST_TIP_WIDTH);
+        let tip = (tip + spare).min(2 * (rows - 1)).clamp(tip, MAX_TIP_WIDTH);
         let taken = width([info, shot, tip, hit, events]);
         let others = area.width.saturating_sub(taken) / (MORE_WIDTH + 1);
         let [info, shot, tip, hit] = [info, shot, tip, hit].map(&mut panel);
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn the_table_is_as_large_as_the_panels_allow() {
+    fn table_is_as_large_as_panels_allow() {
         assert_eq!(bed(80, 24), (60, 15));
         assert_eq!(bed(120, 40), (108, 27));
         assert_eq!(bed(200, 60), (172, 43));

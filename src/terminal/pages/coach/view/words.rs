@@ -46,7 +46,7 @@ pub fn draw_shot_words(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &
     .map(|parts| parts.into_iter().flatten().collect::<Vec<_>>());
     let mut lines = lay_out(&tries, width, rows, ui.caps.pick(" …", " ..."));
     let left = rows - lines.len();
-    let why = coach.shown().filter(|_| left > 0).and_then(|advised| why_lines(advised, width, left, ui));
+    let why = coach.displayed_advice().filter(|_| left > 0).and_then(|advised| why_lines(advised, width, left, ui));
     let says_why = why.is_some();
     lines.extend(why.into_iter().flatten().map(|line| Line::styled(line, ui.theme.faint())));
     let inner = draw_title(title.unwrap_or(bare), area, ui);
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_stand_apart_where_there_is_room_flow_where_there_is_less_and_are_shorter_where_there_is_least() {
+    fn parts_are_spread_flowed_or_shortened_to_fit() {
         let tries = [&["one two three", "four", "five six"][..], &["one two three", "four"]];
         assert_eq!(laid_out(&tries, 9, 4), ["one two", "three", "four", "five six"]);
         assert_eq!(laid_out(&tries, 10, 3), ["one two", "three four", "five six"]);

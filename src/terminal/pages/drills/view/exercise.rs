@@ -20,14 +20,14 @@ use crate::{
 };
 
 /// Distance between the dots of the aim line, m. It is half that of a path's dots, so that the dots look like a line.
-const DOT: f64 = 0.04;
+const AIM_DOT_SPACING: f64 = 0.04;
 /// The cue behind the ball, m: distances of its start and end from the ball's centre, and the distance between its dots.
 const CUE: (f64, f64) = (0.09, 0.5);
 const CUE_DOT: f64 = 0.008;
 
 /// Draws the screen. Returns the default text of the status line.
 pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut Ui) -> Message {
-    draw_header(drills, &turn.exercise.title, &about(turn, ui.caps), header, ui);
+    draw_header(drills, &turn.exercise.title, &subtitle(turn, ui.caps), header, ui);
     let profile = turn.profile();
     let panes = Panes::new(&turn.table, area);
     let (panes, side) = if profile.is_some() { panes.with_side_view() } else { (panes, Rect::ZERO) };
@@ -39,7 +39,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, header: Rect, area: Rect, ui: &mut
         (None, Some(model_shot), _) => cue_spots(turn, model_shot.advice.cue.phi, ui.theme, ui.caps),
         (None, None, Some(aim_line)) => {
             let cue = cue_spots(turn, turn.stroke().phi, ui.theme, ui.caps);
-            cue.into_iter().chain(way_spots(turn, aim_line, ui.theme, ui.caps)).collect()
+            cue.into_iter().chain(aim_line_spots(turn, aim_line, ui.theme, ui.caps)).collect()
         }
     };
     let time = turn.watched().filter(|_| !turn.shows_hint).map_or(0.0, |watched| watched.playback.time);
@@ -96,7 +96,7 @@ fn draw_precision(drills: &DrillsPage, turn: &Turn, aim_line: Option<&AimLine>, 
 }
 
 /// Grade of the exercise, and whether its repetitions are shifted.
-fn about(turn: &Turn, caps: Capabilities) -> String {
+fn subtitle(turn: &Turn, caps: Capabilities) -> String {
     let grade = turn.exercise.grade;
     let mut parts = if grade > 0 { vec![format!("grade {grade}")] } else { Vec::new() };
     if turn.session.shifted {
@@ -120,10 +120,10 @@ fn cue_spots(turn: &Turn, phi: f64, theme: &Theme, caps: Capabilities) -> Vec<Sp
 }
 
 /// The dots of the aim line, with the ball at its end.
-fn way_spots(turn: &Turn, aim_line: &AimLine, theme: &Theme, caps: Capabilities) -> Vec<Spot> {
+fn aim_line_spots(turn: &Turn, aim_line: &AimLine, theme: &Theme, caps: Capabilities) -> Vec<Spot> {
     let (color, letter) = (theme.paths[0], caps.pick('·', '.'));
     // The ball at the end would cover the last dots.
-    let dots = aim_line.dots(DOT, 1.5 * turn.table.radius).into_iter();
+    let dots = aim_line.dots(AIM_DOT_SPACING, 1.5 * turn.table.radius).into_iter();
     let ghost = theme.letters()[0].to_ascii_lowercase();
     let ghost = aim_line.points.last().map(|place| Spot { place: *place, is_ball: true, color, letter: ghost });
     let dots = dots.map(|place| Spot { place, is_ball: false, color, letter });

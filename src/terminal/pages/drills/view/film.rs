@@ -28,7 +28,7 @@ use crate::{
 pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Message {
     let (film, unit) = (&drills.film, drills.units.length);
     let Some(listed) = film.marked() else { return Message::plain("the film has no shots") };
-    let more = about(listed, unit, separator(ui.caps));
+    let more = subtitle(listed, unit, separator(ui.caps));
     draw_header(&format!("filmed shot {}", listed.filmed.number), &more, &Span::default(), header, ui);
     let panes = Panes::new(table(), area);
     let played = film.played();
@@ -57,7 +57,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
 }
 
 /// Result, speed and duration of a filmed shot.
-fn about(listed: &Listed, unit: LengthUnit, dot: &str) -> String {
+fn subtitle(listed: &Listed, unit: LengthUnit, dot: &str) -> String {
     let filmed = &listed.filmed;
     let speed = speed_words(filmed.speed(), unit, 1);
     [outcome(listed).to_owned(), speed, format!("{} s", fixed(filmed.duration(), 1))].join(dot)

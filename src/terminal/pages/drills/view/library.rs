@@ -25,9 +25,9 @@ use crate::{
 };
 
 /// Width of the list, percent of the screen: on narrow and on wide screens. The titles of the bundled exercises fit into
-/// [`LIST_ENOUGH`] columns, which the list keeps on screens in between.
+/// [`LIST_MIN`] columns, which the list keeps on screens in between.
 const LIST: (u16, u16) = (58, 33);
-const LIST_ENOUGH: u16 = 58;
+const LIST_MIN: u16 = 58;
 /// Right ends of the grade, of the points at a real table and of those in the program, from the list's right edge, columns. The points
 /// are two numbers of up to three digits with a slash between them and a blank on either side.
 const GRADE_END: u16 = 17;
@@ -55,7 +55,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
 /// The areas of the list and of the marked exercise.
 fn halves(area: Rect) -> [Rect; 2] {
     let share = |of| area.width * of / 100;
-    split(share(LIST.0).min(LIST_ENOUGH.max(share(LIST.1))), area)
+    split(share(LIST.0).min(LIST_MIN.max(share(LIST.1))), area)
 }
 
 /// The mouse target at `at`.
@@ -78,11 +78,11 @@ fn status_line(drills: &DrillsPage) -> Message {
 
 /// The list, grouped by category.
 fn grouped(drills: &DrillsPage) -> Grouped<&Exercise> {
-    Grouped::new(drills.catalogue.found(), drills.catalogue.mark, |exercise| exercise.category.title())
+    Grouped::new(drills.catalogue.filtered(), drills.catalogue.mark, |exercise| exercise.category.title())
 }
 
 fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
-    let count = drills.catalogue.found().len();
+    let count = drills.catalogue.filtered().len();
     let title = filter_words(drills, count);
     let inner = draw_title(title.as_str(), area, ui);
     if count == 0 {
@@ -134,7 +134,7 @@ fn draw_exercise(drills: &DrillsPage, exercise: &Exercise, area: Rect, ui: &mut 
     let inner = draw_title(shorten(&exercise.title, room, ui.caps), area, ui);
     let Ok(table) = exercise.table() else { return };
     // The text gets the rows that it needs, and the table the rest.
-    let mut paragraphs = about(drills, exercise, &table, ui.theme);
+    let mut paragraphs = description(drills, exercise, &table, ui.theme);
     let width = inner.width.saturating_sub(2).min(READABLE);
     let rows = |paragraphs: &[Paragraph]| {
         let rows: usize = paragraphs.iter().map(|one| wrap(&one.text, usize::from(width)).len()).sum();
@@ -160,7 +160,7 @@ struct Paragraph {
 }
 
 /// The lesson of an exercise, and the typical and the player's own success rates.
-fn about(drills: &DrillsPage, exercise: &Exercise, table: &Table, theme: &Theme) -> Vec<Paragraph> {
+fn description(drills: &DrillsPage, exercise: &Exercise, table: &Table, theme: &Theme) -> Vec<Paragraph> {
     let mut all = Vec::new();
     let mut add = |text: String, style, is_extra| all.push(Paragraph { text, style, is_extra });
     if !exercise.point.is_empty() {
@@ -198,7 +198,7 @@ fn draw_nothing(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
          a code that somebody has sent you."
             .to_owned()
     } else {
-        match (drills.catalogue.elsewhere(), &drills.question) {
+        match (drills.catalogue.matches_elsewhere(), &drills.question) {
             (0, _) => "No exercise matches. 0 lists all.".to_owned(),
             (elsewhere, question) => {
                 let place = match (filter.category, filter.grade) {

@@ -23,7 +23,7 @@ use crate::{
     terminal::{
         Capabilities, DrillContext, Mapping,
         pages::{
-            Asked, PageArea, PageView, Target,
+            OpenQuestion, PageArea, PageView, Target,
             drills::{DrillsPage, Question},
         },
         ui::{self, Message, TableView, Ui, draw_table},
@@ -51,14 +51,14 @@ impl PageView for DrillsPage {
         self.message.clone().unwrap_or(status_line)
     }
 
-    fn asked(&self, _: Capabilities) -> Option<Asked<'_>> {
+    fn open_question(&self, _: Capabilities) -> Option<OpenQuestion<'_>> {
         let question = self.question.as_ref()?;
-        let asked = Asked::new(self.message.as_ref(), &question.text(), question.field());
-        Some(Asked { has_own_keys: matches!(question, Question::Search { .. }), ..asked })
+        let asked = OpenQuestion::new(self.message.as_ref(), &question.text(), question.field());
+        Some(OpenQuestion { has_own_keys: matches!(question, Question::Search { .. }), ..asked })
     }
 
     fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
-        match self.place() {
+        match self.key_context() {
             DrillContext::Library | DrillContext::Search => library::target(self, area.body, at),
             DrillContext::Films => films::target(self, area.body, at),
             // The mouse wheel scrolls the list, but it has no entries to mark.

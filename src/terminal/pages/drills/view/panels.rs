@@ -82,7 +82,7 @@ pub fn draw_task(
     ui: &mut Ui,
 ) {
     let units = drills.units;
-    let settled = turn.watched().filter(|watched| watched.is_settled);
+    let settled = turn.watched().filter(|watched| watched.is_end_shown);
     let rule = turn.exercise.rule;
     let task = if turn.is_with_coach() { "The coach's turn" } else { "Task" };
     let task = format!("{task}: {rule}");
@@ -102,7 +102,7 @@ pub fn draw_task(
             paragraphs.push((met, ui.theme.accent()));
             match least_elevation(&turn.table, &turn.layout, turn.stroke()) {
                 Ok(LeastElevation { theta, over: Some(over) }) => {
-                    least = Some((least_words(theta, over, turn.cue_ball, ui.caps), ui.theme.faint()));
+                    least = Some((min_elevation_words(theta, over, turn.cue_ball, ui.caps), ui.theme.faint()));
                 }
                 Ok(LeastElevation { over: None, .. }) => {}
                 Err(NoRoom { obstacle }) => {
@@ -162,7 +162,7 @@ fn write_pages(
     }
     let pages = lines.len().div_ceil(rows).max(1);
     let page = page.rem_euclid(pages.cast_signed()).cast_unsigned();
-    let key = ui.key_of(EXERCISE, &DrillAction::TurnText(1));
+    let key = ui.key_of(EXERCISE, &DrillAction::TurnTextPage(1));
     let title = if pages > 1 { format!("{title}{}{key} {}/{pages}", separator(ui.caps), page + 1) } else { title };
     let inner = draw_title(title, area, ui);
     let shown = lines.chunks(rows).nth(page).unwrap_or_default();
@@ -210,7 +210,7 @@ fn aim_line_words(aim_line: &AimLine, cue_ball: CueBall, diamond: f64, units: Un
 }
 
 /// The minimum elevation of the cue, and the obstacle that requires it.
-fn least_words(theta: f64, over: Obstacle, cue_ball: CueBall, caps: Capabilities) -> String {
+fn min_elevation_words(theta: f64, over: Obstacle, cue_ball: CueBall, caps: Capabilities) -> String {
     let degree = caps.pick("°", " deg");
     format!("cue at least {}{degree} up, over the {}", fixed(theta.to_degrees(), 1), obstacle_word(over, cue_ball))
 }
@@ -307,7 +307,7 @@ mod tests {
     use glam::DVec2;
 
     #[test]
-    fn places_the_tip_and_the_speed_are_told_in_the_units_of_the_settings() {
+    fn positions_tip_and_speed_use_the_settings_units() {
         let table = Table::default();
         let mark = RailPoint { rail: Rail::Left, diamond: 2.04 };
         let places = vec![DVec2::ZERO, DVec2::new(0.5, 0.0)];
@@ -324,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_that_run_under_an_empty_panel_hold_more() {
+    fn rows_under_an_empty_panel_hold_more_text() {
         let paragraphs = [("one two three four five".to_owned(), Style::new()), ("six".to_owned(), Style::new())];
         let lines = lines_of(&paragraphs, |row| if row < 1 { 7 } else { 10 });
         let lines: Vec<_> = lines.iter().map(|(line, _)| line.as_str()).collect();
@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn paragraphs_that_have_no_room_stand_one_behind_the_other() {
+    fn paragraphs_without_room_are_joined() {
         let words = ["one.", "two", "three"].map(|words| (words.to_owned(), Style::new()));
         let other = ("four".to_owned(), Style::new().bold());
         let joined = joined(&[&words[..], &[other]].concat());
@@ -341,12 +341,12 @@ mod tests {
     }
 
     #[test]
-    fn the_least_elevation_is_told_with_what_the_cue_passes_over() {
+    fn minimum_elevation_is_shown_with_the_obstacle() {
         let caps = |unicode| Capabilities { depth: Depth::True, glyphs: Glyphs::Letters, unicode };
         let theta = 7.26_f64.to_radians();
-        let over_rail = least_words(theta, Obstacle::Rail(Rail::Top), CueBall::White, caps(true));
+        let over_rail = min_elevation_words(theta, Obstacle::Rail(Rail::Top), CueBall::White, caps(true));
         assert_eq!(over_rail, "cue at least 7.3° up, over the top rail");
-        let over_ball = least_words(theta, Obstacle::Ball(1), CueBall::White, caps(false));
+        let over_ball = min_elevation_words(theta, Obstacle::Ball(1), CueBall::White, caps(false));
         assert_eq!(over_ball, "cue at least 7.3 deg up, over the yellow ball");
         assert_eq!(
             no_room_words(Obstacle::Ball(1), CueBall::Yellow),

@@ -180,10 +180,10 @@ const EMPTY: &str = "A session begins with the first stroke that you play at an 
                      you note there from a real table.";
 
 /// Right ends of the numbers of a session, columns.
-const ENDS: [(u16, &str); 4] = [(26, "made"), (33, "rate"), (38, "run"), (46, "average")];
+const NUMBER_ENDS: [(u16, &str); 4] = [(26, "made"), (33, "rate"), (38, "run"), (46, "average")];
 /// First columns of the venue and of the exercise and goal.
-const WHERE: u16 = 48;
-const WHAT: u16 = 54;
+const VENUE_COLUMN: u16 = 48;
+const GOAL_COLUMN: u16 = 54;
 
 fn draw_sessions(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>, area: Rect, ui: &mut Ui) {
     let title = vec![Span::styled("Sessions", ui.theme.text()), Span::styled(" UTC", ui.theme.faint())];
@@ -193,7 +193,7 @@ fn draw_sessions(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>
         write_paragraphs(&[(EMPTY.to_owned(), ui.theme.faint())], text, ui);
         return;
     }
-    for (end, label) in ENDS {
+    for (end, label) in NUMBER_ENDS {
         write_right(ui.buffer, area.x, area.x + end + 1, area.y, &format!(" {label} "), ui.theme.faint());
     }
     let top = drills.records.top(sessions.len());
@@ -203,14 +203,19 @@ fn draw_sessions(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>
             write_right(buffer, inner.x, inner.x + end, y, text, style);
         };
         ui.buffer.set_string(inner.x + 1, y, started(session), ui.theme.faint());
-        put(ui.buffer, ENDS[0].0, &format!("{}/{}", record.made, record.tried), ui.theme.text());
-        put(ui.buffer, ENDS[1].0, &percent_words(record.rate.rate), ui.theme.text());
-        put(ui.buffer, ENDS[2].0, &high_run(&record).map_or("-".to_owned(), |run| run.to_string()), ui.theme.text());
+        put(ui.buffer, NUMBER_ENDS[0].0, &format!("{}/{}", record.made, record.tried), ui.theme.text());
+        put(ui.buffer, NUMBER_ENDS[1].0, &percent_words(record.rate.rate), ui.theme.text());
+        put(
+            ui.buffer,
+            NUMBER_ENDS[2].0,
+            &high_run(&record).map_or("-".to_owned(), |run| run.to_string()),
+            ui.theme.text(),
+        );
         let average = record.average.map_or("-".to_owned(), |average| format!("{average:.2}"));
-        put(ui.buffer, ENDS[3].0, &average, ui.theme.text());
-        ui.buffer.set_string(inner.x + WHERE, y, session.venue.word(), ui.theme.text());
-        let room = usize::from(inner.width.saturating_sub(WHAT));
-        ui.buffer.set_string(inner.x + WHAT, y, shorten(&what(session, scope), room, ui.caps), ui.theme.faint());
+        put(ui.buffer, NUMBER_ENDS[3].0, &average, ui.theme.text());
+        ui.buffer.set_string(inner.x + VENUE_COLUMN, y, session.venue.word(), ui.theme.text());
+        let room = usize::from(inner.width.saturating_sub(GOAL_COLUMN));
+        ui.buffer.set_string(inner.x + GOAL_COLUMN, y, shorten(&what(session, scope), room, ui.caps), ui.theme.faint());
     }
 }
 

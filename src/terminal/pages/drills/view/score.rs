@@ -31,7 +31,7 @@ pub fn draw(drills: &DrillsPage, turn: &Turn, area: Rect, ui: &mut Ui) -> u16 {
     let ever = drills.book.scores_of(&turn.exercise.name);
     let tried: usize = ever.iter().map(|(_, record)| record.tried).sum();
     // A stroke that is still being watched is not counted here either.
-    if tried > session.attempts.len() && session.goal != Goal::Exam && !turn.is_open() {
+    if tried > session.attempts.len() && session.goal != Goal::Exam && !turn.is_result_hidden() {
         let scores = ever.iter().map(|(venue, record)| format!("{} {}/{}", venue.word(), record.made, record.tried));
         let words = format!("in all: {}", scores.collect::<Vec<_>>().join(", "));
         paragraphs.push((words, ui.theme.faint()));

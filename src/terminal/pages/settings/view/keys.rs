@@ -60,7 +60,7 @@ fn draw_words(settings: &SettingsPage, entry: &KeyEntry, area: Rect, ui: &mut Ui
     ];
     let commands = settings.keys.commands();
     if let (Some(chord), true) = (entry.chords.first(), commands.len() > 1) {
-        let all = tell(&commands);
+        let all = list_commands(&commands);
         paragraphs.push((
             format!("A key of your own does all that {} does: {all}.", keys_text([*chord], ui.caps)),
             ui.theme.faint(),
@@ -70,19 +70,19 @@ fn draw_words(settings: &SettingsPage, entry: &KeyEntry, area: Rect, ui: &mut Ui
 }
 
 /// The commands of a key, each with its page.
-fn tell(commands: &[(&str, &str)]) -> String {
+fn list_commands(commands: &[(&str, &str)]) -> String {
     let commands: Vec<String> = commands.iter().map(|(page, what)| format!("{what} ({page})")).collect();
     commands.join("; ")
 }
 
 /// The question for the new key.
-pub fn press(settings: &SettingsPage) -> String {
+pub fn new_key_prompt(settings: &SettingsPage) -> String {
     let what = settings.keys.marked().map_or("", |entry| entry.words);
     format!("press the key that should do this: {what}")
 }
 
 /// The question about a key that already has another command.
-pub fn taken(settings: &SettingsPage, chord: Chord, caps: Capabilities) -> String {
+pub fn key_conflict_question(settings: &SettingsPage, chord: Chord, caps: Capabilities) -> String {
     let commands = settings.keys.other_commands(chord, &settings.settings.keys);
-    format!("{} already does: {}. Use it for this instead?", keys_text([chord], caps), tell(&commands))
+    format!("{} already does: {}. Use it for this instead?", keys_text([chord], caps), list_commands(&commands))
 }

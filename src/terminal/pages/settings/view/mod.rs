@@ -10,7 +10,7 @@ use ratatui::{
 
 use crate::terminal::{
     Capabilities, SettingsContext, SettingsPage,
-    pages::{Asked, PageArea, PageView, Target, settings::Question},
+    pages::{OpenQuestion, PageArea, PageView, Target, settings::Question},
     ui::{Message, Ui, below_title, end_of, split, write_paragraphs},
 };
 
@@ -20,7 +20,7 @@ const LIST: (u16, u16) = (54, 70);
 const BESIDE: u16 = 100;
 const BELOW: u16 = 7;
 /// Panel height from which on there are blank rows between paragraphs.
-const APART: u16 = 10;
+const MIN_ROWS_WITH_GAPS: u16 = 10;
 
 impl PageView for SettingsPage {
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> Message {
@@ -36,10 +36,10 @@ impl PageView for SettingsPage {
         self.message.clone().unwrap_or(Message::plain(status_line))
     }
 
-    fn asked(&self, caps: Capabilities) -> Option<Asked<'_>> {
+    fn open_question(&self, caps: Capabilities) -> Option<OpenQuestion<'_>> {
         let typed = if let Some(Question::Value(typed)) = &self.question { Some(typed) } else { None };
-        let asked = Asked::new(self.message.as_ref(), &question(self, caps)?, typed);
-        Some(Asked { has_own_keys: matches!(self.question, Some(Question::Key)), ..asked })
+        let asked = OpenQuestion::new(self.message.as_ref(), &question(self, caps)?, typed);
+        Some(OpenQuestion { has_own_keys: matches!(self.question, Some(Question::Key)), ..asked })
     }
 
     fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
@@ -57,7 +57,7 @@ impl PageView for SettingsPage {
 fn question(settings: &SettingsPage, caps: Capabilities) -> Option<String> {
     match settings.question.as_ref()? {
         Question::Value(typed) => {
-            let (entry, is_other) = (settings.marked(), settings.other_in_file(settings.marked()).is_some());
+            let (entry, is_other) = (settings.marked(), settings.different_value_in_file(settings.marked()).is_some());
             let keeps = if typed.text().is_empty() && is_other {
                 format!(" (Enter alone keeps {})", (entry.get)(&settings.settings))
             } else {
@@ -65,8 +65,8 @@ fn question(settings: &SettingsPage, caps: Capabilities) -> Option<String> {
             };
             Some(format!("{}{keeps} = ", entry.key))
         }
-        Question::Key => Some(keys::press(settings)),
-        Question::Taken(chord) => Some(keys::taken(settings, *chord, caps)),
+        Question::Key => Some(keys::new_key_prompt(settings)),
+        Question::ReplaceKey(chord) => Some(keys::key_conflict_question(settings, *chord, caps)),
     }
 }
 
@@ -81,7 +81,7 @@ fn halves(page: SettingsContext, area: Rect) -> [Rect; 2] {
 
 /// Writes the description of the marked entry into a panel, with blank rows between the paragraphs if there is room.
 fn write_words(paragraphs: Vec<(String, Style)>, area: Rect, ui: &mut Ui) {
-    let blank = (area.height >= APART).then(|| (String::new(), ui.theme.text()));
+    let blank = (area.height >= MIN_ROWS_WITH_GAPS).then(|| (String::new(), ui.theme.text()));
     let all: Vec<_> = paragraphs.into_iter().flat_map(|one| blank.clone().into_iter().chain([one])).collect();
     write_paragraphs(&all, area.inner(Margin::new(1, 0)), ui);
 }

@@ -47,11 +47,11 @@ fn draw_entry(settings: &SettingsPage, entry: &Entry, is_marked: bool, area: Rec
     }
     let x = area.x + NAME;
     let room = usize::from(area.right().saturating_sub(x + 5));
-    let text = shorten(&settings.shown(&(entry.get)(&settings.settings)), room, ui.caps);
+    let text = shorten(&settings.display_value(&(entry.get)(&settings.settings)), room, ui.caps);
     let mut spans = stepper(Span::styled(text, value), is_marked, ui).to_vec();
-    if let Some(other) = settings.other_in_file(entry) {
+    if let Some(other) = settings.different_value_in_file(entry) {
         let room = usize::from(area.right().saturating_sub(x)).saturating_sub(Line::from(spans.clone()).width());
-        let whole = format!(" now; the file has {}", settings.shown(&other));
+        let whole = format!(" now; the file has {}", settings.display_value(&other));
         // If this does not fit, the description of the marked setting contains the rest.
         let note = if columns(&whole) <= room { whole } else { " now".to_owned() };
         spans.push(Span::styled(note, ui.theme.warning()));
@@ -73,7 +73,7 @@ fn draw_words(settings: &SettingsPage, area: Rect, ui: &mut Ui) {
         (format!("Accepted: {}.{accepted}", entry.accepted), ui.theme.text()),
         (format!("Default: {default}."), if settings.is_changed(entry) { ui.theme.text() } else { ui.theme.faint() }),
     ];
-    if let Some(other) = settings.other_in_file(entry) {
+    if let Some(other) = settings.different_value_in_file(entry) {
         let now = (entry.get)(&settings.settings);
         let keep = if settings.is_writable { format!(" Enter twice writes {now} into it.") } else { String::new() };
         paragraphs.insert(0, (format!("Now {now}; the file has {other}.{keep}"), ui.theme.warning()));

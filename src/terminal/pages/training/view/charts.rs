@@ -82,6 +82,7 @@ fn points(run: &Followed, quantity: Quantity, range: &RangeInclusive<f64>) -> Ve
 /// The title of chart `n`: its key and quantity. The held-out measurement is called a reward if the run's reward is not success or failure.
 fn title(n: usize, watch: &Watch) -> String {
     let quantity = Quantity::ALL[n];
-    let name = if quantity == Quantity::HeldOut && !watch.own.is_share() { "held-out reward" } else { quantity.name() };
+    let name =
+        if quantity == Quantity::HeldOut && !watch.own.is_success_rate() { "held-out reward" } else { quantity.name() };
     format!("{} {name}", n + 1)
 }

@@ -127,7 +127,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_long_command_is_broken_so_that_a_shell_still_takes_it() {
+    fn long_command_is_wrapped_with_shell_continuations() {
         let parts = ["carom train", "--agent ddpg", "--steps 10", "--from 'a --long name'"].map(str::to_owned);
         let lines = command_lines(parts.to_vec(), 24);
         assert_eq!(lines, ["carom train \\", "  --agent ddpg \\", "  --steps 10 \\", "  --from 'a --long name'"]);

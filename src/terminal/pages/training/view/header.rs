@@ -29,7 +29,7 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
         _ => ui.theme.text(),
     };
     let words = format!("{:<CONDITION$}", condition.to_string());
-    let share = watch.planned().map(|planned| (watch.own.run.shots() as f64 / planned.max(1) as f64).min(1.0));
+    let share = watch.planned_shots().map(|planned| (watch.own.run.shots() as f64 / planned.max(1) as f64).min(1.0));
     let percent = share.map_or("     -".to_owned(), |share| format!("{:>4.0} %", (100.0 * share).floor()));
     // Condition and percentage have priority. The rest of the row goes to the name, then to the description, then to the bar.
     let fixed = (columns(&words) + percent.len() + 2) as u16;

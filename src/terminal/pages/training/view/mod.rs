@@ -15,7 +15,7 @@ use crate::{
     terminal::{
         Capabilities, TrainingContext,
         pages::{
-            Asked, PageArea, PageView, Target,
+            OpenQuestion, PageArea, PageView, Target,
             training::{TrainingPage, view::panes::Panes},
         },
         ui::{Message, Ui, draw_header},
@@ -51,10 +51,10 @@ impl PageView for TrainingPage {
         self.message.clone().unwrap_or(status_line)
     }
 
-    fn asked(&self, _: Capabilities) -> Option<Asked<'_>> {
+    fn open_question(&self, _: Capabilities) -> Option<OpenQuestion<'_>> {
         let question = self.question.as_ref()?;
-        let asked = Asked::new(self.message.as_ref(), &question.text(self.watch.as_ref()), question.field());
-        Some(Asked { words: Message::warning(asked.words.text), ..asked })
+        let asked = OpenQuestion::new(self.message.as_ref(), &question.text(self.watch.as_ref()), question.field());
+        Some(OpenQuestion { prompt: Message::warning(asked.prompt.text), ..asked })
     }
 
     fn target(&self, area: &PageArea, at: Position) -> Option<Target> {

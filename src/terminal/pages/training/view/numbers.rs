@@ -11,7 +11,7 @@ use crate::{
     learning::run::{follow::Condition, status::Phase},
     statistics::SuccessRate,
     terminal::{
-        pages::training::{Named, TrainingPage, Watch},
+        pages::training::{NamedRun, TrainingPage, Watch},
         ui::{
             Ui,
             chart::{SeriesId, curve_mark},
@@ -39,7 +39,7 @@ pub fn draw(training: &TrainingPage, watch: &Watch, area: Rect, ui: &mut Ui) {
     let inner = draw_title(title, area, ui);
     let inner = draw_legend(watch, inner, ui);
     let mut columns = columns(watch);
-    if !watch.is_at_work() {
+    if !watch.is_active() {
         // The run has ended, so unknown values stay unknown.
         for rows in &mut columns {
             rows.retain(|(_, value)| value != UNKNOWN);
@@ -61,7 +61,7 @@ pub fn draw(training: &TrainingPage, watch: &Watch, area: Rect, ui: &mut Ui) {
 /// Draws the legend of a comparison: the sign of each run's curve, and the progress of the other run. Returns the rest of the panel.
 fn draw_legend(watch: &Watch, area: Rect, ui: &mut Ui) -> Rect {
     let Some(other) = &watch.other else { return area };
-    let named = |whose, named: &Named| {
+    let named = |whose, named: &NamedRun| {
         let mark = curve_mark(whose, ui.theme, ui.caps);
         let name = Span::styled(format!(" {}", named.name), mark.style);
         Line::from(vec![mark, name])
@@ -80,8 +80,8 @@ fn draw_legend(watch: &Watch, area: Rect, ui: &mut Ui) -> Rect {
 }
 
 /// Name of the quantity that is measured on the held-out layouts.
-fn measured(run: &Named) -> &'static str {
-    if run.is_share() { "success" } else { "reward" }
+fn measured(run: &NamedRun) -> &'static str {
+    if run.is_success_rate() { "success" } else { "reward" }
 }
 
 type Row = (&'static str, String);
@@ -95,7 +95,7 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     let seconds = status.map(|status| status.seconds).or(last.map(|record| record.seconds));
     let updates = status.map(|status| status.updates).or(last.map(|record| record.updates));
     // Only a run that is training has a speed.
-    let working = status.filter(|_| watch.is_at_work());
+    let working = status.filter(|_| watch.is_active());
     let speed = |value: Option<f64>| or_unknown(value.filter(|value| value.is_finite()), |value| count(value as u64));
     let is_going_on = matches!(watch.condition(), Condition::InPhase(Phase::Training | Phase::Measuring));
     let left = run.time_left().filter(|_| is_going_on);
@@ -105,7 +105,7 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     let config = run.config.as_ref();
     let held_out = run.held_out();
     let mut learnt = vec![(measured(&watch.own), or_unknown(held_out, three)), ("best", or_unknown(run.best(), three))];
-    if watch.own.is_share() {
+    if watch.own.is_success_rate() {
         learnt.insert(
             1,
             (
@@ -136,7 +136,7 @@ fn columns(watch: &Watch) -> [Vec<Row>; 2] {
     [
         vec![
             ("shots", count(shots)),
-            ("planned", or_unknown(watch.planned(), count)),
+            ("planned", or_unknown(watch.planned_shots(), count)),
             ("trained for", or_unknown(seconds, time_words)),
             ("time left", or_unknown(left, |left| time_words(left.as_secs_f64()))),
             ("shots/s", speed(working.map(|status| status.shots_per_second))),

@@ -10,15 +10,15 @@ use crate::{
 /// Rows below the charts on the smallest screen: a title and eight lines.
 const BELOW: u16 = 9;
 /// Rows of the smallest screen for the charts and the panels below.
-const SMALLEST: u16 = 21;
+const MIN_ROWS: u16 = 21;
 /// Minimum and maximum width of the numbers, columns.
 const NUMBERS: (u16, u16) = (44, 72);
 /// Minimum width of a chart if several are side by side, columns.
-const LEAST_CHART: u16 = 26;
+const MIN_CHART_WIDTH: u16 = 26;
 /// Ideal ratio of a chart's columns to its rows.
 const BEST_ASPECT: f64 = 5.0;
 /// Penalty for each chart that is missing in the last row, compared with the logarithm of the deviation from [`BEST_ASPECT`].
-const UNEVEN: f64 = 0.3;
+const MISSING_CHART_PENALTY: f64 = 0.3;
 
 /// The screen areas of a watched run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,7 +34,7 @@ pub struct Panes {
 impl Panes {
     /// Divides `area` for a run on `table`.
     pub fn new(table: &Table, area: Rect) -> Self {
-        let rows = BELOW + area.height.saturating_sub(SMALLEST) * 3 / 8;
+        let rows = BELOW + area.height.saturating_sub(MIN_ROWS) * 3 / 8;
         let rows = rows.min(area.height);
         let charts = Rect { height: area.height - rows, ..area };
         let below = Rect { y: charts.bottom(), height: rows, ..area };
@@ -58,9 +58,9 @@ pub fn grid(count: usize, area: Rect) -> Vec<(Rect, bool)> {
     let penalty = |columns: u16| {
         let (width, height) = (area.width / columns, (plots / rows_of(columns)).max(1));
         let lone = columns * rows_of(columns) - count;
-        (f64::from(width) / f64::from(height) / BEST_ASPECT).ln().abs() + UNEVEN * f64::from(lone)
+        (f64::from(width) / f64::from(height) / BEST_ASPECT).ln().abs() + MISSING_CHART_PENALTY * f64::from(lone)
     };
-    let fits = |columns: &u16| *columns == 1 || area.width / columns >= LEAST_CHART;
+    let fits = |columns: &u16| *columns == 1 || area.width / columns >= MIN_CHART_WIDTH;
     let columns = (1..=count).filter(fits).min_by(|&one, &other| penalty(one).total_cmp(&penalty(other))).unwrap_or(1);
     let rows = rows_of(columns);
     let mut all = Vec::new();
@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn four_charts_are_two_by_two_and_the_table_has_what_the_numbers_leave() {
+    fn four_charts_form_a_grid_and_replay_uses_remaining_width() {
         for (width, height, table) in [(80, 21, 28), (120, 37, 52), (200, 57, 80)] {
             let area = Rect::new(0, 1, width, height);
             let panes = Panes::new(&Table::default(), area);

@@ -29,7 +29,7 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
         return;
     };
     let (outcome, style) = match example.reward {
-        reward if !watch.own.is_share() => (format!("{reward:.2}"), ui.theme.text()),
+        reward if !watch.own.is_success_rate() => (format!("{reward:.2}"), ui.theme.text()),
         reward if reward >= 1.0 => ("point".to_owned(), ui.theme.good()),
         _ => ("miss".to_owned(), ui.theme.warning()),
     };

@@ -154,7 +154,7 @@ fn draw_empty(training: &TrainingPage, area: Rect, ui: &mut Ui) {
         None if list.known.is_none() => &["Looking for runs"],
         None if training.page() == TrainingContext::Compare => &["There is no run to compare with."],
         // On its own, this page may list another folder than the user's runs.
-        None if training.alone => &[&nothing_in],
+        None if training.is_only_page => &[&nothing_in],
         None => &[
             "No agent has been trained here yet.",
             "",

@@ -14,7 +14,7 @@ use crate::{
 };
 
 /// Draws the panel.
-pub fn draw_asked(coach: &CoachPage, area: Rect, ui: &mut Ui) {
+pub fn draw_query(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let inner = draw_title("The coach", area, ui);
     let [skill_key, rule_key] = [CoachAction::NextSkill, CoachAction::NextRule].map(|action| ui.key_of(COACH, &action));
     let paragraphs = [
