@@ -15,10 +15,10 @@ impl App {
     pub fn receive_settings(&mut self, report: SettingsReport) -> Option<Effect> {
         let troubles = self.settings.receive(report);
         self.toasts.push_first(&troubles);
-        self.take_changes();
+        self.apply_settings_changes();
         let path = self.pending_table.take()?;
         let effect = self.settings.choose("table", &path.to_string_lossy());
-        self.take_changes();
+        self.apply_settings_changes();
         if effect.is_some()
             && let Ok(table) = self.in_force.table()
         {
@@ -41,7 +41,7 @@ impl App {
     }
 
     /// Applies the changes made on the settings screen.
-    pub(super) fn take_changes(&mut self) {
+    pub(super) fn apply_settings_changes(&mut self) {
         if self.settings.settings == self.in_force {
             return;
         }

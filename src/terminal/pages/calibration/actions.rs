@@ -106,7 +106,7 @@ impl CalibrationPage {
                 let today = if self.is_daily { " today" } else { "" };
                 let name = saved
                     .map_or_else(|| self.sheet().name(&self.table) + today, |name| name.to_string_lossy().into_owned());
-                self.question = Some(Question::Name(TextField::new(LONGEST).offering(&name)));
+                self.question = Some(Question::Name(TextField::new(LONGEST).with_suggestion(&name)));
             }
             Action::Use => self.for_use.clone_from(&self.saved),
             Action::Anew => self.question = Some(Question::Anew),
@@ -158,7 +158,7 @@ impl CalibrationPage {
             Question::Anew if self.sheet().trouble.is_some() => {
                 let text = format!("the file that cannot be read is kept as {}", self.backup_file().display());
                 self.message = Some(Message::plain(text));
-                Some(Effect::Calibrate(vec![CalibrationTask::PutAside(self.sheet().path.clone())]))
+                Some(Effect::Calibrate(vec![CalibrationTask::BackUpUnreadable(self.sheet().path.clone())]))
             }
             Question::Anew => {
                 let count = self.sheet().entries.as_ref().map_or(0, |entries| entries.trials.len());

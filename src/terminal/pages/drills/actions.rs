@@ -71,7 +71,7 @@ impl DrillsPage {
             Action::Record => return Some(self.open_records()),
             Action::Scope => self.records.toggle_scope(),
             Action::KeepSkill => {
-                return self.records.skill().map(|skill| Effect::Drill(vec![DrillTask::KeepSkill(skill)]));
+                return self.records.skill().map(|skill| Effect::Drill(vec![DrillTask::SaveSkill(skill)]));
             }
             Action::Share => return self.share(),
             Action::Add => self.question = Some(Question::Code(TextField::new(LONGEST))),

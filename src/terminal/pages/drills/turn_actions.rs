@@ -86,12 +86,14 @@ impl Turn {
                 .or_else(|| self.disabled_reason(Condition::Aiming))
                 .or_else(|| self.disabled_reason(Condition::Alone)),
             (_, Condition::Compared) => refuse(self.what_if().is_none(), "the model shot is not next to your stroke"),
-            (Stage::Aiming, Condition::StrokeChanged) => refuse(!self.stroke.can_travel().0, "the stroke is unchanged"),
+            (Stage::Aiming, Condition::StrokeChanged) => {
+                refuse(!self.stroke.can_undo_redo().0, "the stroke is unchanged")
+            }
             (Stage::Aiming, Condition::Set) => {
-                refuse(!self.stroke.can_travel().0, "the stroke is unchanged; Space twice plays it anyway")
+                refuse(!self.stroke.can_undo_redo().0, "the stroke is unchanged; Space twice plays it anyway")
             }
             (Stage::Aiming, Condition::StrokeUndone) => {
-                refuse(!self.stroke.can_travel().1, "no change of the stroke was taken back")
+                refuse(!self.stroke.can_undo_redo().1, "no change of the stroke was taken back")
             }
             (_, Condition::StrokeChanged | Condition::Set | Condition::StrokeUndone) => {
                 self.disabled_reason(Condition::Aiming)
@@ -147,7 +149,7 @@ impl DrillsPage {
                 Ok(tasks) => return tasks_effect(tasks),
                 Err(error) => self.message = Some(Message::warning(error.to_string())),
             },
-            Action::TypeStroke => self.question = Some(Question::Stroke(TextField::new(stroke::LONGEST))),
+            Action::TypeStroke => self.question = Some(Question::Stroke(TextField::new(stroke::MAX_TEXT_LENGTH))),
             Action::StrokeBack => return tasks_effect(turn.step_history(OwnStroke::undo)),
             Action::StrokeAgain => return tasks_effect(turn.step_history(OwnStroke::redo)),
             Action::WhatIf => return tasks_effect(turn.copy_model_shot()),
@@ -265,7 +267,7 @@ impl DrillsPage {
     fn watch(&mut self, key: PlaybackKey) {
         let Some(watched) = self.turn.as_mut().and_then(Turn::watched_mut) else { return };
         let Some(shot) = watched.outcome.shot.clone() else { return };
-        watched.playback.act(key, shot.recording.events(), shot.recording.duration());
+        watched.playback.apply(key, shot.recording.events(), shot.recording.duration());
         watched.settle();
     }
 
