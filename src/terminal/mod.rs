@@ -127,8 +127,8 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Se
 fn with_saved_state(app: App, paths: &DataPaths) -> App {
     // The drill screens report a file that cannot be read.
     let own = Store::new(paths).own_skill().unwrap_or_default();
-    let last = SavedSession::load_or_rename(&paths.last_session);
-    let draft = StrokeDraft::load_or_rename(&paths.draft);
+    let last = SavedSession::load_or_rename_unreadable(&paths.last_session);
+    let draft = StrokeDraft::load_or_rename_unreadable(&paths.draft);
     let [of_session, of_draft] = [last.as_ref().err().cloned(), draft.as_ref().err().cloned()];
     let mut app = app
         .with_saved_session(last.unwrap_or_default())

@@ -34,7 +34,7 @@ impl StrokeDraft {
     ///
     /// # Errors
     /// The message about a file that cannot be read, which is set aside.
-    pub fn load_or_rename(path: &Path) -> Result<Option<Self>, String> {
+    pub fn load_or_rename_unreadable(path: &Path) -> Result<Option<Self>, String> {
         let read = storage::read_if_exists(path, storage::MAX_SMALL_FILE).map_err(|error| error.to_string());
         let draft = read.and_then(|bytes| {
             let draft = bytes.map(|bytes| serde_json::from_slice(&bytes)).transpose();
@@ -66,14 +66,14 @@ mod tests {
     fn a_damaged_draft_is_renamed_and_reported_once() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("draft.json");
-        assert_eq!(StrokeDraft::load_or_rename(&path), Ok(None));
+        assert_eq!(StrokeDraft::load_or_rename_unreadable(&path), Ok(None));
         fs::write(&path, "{").unwrap();
-        let said = StrokeDraft::load_or_rename(&path).unwrap_err();
+        let said = StrokeDraft::load_or_rename_unreadable(&path).unwrap_err();
         assert!(said.contains("draft.json: it is damaged") && said.contains("draft.unread.json"), "{said}");
         assert_eq!(fs::read(path.with_extension("unread.json")).unwrap(), b"{");
-        assert_eq!(StrokeDraft::load_or_rename(&path), Ok(None));
+        assert_eq!(StrokeDraft::load_or_rename_unreadable(&path), Ok(None));
         fs::write(&path, "[").unwrap();
-        let said = StrokeDraft::load_or_rename(&path).unwrap_err();
+        let said = StrokeDraft::load_or_rename_unreadable(&path).unwrap_err();
         assert!(said.contains("draft.unread-2.json"), "{said}");
         assert_eq!(fs::read(path.with_extension("unread.json")).unwrap(), b"{", "the first is still kept");
     }

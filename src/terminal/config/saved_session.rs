@@ -106,7 +106,7 @@ impl SavedSession {
     ///
     /// # Errors
     /// The message about such a file.
-    pub fn load_or_rename(path: &Path) -> Result<Option<Self>, String> {
+    pub fn load_or_rename_unreadable(path: &Path) -> Result<Option<Self>, String> {
         Self::load(path).map_err(|error| {
             format!(
                 "{}: {error}; the last session cannot be continued, and {}",
@@ -189,10 +189,10 @@ mod tests {
         refused("it is damaged");
         std::fs::write(&path, "{").unwrap();
         refused("it is damaged");
-        let said = SavedSession::load_or_rename(&path).unwrap_err();
+        let said = SavedSession::load_or_rename_unreadable(&path).unwrap_err();
         assert!(said.contains("last.json: it is damaged") && said.contains("last.unread.json"), "{said}");
         assert_eq!(std::fs::read(path.with_extension("unread.json")).unwrap(), b"{");
-        assert_eq!(SavedSession::load_or_rename(&path), Ok(None));
+        assert_eq!(SavedSession::load_or_rename_unreadable(&path), Ok(None));
     }
 
     #[test]
