@@ -15,7 +15,7 @@ use std::{env, error::Error, fs, path::Path};
 use carom::{
     simulation::EventKind,
     table::{Layout, Table},
-    terminal::{App, Capabilities, CoachNews, CoachWorker, Depth, Effect, Glyphs, keys_document},
+    terminal::{App, Capabilities, CoachEvent, CoachWorker, Depth, Effect, Glyphs, keys_document},
 };
 use crossterm::event::KeyCode::{self, Char, Enter};
 use ratatui::{Terminal, backend::TestBackend};
@@ -81,10 +81,10 @@ fn ask(app: &mut App) -> Result<(), Box<dyn Error>> {
 
 /// Answers a request to the coach and all that follow from it; `heard` is called after every answer.
 fn answer(app: &mut App, mut question: Option<Effect>, mut heard: impl FnMut(&mut App)) {
-    let mut worker = CoachWorker::unhurried(SIMULATIONS);
-    while let Some(Effect::Ask(job)) = question.take() {
+    let mut worker = CoachWorker::with_simulation_limit(SIMULATIONS);
+    while let Some(Effect::AskCoach(job)) = question.take() {
         worker.answer(&job, |mut answer| {
-            if let CoachNews::Advice(advice) = &mut answer.news {
+            if let CoachEvent::Advice(advice) = &mut answer.event {
                 advice.effort = None;
             }
             question = app.receive(answer).or(question.take());

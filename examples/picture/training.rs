@@ -52,7 +52,7 @@ impl Camera {
     fn take(&self) -> Result<App, Box<dyn Error>> {
         let table = Table::default();
         let places = DataPaths { runs: self.runs.clone(), policies: self.runs.clone(), ..DataPaths::of_this_user() };
-        let mut app = App::new(table.clone(), Layout::opening(&table), self.caps, 1)?.with_places(places);
+        let mut app = App::new(table.clone(), Layout::opening(&table), self.caps, 1)?.with_paths(places);
         app.handle(&Char('t').into());
         app.receive_training(TrainingReport::Runs(runs_in(&self.runs).map_err(|error| error.to_string())));
         app.handle(&Enter.into());

@@ -10,7 +10,7 @@ use crate::{
     platform::stop_on_signal,
     printing,
     storage::{DataPaths, Player},
-    terminal::{self, Seat, Settings, ShownTable, Sight, all_shown, follow_in_lines},
+    terminal::{self, Seat, Settings, SharedTable, SharedTableState, follow_in_lines, sharing_players},
 };
 
 /// Follow the table of another player of this account, live.
@@ -35,12 +35,12 @@ pub(super) fn run(args: &Args, seat: Seat) -> Result<(), Failure> {
     // The message is the same for players with and without a folder, so that it does not reveal who has one.
     let hidden = || Failure::failed(format_args!("{player} shows no table now; carom follow lists the players who do"));
     let folder = DataPaths::of_player(player).map_err(Failure::failed)?.spectator_folder;
-    if matches!(ShownTable::look(&folder), Sight::Nothing) {
+    if matches!(SharedTable::read(&folder), SharedTableState::Nothing) {
         return Err(hidden());
     }
-    seat.take(Some(&folder)).map_err(Failure::failed)?;
-    let (settings, _) = Settings::load(&seat.places.settings);
-    let settings = seat.allowed(settings);
+    seat.confine_process(Some(&folder)).map_err(Failure::failed)?;
+    let (settings, _) = Settings::load(&seat.paths.settings);
+    let settings = seat.restrict_settings(settings);
     if !args.plain && !args.json && terminal::is_there() {
         return terminal::follow(player.name(), &folder, &settings, seat).map_err(failure);
     }
@@ -61,7 +61,7 @@ pub(super) fn run(args: &Args, seat: Seat) -> Result<(), Failure> {
 
 /// Lists the players who show their table now.
 fn list(json: bool) -> Result<(), Failure> {
-    let shown = all_shown();
+    let shown = sharing_players();
     for player in &shown {
         if json {
             json_line(&serde_json::json!({ "player": player.name() }))?;

@@ -143,27 +143,27 @@ impl Cli {
     fn open(self) -> Result<(), Failure> {
         // Check the terminal first: a player's folder is created only for somebody who can play.
         if !self.plain {
-            crate::terminal::need_terminal(self.guest).map_err(failure)?;
+            crate::terminal::require_terminal(self.guest).map_err(failure)?;
         }
         let seat = self.seat()?;
         // The operator of the machine chose the table on the command line, so it is read before a guest is confined to their folder.
         let named = self.table.as_deref().map(input::table_by_name).transpose()?;
-        seat.take(None).map_err(|error| {
-            let folder = seat.places.root.display();
+        seat.confine_process(None).map_err(|error| {
+            let folder = seat.paths.root.display();
             Failure::failed(format_args!("the player's folder {folder} cannot be made: {error}"))
         })?;
-        let path = &seat.places.settings;
+        let path = &seat.paths.settings;
         let (settings, complaints) = Settings::load(path);
-        let settings = seat.allowed(settings);
+        let settings = seat.restrict_settings(settings);
         let table = named.map_or_else(|| input::table_by_name(&settings.table), Ok)?;
         if self.plain {
-            if let Some(news) = notice(&seat.places) {
+            if let Some(news) = notice(&seat.paths) {
                 print_note(format_args!("note: {news}"));
             }
             for complaint in &complaints {
                 print_note(format_args!("{}: {complaint}", path.display()));
             }
-            return refused_lines_result(crate::terminal::talk(table, &settings, &seat.places).map_err(failure)?);
+            return refused_lines_result(crate::terminal::run_plain(table, &settings, &seat.paths).map_err(failure)?);
         }
         crate::terminal::run(table, &settings, &complaints, seat).map_err(failure)
     }

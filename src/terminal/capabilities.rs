@@ -143,14 +143,14 @@ mod tests {
     }
 
     #[test]
-    fn windows_terminal_is_known_by_its_name_where_no_locale_says_otherwise() {
+    fn windows_terminal_is_recognized_by_name_without_a_locale() {
         let found = caps(&[("WT_SESSION", "1")]);
         assert_eq!(found, Capabilities::TRUE_COLOUR);
         assert_eq!(caps(&[("WT_SESSION", "1"), ("LANG", "C"), ("TERM", "xterm")]).depth, Depth::Ansi);
     }
 
     #[test]
-    fn what_the_user_has_chosen_goes_before_what_is_guessed() {
+    fn chosen_capabilities_override_detected_ones() {
         let caps = |chosen: &str| {
             let variable = |name: &str| match name {
                 "TERM" => Some("xterm".to_owned()),
@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn glyphs_go_round_but_never_beyond_what_the_terminal_has() {
+    fn glyphs_cycle_within_the_terminals_capabilities() {
         use Glyphs::{Half, Letters, Octant, Sextant};
         let walk = |start: Capabilities| {
             let mut looks = vec![start];

@@ -4,20 +4,20 @@ use std::path::PathBuf;
 
 use crate::{
     learning::run::request::Request,
-    terminal::{CalibrationTask, CoachJob, DrillTask, Keeping, Launch, SettingsTask},
+    terminal::{CalibrationTask, CoachJob, DrillTask, Launch, SavePolicyTask, SettingsTask},
 };
 
 /// An action that the program around the app has to carry out.
 #[derive(Clone, Debug)]
 pub enum Effect {
     /// Ask the coach for a shot, or for an analysis of the job's own shot; answers go to [`App::receive`](super::App::receive).
-    Ask(Box<CoachJob>),
+    AskCoach(Box<CoachJob>),
     /// Start a training process. Its end, and the answers to the next three, go to [`App::receive_training`](super::App::receive_training).
     Train(Box<Launch>),
     /// Send a request to a run.
     Send(Request, PathBuf),
     /// Save a policy under a name.
-    Keep(Box<Keeping>),
+    SavePolicy(Box<SavePolicyTask>),
     /// Load the policy of the run in this folder.
     LoadPolicy(PathBuf),
     /// Run these tasks of the drills in order; reports go to [`App::receive_drill`](super::App::receive_drill).

@@ -12,8 +12,8 @@ mod keymap;
 mod pages;
 mod plain;
 mod seat;
+mod shared_table;
 mod shot;
-mod shown;
 mod tasks;
 mod terms;
 mod ui;
@@ -33,10 +33,10 @@ use crate::{
     table::{Layout, LayoutError, Table},
 };
 
-use plain::Beginning;
+use plain::InitialState;
 
 pub use app::{
-    App, LEAST_SIZE, Overlay,
+    App, MIN_SIZE, Overlay,
     bindings::{Action, Condition},
     command_palette::{Command, CommandPalette},
     document::document as keys_document,
@@ -64,18 +64,18 @@ pub use pages::{
     training::keys::{TrainingAction, TrainingCondition, TrainingContext},
 };
 pub use plain::follow::follow_in_lines;
-pub use seat::{LONGEST_FOR_GUESTS, Seat};
+pub use seat::{MAX_GUEST_THINK_MS, Seat};
+pub use shared_table::{Activity, Author, SharedShot, SharedTable, SharedTableState, sharing_players};
 pub use shot::{Shot, StrokeChange, film::FilmReplay};
-pub use shown::{Author, Doing, ShownShot, ShownTable, Sight, all_shown};
 pub use tasks::{
     PracticeWorker,
     advice::{Advice, CoachQuery, Effort, Proposal, ShotAnalysis},
-    calibration::{CalibrationReport, CalibrationTask, Judged, Judging, KeptEntries},
-    drills::{AdviceTask, AttemptOutcome, DrillReport, DrillTask, JudgedStroke, LoadedRecords, ModelShot, PlayTask},
-    onlooker::{Onlooker, Seen, SeenTable},
-    recommender::{CoachAnswer, CoachJob, CoachNews, CoachWorker},
+    calibration::{CalibrationReport, CalibrationTask, Evaluation, EvaluationTask, SavedEntries},
+    drills::{AdviceTask, AttemptOutcome, DrillReport, DrillTask, LoadedRecords, ModelShot, PlayTask, RateStrokeTask},
+    recommender::{CoachAnswer, CoachEvent, CoachJob, CoachWorker},
     reel::{Reel, ReplayShot},
-    training::{FollowSlot, Keeping, Launch, Subscriptions, TrainerFailure, TrainingReport},
+    table_watcher::{FollowedTable, FollowedTableState, TableWatcher},
+    training::{FollowSlot, Launch, SavePolicyTask, Subscriptions, TrainerFailure, TrainingReport},
 };
 pub use terms::Terms;
 pub use ui::{
@@ -110,25 +110,25 @@ pub enum TerminalError {
 /// # Errors
 /// [`TerminalError`]: there is no terminal, or it fails.
 pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Seat) -> Result<(), TerminalError> {
-    need_terminal(seat.is_guest)?;
+    require_terminal(seat.is_guest)?;
     let layout = Layout::opening(&table);
-    let places = &seat.places;
+    let paths = &seat.paths;
     let app = App::new(table, layout, detect(settings), seed())?
         .with_detection(detect)
         .with_seat(&seat)
         .with_settings(settings)
-        .with_notice(storage::notice(places))
+        .with_notice(storage::notice(paths))
         .with_notice(seat.warning().as_deref());
-    let app = with_saved_state(app, places).with_complaints(&places.settings, complaints);
-    Ok(host::runner::run(app, seat.places)?)
+    let app = with_saved_state(app, paths).with_complaints(&paths.settings, complaints);
+    Ok(host::runner::run(app, seat.paths)?)
 }
 
 /// Restores what the user's last session saved: its state, the calibration stroke that was typed in part, and the user's own skill.
-fn with_saved_state(app: App, places: &DataPaths) -> App {
+fn with_saved_state(app: App, paths: &DataPaths) -> App {
     // The drill screens report a file that cannot be read.
-    let own = Store::new(places).own_skill().unwrap_or_default();
-    let last = SavedSession::load_or_put_aside(&places.last_session);
-    let draft = StrokeDraft::read_or_put_aside(&places.draft);
+    let own = Store::new(paths).own_skill().unwrap_or_default();
+    let last = SavedSession::load_or_rename_unreadable(&paths.last_session);
+    let draft = StrokeDraft::load_or_rename_unreadable(&paths.draft);
     let [of_session, of_draft] = [last.as_ref().err().cloned(), draft.as_ref().err().cloned()];
     let mut app = app
         .with_saved_session(last.unwrap_or_default())
@@ -139,22 +139,22 @@ fn with_saved_state(app: App, places: &DataPaths) -> App {
     app
 }
 
-/// Runs the coach in plain mode, as a conversation in lines on standard input and output, for the player whose files are at `places`.
+/// Runs the coach in plain mode, as a conversation in lines on standard input and output, for the player whose files are at `paths`.
 /// Returns the number of lines that were refused.
 ///
 /// # Errors
 /// [`TerminalError`]: the layout is not possible, or input or output fails.
-pub fn talk(table: Table, settings: &Settings, places: &DataPaths) -> Result<usize, TerminalError> {
+pub fn run_plain(table: Table, settings: &Settings, paths: &DataPaths) -> Result<usize, TerminalError> {
     let layout = Layout::opening(&table);
     let prompt = if io::stdin().is_terminal() { "> " } else { "" };
     let coach = Coach::new(table);
-    let own = Store::new(places).own_skill().unwrap_or_else(|error| {
+    let own = Store::new(paths).own_skill().unwrap_or_else(|error| {
         // Go on as if no skill were saved; the error is reported once.
         let _ = writeln!(printing::stderr(), "note: {error}");
         None
     });
-    let beginning = Beginning { layout, own: own.map(|own| own.skill), seed: seed() };
-    Ok(plain::converse(coach, beginning, settings, io::stdin().lock(), printing::stdout(), prompt)?)
+    let initial = InitialState { layout, own: own.map(|own| own.skill), seed: seed() };
+    Ok(plain::converse(coach, initial, settings, io::stdin().lock(), printing::stdout(), prompt)?)
 }
 
 /// Detects what the terminal can show: from the settings if set there, otherwise from the environment.
@@ -171,7 +171,7 @@ fn seed() -> u64 {
 ///
 /// # Errors
 /// [`TerminalError::NoTerminal`], [`TerminalError::NoTerminalOfGuest`].
-pub fn need_terminal(is_guest: bool) -> Result<(), TerminalError> {
+pub fn require_terminal(is_guest: bool) -> Result<(), TerminalError> {
     match is_there() {
         true => Ok(()),
         false if is_guest => Err(TerminalError::NoTerminalOfGuest),
@@ -184,7 +184,7 @@ pub fn need_terminal(is_guest: bool) -> Result<(), TerminalError> {
 /// # Errors
 /// [`TerminalError`]: there is no terminal, or it fails.
 pub fn follow(name: &str, folder: &Path, settings: &Settings, seat: Seat) -> Result<(), TerminalError> {
-    need_terminal(seat.is_guest)?;
+    require_terminal(seat.is_guest)?;
     let table = Table::default();
     let layout = Layout::opening(&table);
     let app = App::new(table, layout, detect(settings), seed())?
@@ -192,7 +192,7 @@ pub fn follow(name: &str, folder: &Path, settings: &Settings, seat: Seat) -> Res
         .with_seat(&seat)
         .with_settings(settings)
         .following(name.to_owned(), folder.to_owned());
-    Ok(host::runner::run(app, seat.places)?)
+    Ok(host::runner::run(app, seat.paths)?)
 }
 
 /// Opens the training screen, either following `run` or with a list of the runs in `list` (by default the user's).
@@ -200,13 +200,13 @@ pub fn follow(name: &str, folder: &Path, settings: &Settings, seat: Seat) -> Res
 /// # Errors
 /// [`TerminalError`]: there is no terminal, or it fails.
 pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalError> {
-    need_terminal(false)?;
+    require_terminal(false)?;
     let (settings, complaints) = Settings::load(&Settings::path());
-    let places = DataPaths::of_this_user();
+    let paths = DataPaths::of_this_user();
     let app = App::watching(detect(&settings), run.map(Path::to_owned), list.map(Path::to_owned))?
         .with_detection(detect)
         .with_settings(&settings);
     // The coach can be opened from there, and then saves this session in place of the last one.
-    let app = with_saved_state(app, &places).with_complaints(&Settings::path(), &complaints);
-    Ok(host::runner::run(app, places)?)
+    let app = with_saved_state(app, &paths).with_complaints(&Settings::path(), &complaints);
+    Ok(host::runner::run(app, paths)?)
 }

@@ -36,7 +36,7 @@ impl Terms {
     }
 
     /// Describes in words what differs from `before`; empty if nothing does. `names` are the names of the balls, the cue ball first.
-    pub fn news_since(self, before: Self, names: [&'static str; BALLS]) -> String {
+    pub fn changes_since(self, before: Self, names: [&'static str; BALLS]) -> String {
         let plan = if self.plan { "the next point counts too" } else { "only this point counts" };
         let news = [
             (self.rule != before.rule).then(|| format!("what counts: {}", self.rule)),

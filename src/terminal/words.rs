@@ -27,7 +27,7 @@ pub const fn rail_name(rail: Rail) -> &'static str {
 
 /// The message that a table or position is not saved because its name is taken, for cases where the user cannot be asked about replacing
 /// it.
-pub fn taken_words(name: &str) -> String {
+pub fn name_taken_message(name: &str) -> String {
     format!("{name} is not saved: there is another of this name")
 }
 
@@ -150,7 +150,7 @@ pub fn long_time_words(seconds: f64) -> String {
 }
 
 /// Formats a length in the fine unit for placing balls: millimetres, or hundredths of an inch; without the symbol.
-pub fn fine(metres: f64, unit: LengthUnit) -> String {
+pub fn format_fine(metres: f64, unit: LengthUnit) -> String {
     let (in_a_metre, _, decimals) = unit.fine();
     fixed(in_a_metre * metres, decimals)
 }
@@ -163,7 +163,7 @@ pub fn speed_words(speed: f64, unit: LengthUnit, decimals: usize) -> String {
 
 /// Converts a position in metres from the centre of `table` to diamonds from the lower left corner of the cushion noses, as layouts are
 /// typed.
-pub fn in_diamonds(table: &Table, place: DVec2) -> DVec2 {
+pub fn to_diamonds(table: &Table, place: DVec2) -> DVec2 {
     (place + 0.5 * DVec2::new(table.length, table.width)) / table.diamond()
 }
 
@@ -206,9 +206,9 @@ mod tests {
     }
 
     #[test]
-    fn places_steps_and_speeds_are_told_in_the_players_unit() {
+    fn positions_steps_and_speeds_are_in_the_players_unit() {
         assert_eq!(LengthUnit::NAMED.map(|(_, unit)| speed_words(2.5, unit, 2)), ["2.50 m/s", "8.20 ft/s"]);
-        assert_eq!(LengthUnit::NAMED.map(|(_, unit)| fine(-0.71, unit)), ["-710.0", "-27.95"]);
+        assert_eq!(LengthUnit::NAMED.map(|(_, unit)| format_fine(-0.71, unit)), ["-710.0", "-27.95"]);
         assert_eq!([1.0, 10.0, 50.0].map(|mm| step_words(mm, LengthUnit::Metres)), ["1 mm", "10 mm", "50 mm"]);
         assert_eq!([1.0, 10.0, 50.0].map(|mm| step_words(mm, LengthUnit::Feet)), ["0.04 in", "0.39 in", "1.97 in"]);
     }
@@ -220,19 +220,19 @@ mod tests {
     }
 
     #[test]
-    fn large_numbers_and_times_are_written_for_people() {
+    fn large_numbers_and_times_are_readable() {
         assert_eq!([0, 999, 1000, 1_234_567].map(count), ["0", "999", "1,000", "1,234,567"]);
         assert_eq!([999, 12_500, 5_000_000].map(short_count), ["999", "12.5k", "5M"]);
         assert_eq!([59.9, 200.0, 7500.0, 273_600.0].map(time_words), ["59 s", "3 min 20 s", "2 h 5 min", "3 d 4 h"]);
     }
 
     #[test]
-    fn a_time_beyond_two_years_is_told_in_years() {
+    fn a_time_beyond_two_years_is_in_years() {
         assert_eq!([90_000.0, 7.0e7, 3.2e11].map(long_time_words), ["1 d 1 h", "2 years", "10,140 years"]);
     }
 
     #[test]
-    fn the_side_is_the_one_the_shooter_sees() {
+    fn sides_are_as_seen_by_the_shooter() {
         assert_eq!((across_word(0.2), across_word(-0.2), height_word(-0.1)), ("left", "right", "below"));
     }
 }

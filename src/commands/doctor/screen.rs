@@ -7,7 +7,7 @@ use std::{
 
 use serde::Serialize;
 
-use crate::terminal::{self, Depth, Glyphs, LEAST_SIZE, Settings};
+use crate::terminal::{self, Depth, Glyphs, MIN_SIZE, Settings};
 
 /// Environment variables that affect the display.
 const VARIABLES: [&str; 8] =
@@ -63,7 +63,7 @@ impl Screen {
     /// Returns a sentence if the terminal is too small.
     pub fn problem(&self) -> Option<String> {
         let (columns, rows) = self.size?;
-        let (least_columns, least_rows) = LEAST_SIZE;
+        let (least_columns, least_rows) = MIN_SIZE;
         (columns < least_columns || rows < least_rows).then(|| {
             format!(
                 "the terminal has {columns}x{rows} characters; the screens need {least_columns}x{least_rows}: make its \

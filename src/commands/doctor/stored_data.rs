@@ -143,7 +143,7 @@ fn strokes(path: &Path) -> StoredItems {
 /// Checks the last session and the earlier ones that can be resumed.
 fn last(path: &Path) -> StoredItems {
     let last = SavedSession::load(path).map_err(|error| format!("{}: {error}", path.display()));
-    StoredItems::of(path, last.map(|last| last.map_or(0, |last| last.with_former().len())))
+    StoredItems::of(path, last.map(|last| last.map_or(0, |last| last.into_sessions().len())))
 }
 
 /// Checks the user's own tables.

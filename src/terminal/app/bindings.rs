@@ -90,7 +90,7 @@ pub enum Condition {
 
 /// One row of a page's key table, converted to the app's types.
 #[derive(Debug)]
-pub struct Bound {
+pub struct AppBinding {
     /// The keys, each with its action and the words for it.
     pub keys: Vec<(Chord, Action, &'static str)>,
     /// The word in the hint line, and the number of keys shown before it there.
@@ -102,10 +102,10 @@ pub struct Bound {
     /// Section of the help.
     pub section: Section,
     /// Further search words for the command palette.
-    pub also: &'static str,
+    pub search_words: &'static str,
 }
 
-impl Bound {
+impl AppBinding {
     /// The distinct actions of the binding, in order, each with its words and keys.
     pub fn commands(&self) -> Vec<(Action, &'static str, Vec<Chord>)> {
         let mut commands: Vec<(Action, &'static str, Vec<Chord>)> = Vec::new();
@@ -121,7 +121,7 @@ impl Bound {
 
 /// Appends the rows of a page's table.
 fn append<B: Copy + PartialEq, W: Copy>(
-    all: &mut Vec<Bound>,
+    all: &mut Vec<AppBinding>,
     table: &[Binding<B, W>],
     action: fn(B) -> Action,
     when: fn(W) -> Condition,
@@ -135,13 +135,13 @@ fn append<B: Copy + PartialEq, W: Copy>(
             });
             binding.each.get(index).copied().unwrap_or(binding.description)
         };
-        Bound {
+        AppBinding {
             keys: binding.keys.iter().map(|(chord, of)| (*chord, action(*of), words(*of))).collect(),
             hint: binding.hint,
             description: binding.description,
             when: when(binding.when),
             section: binding.section,
-            also: binding.also,
+            search_words: binding.search_words,
         }
     }));
 }
@@ -230,9 +230,9 @@ const LEAVE: &[Binding<Action, Condition>] = &[
 ];
 
 /// All bindings in `context`. The first enabled binding of a key wins; the hint line shows as many as fit, in this order.
-pub fn bindings(context: KeyContext) -> Vec<Bound> {
+pub fn bindings(context: KeyContext) -> Vec<AppBinding> {
     let mut all = Vec::new();
-    let program = |all: &mut Vec<Bound>, table| append(all, table, |action| action, |when| when);
+    let program = |all: &mut Vec<AppBinding>, table| append(all, table, |action| action, |when| when);
     let (overlay, leave) = match context {
         _ if context.takes_letters() => (&[][..], LEAVE),
         _ => (OVERLAY, PROGRAM),
@@ -257,7 +257,7 @@ pub fn bindings(context: KeyContext) -> Vec<Bound> {
 }
 
 /// All bindings in `context` except those of overlays, for lists of keys.
-pub fn listed(context: KeyContext) -> impl Iterator<Item = Bound> {
+pub fn listed(context: KeyContext) -> impl Iterator<Item = AppBinding> {
     bindings(context).into_iter().filter(|binding| binding.when != Condition::Overlay)
 }
 
@@ -267,7 +267,7 @@ pub fn key_pages() -> Vec<KeyPage> {
 }
 
 fn entries(context: KeyContext) -> Vec<KeyEntry> {
-    let entries = |binding: Bound| {
+    let entries = |binding: AppBinding| {
         binding.commands().into_iter().map(move |(_, words, chords)| KeyEntry {
             chords,
             words,
@@ -338,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn a_refused_key_says_why_and_an_unknown_one_nothing() {
+    fn a_refused_key_has_a_reason_and_an_unknown_one_none() {
         let refuse_all = |_| Some("not now");
         let press = |letter| KeyEvent::from(Char(letter));
         assert_eq!(find(&press('u'), KeyContext::Coach, refuse_all), Some(Err("not now")));
@@ -347,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn the_program_and_each_screen_can_be_left_from_everywhere() {
+    fn the_program_and_each_screen_can_be_left_in_every_context() {
         let event = KeyEvent::new(Char('c'), crossterm::event::KeyModifiers::CONTROL);
         for context in contexts() {
             assert_eq!(find(&event, context, |_| None), Some(Ok(Action::Quit)), "{context:?}");
@@ -359,7 +359,7 @@ mod tests {
     }
 
     #[test]
-    fn keys_of_a_page_over_the_screen_say_nothing_while_none_is_open() {
+    fn overlay_keys_are_silent_without_an_overlay() {
         let refuse_all = |_| Some("not now");
         assert_eq!(find(&KeyEvent::from(End), KeyContext::Training(TrainingContext::Form), refuse_all), None);
         let end = Some(Ok(Action::ScrollOverlay(i16::MAX)));
@@ -369,7 +369,7 @@ mod tests {
     }
 
     #[test]
-    fn letters_are_typed_where_words_are_and_digits_in_the_form() {
+    fn letters_are_typed_in_text_fields_and_digits_in_the_form() {
         let typed =
             |context: KeyContext, text: &str| text.chars().filter(|letter| context.types(Chord::char(*letter))).count();
         for context in contexts() {
@@ -389,7 +389,7 @@ mod tests {
     }
 
     #[test]
-    fn no_binding_takes_a_key_of_the_text_that_is_typed() {
+    fn no_binding_uses_a_key_of_typed_text() {
         for context in contexts().filter(|context| context.types(Chord::char('z'))) {
             for (chord, ..) in bindings(context).into_iter().flat_map(|binding| binding.keys) {
                 assert!(!context.types(chord), "{context:?}: {chord:?} is typed, and never comes to the binding");
@@ -398,7 +398,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_key_does_is_told_for_every_page_and_what_all_have_once() {
+    fn help_lists_page_keys_per_page_and_common_keys_once() {
         let all = key_pages();
         let pages =
             |letter| commands_of(&all, Chord::char(letter)).into_iter().map(|(page, _)| page).collect::<Vec<_>>();
@@ -409,7 +409,7 @@ mod tests {
     }
 
     #[test]
-    fn no_two_things_that_can_be_done_at_a_place_have_the_same_words() {
+    fn no_two_commands_of_a_context_have_the_same_description() {
         for context in contexts() {
             for binding in listed(context) {
                 for (_, action, words) in &binding.keys {

@@ -2,13 +2,13 @@
 
 use crate::terminal::{
     Action, App, Capabilities, Condition, Effect, KeyContext, Keys,
-    app::bindings::{Bound, listed},
+    app::bindings::{AppBinding, listed},
     keymap::{Chord, keys_text},
     ui::{TextField, Typed},
 };
 
 /// Longest input, bytes.
-const LONGEST: usize = 200;
+const MAX_QUERY_LENGTH: usize = 200;
 
 /// One command of the palette.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub struct Command {
     /// Its section heading in the help.
     pub title: &'static str,
     /// Further search words.
-    pub also: &'static str,
+    pub search_words: &'static str,
     /// The action that it runs.
     pub action: Action,
     /// Condition under which it is enabled.
@@ -35,15 +35,15 @@ pub struct Command {
 
 impl Command {
     /// Whether all `words`, in lower case, occur in the text of this command alone.
-    fn is_called(&self, words: &[String]) -> bool {
-        let Self { keys, description, title, also, .. } = self;
-        has(&format!("{description} {title} {also} {keys}"), words)
+    fn matches_name(&self, words: &[String]) -> bool {
+        let Self { keys, description, title, search_words, .. } = self;
+        has(&format!("{description} {title} {search_words} {keys}"), words)
     }
 
     /// Whether all `words` occur in the text of this command or of its whole binding.
-    fn is_among(&self, words: &[String]) -> bool {
-        let Self { keys, description, group, hint, title, also, .. } = self;
-        has(&format!("{description} {group} {hint} {title} {also} {keys}"), words)
+    fn matches_text(&self, words: &[String]) -> bool {
+        let Self { keys, description, group, hint, title, search_words, .. } = self;
+        has(&format!("{description} {group} {hint} {title} {search_words} {keys}"), words)
     }
 }
 
@@ -52,9 +52,9 @@ fn has(text: &str, words: &[String]) -> bool {
     words.iter().all(|word| text.contains(word))
 }
 
-/// The commands in the context `place`, one for each action of a binding.
-pub fn commands(place: KeyContext, keys: &Keys, caps: Capabilities) -> Vec<Command> {
-    let commands = |binding: Bound| {
+/// The commands in `context`, one for each action of a binding.
+pub fn commands(context: KeyContext, keys: &Keys, caps: Capabilities) -> Vec<Command> {
+    let commands = |binding: AppBinding| {
         let all = binding.commands().into_iter().filter(|(action, ..)| *action != Action::OpenPalette);
         all.map(move |(action, description, chords)| Command {
             keys: keys_text(chords.iter().flat_map(|chord| keys.keys_for(*chord)), caps),
@@ -63,12 +63,12 @@ pub fn commands(place: KeyContext, keys: &Keys, caps: Capabilities) -> Vec<Comma
             group: binding.description,
             hint: binding.hint.map_or("", |(word, _)| word),
             title: binding.section.title(),
-            also: binding.also,
+            search_words: binding.search_words,
             action,
             when: binding.when,
         })
     };
-    listed(place).flat_map(commands).collect()
+    listed(context).flat_map(commands).collect()
 }
 
 /// State of the open palette: the input and the selected row.
@@ -81,17 +81,17 @@ pub struct CommandPalette {
 
 impl Default for CommandPalette {
     fn default() -> Self {
-        Self { words: TextField::new(LONGEST), mark: 0 }
+        Self { words: TextField::new(MAX_QUERY_LENGTH), mark: 0 }
     }
 }
 
 impl CommandPalette {
     /// Returns the commands that match all typed words, in their order. A match of the whole binding's text finds all its commands, unless
     /// some of them match on their own.
-    pub fn found(&self, mut commands: Vec<Command>) -> Vec<Command> {
+    pub fn matching(&self, mut commands: Vec<Command>) -> Vec<Command> {
         let words: Vec<String> = self.words.text().split_whitespace().map(str::to_lowercase).collect();
-        let called: Vec<_> = commands.iter().filter(|one| one.is_called(&words)).map(|one| one.group).collect();
-        commands.retain(|one| one.is_called(&words) || !called.contains(&one.group) && one.is_among(&words));
+        let called: Vec<_> = commands.iter().filter(|one| one.matches_name(&words)).map(|one| one.group).collect();
+        commands.retain(|one| one.matches_name(&words) || !called.contains(&one.group) && one.matches_text(&words));
         commands
     }
 
@@ -108,7 +108,7 @@ impl CommandPalette {
     /// Handles typed or pasted input; returns `false` if the palette does not use the key. The selection resets when the text changes.
     pub fn input(&mut self, typed: Typed) -> bool {
         let before = self.words.text().len();
-        let taken = self.words.take(typed);
+        let taken = self.words.handle(typed);
         if self.words.text().len() != before {
             self.mark = 0;
         }
@@ -119,7 +119,7 @@ impl CommandPalette {
 impl App {
     /// The commands that match the typed words; empty while the palette is closed.
     pub(super) fn found_commands(&self) -> Vec<Command> {
-        self.command_palette.as_ref().map_or_else(Vec::new, |palette| palette.found(self.commands()))
+        self.command_palette.as_ref().map_or_else(Vec::new, |palette| palette.matching(self.commands()))
     }
 
     /// Moves the palette's selection by lines, down if positive.
@@ -132,8 +132,8 @@ impl App {
 
     /// Runs the selected command, or reports why it is disabled.
     pub(super) fn choose_command(&mut self) -> Option<Effect> {
-        let found = self.found_commands();
-        let command = found.get(self.command_palette.as_ref()?.mark(found.len()))?;
+        let matching = self.found_commands();
+        let command = matching.get(self.command_palette.as_ref()?.mark(matching.len()))?;
         if let Some(reason) = self.disabled_reason(command.when) {
             self.toasts.push(reason.to_owned(), true);
             return None;
@@ -145,7 +145,7 @@ impl App {
     /// The commands available below the palette, enabled ones first. An action that several states of the page offer is listed once, with
     /// the words of the present state.
     pub fn commands(&self) -> Vec<Command> {
-        let mut all = commands(self.place_below(), self.keys(), self.caps);
+        let mut all = commands(self.page_key_context(), self.keys(), self.caps);
         all.sort_by_key(|command| self.disabled_reason(command.when).is_some());
         let mut commands: Vec<Command> = Vec::with_capacity(all.len());
         for command in all {
@@ -164,33 +164,33 @@ mod tests {
     use super::*;
     use crate::terminal::CoachAction;
 
-    fn found(typed: &str) -> Vec<Command> {
+    fn matching(typed: &str) -> Vec<Command> {
         let mut command_palette = CommandPalette::default();
         command_palette.input(Typed::Paste(typed));
-        command_palette.found(commands(KeyContext::Coach, &Keys::default(), Capabilities::NO_COLOUR))
+        command_palette.matching(commands(KeyContext::Coach, &Keys::default(), Capabilities::NO_COLOUR))
     }
 
     #[test]
-    fn all_words_have_to_occur_in_any_order_and_case() {
-        let undo = found("CHANGE back last");
+    fn a_search_needs_all_words_in_any_order_and_case() {
+        let undo = matching("CHANGE back last");
         assert_eq!(undo.len(), 1, "{undo:?}");
         assert_eq!((undo[0].action, undo[0].keys.as_str()), (Action::Coach(CoachAction::Undo), "u"));
-        assert_eq!(found("undo"), undo, "the word of the hint line is known as well");
-        assert!(found("back nonsense").is_empty());
-        assert!(found("ctrl-r").iter().all(|command| command.keys.contains("Ctrl-r")));
+        assert_eq!(matching("undo"), undo, "the word of the hint line is known as well");
+        assert!(matching("back nonsense").is_empty());
+        assert!(matching("ctrl-r").iter().all(|command| command.keys.contains("Ctrl-r")));
         let is_placing = |command: &Command| format!("{} {}", command.title, command.description).contains("lacing");
-        assert!(found("placing").iter().all(is_placing));
+        assert!(matching("placing").iter().all(is_placing));
     }
 
     #[test]
-    fn each_thing_that_a_binding_does_has_a_line_with_its_keys() {
-        let keys: Vec<_> = found("by one step").into_iter().map(|command| command.keys).collect();
+    fn each_action_of_a_binding_is_listed_with_its_keys() {
+        let keys: Vec<_> = matching("by one step").into_iter().map(|command| command.keys).collect();
         assert_eq!(keys, ["← h", "↓ j", "↑ k", "→ l"]);
     }
 
     #[test]
-    fn one_of_the_things_that_a_binding_does_is_found_by_its_own_words() {
-        let keys = |typed| found(typed).into_iter().map(|command| command.keys).collect::<Vec<_>>();
+    fn an_action_of_a_binding_is_found_by_its_own_description() {
+        let keys = |typed| matching(typed).into_iter().map(|command| command.keys).collect::<Vec<_>>();
         assert_eq!(keys("smaller step"), ["-"]);
         assert_eq!(keys("yellow"), ["2", "2"], "before a shot is watched, and from it");
         assert_eq!(keys("player"), ["S", "F8"], "the glossary has the player's words");
@@ -198,12 +198,12 @@ mod tests {
     }
 
     #[test]
-    fn it_does_not_list_itself() {
-        assert!(found("").iter().all(|command| command.action != Action::OpenPalette));
+    fn the_palette_does_not_list_itself() {
+        assert!(matching("").iter().all(|command| command.action != Action::OpenPalette));
     }
 
     #[test]
-    fn the_mark_stays_among_what_is_found() {
+    fn the_selection_stays_within_the_matches() {
         let mut command_palette = CommandPalette::default();
         command_palette.move_mark(isize::MAX, 4);
         assert_eq!(command_palette.mark(4), 3);

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::terminal::{
     Capabilities, KeyContext,
-    app::bindings::{Bound, listed},
+    app::bindings::{AppBinding, listed},
     keymap::keys_text,
 };
 
@@ -28,9 +28,10 @@ pub fn document() -> String {
          edit `[keys]` in the file that `carom config` prints.\n\nThe page is generated from the program's key bindings by \
          `cargo run --release --example picture -- docs/`.\n",
     );
-    let pages: Vec<Vec<Bound>> = KeyContext::PAGES.iter().map(|(place, _)| listed(*place).collect()).collect();
-    let is_everywhere =
-        |binding: &Bound| pages.iter().all(|page| page.iter().any(|other| other.description == binding.description));
+    let pages: Vec<Vec<AppBinding>> = KeyContext::PAGES.iter().map(|(place, _)| listed(*place).collect()).collect();
+    let is_everywhere = |binding: &AppBinding| {
+        pages.iter().all(|page| page.iter().any(|other| other.description == binding.description))
+    };
     for ((_, name), page) in KeyContext::PAGES.iter().zip(&pages) {
         write_page(&mut text, name, page.iter().filter(|binding| !is_everywhere(binding)));
     }
@@ -40,7 +41,7 @@ pub fn document() -> String {
     text
 }
 
-fn write_page<'a>(text: &mut String, name: &str, bindings: impl Iterator<Item = &'a Bound>) {
+fn write_page<'a>(text: &mut String, name: &str, bindings: impl Iterator<Item = &'a AppBinding>) {
     // Writing into a string never fails.
     let _ = write!(text, "\n## {name}\n\n| keys | what they do |\n|---|---|\n");
     for binding in bindings {

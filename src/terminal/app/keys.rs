@@ -54,18 +54,18 @@ impl App {
             };
         }
         if self.input(Typed::Key(key)) {
-            self.toasts.go_on();
+            self.toasts.dismiss_answers();
             return None;
         }
         // While the page waits for a key to bind, every key is an answer and nothing else.
-        let is_asked_for_a_key = self.is_asked_for_a_key();
-        let find = |key: &KeyEvent| bindings::find(key, self.place(), |when| self.disabled_reason(when));
+        let is_recording_key = self.is_recording_key();
+        let find = |key: &KeyEvent| bindings::find(key, self.key_context(), |when| self.disabled_reason(when));
         // The letters that answer a question always answer it, even if the user has bound them to something else.
         let is_answer = matches!(find(key), Some(Ok(Action::Answer(_))));
-        let meant = if is_asked_for_a_key || is_answer { *key } else { self.keys().translate(key) };
-        let found = find(&meant);
-        if is_asked_for_a_key && !matches!(found, Some(Ok(Action::Quit | Action::Suspend | Action::Settings(_)))) {
-            self.toasts.go_on();
+        let translated = if is_recording_key || is_answer { *key } else { self.keys().translate(key) };
+        let found = find(&translated);
+        if is_recording_key && !matches!(found, Some(Ok(Action::Quit | Action::Suspend | Action::Settings(_)))) {
+            self.toasts.dismiss_answers();
             let effect = self.settings.on_key_pressed(key);
             self.apply_changed_settings();
             return effect;
@@ -74,7 +74,7 @@ impl App {
             return self.handle_as_escape_and_key(key);
         }
         let found = found?;
-        if meant.code == KeyCode::Esc {
+        if translated.code == KeyCode::Esc {
             self.toasts.clear();
             if found.is_err() {
                 // If there is nothing to leave, Esc is silent.
@@ -88,7 +88,7 @@ impl App {
     /// Performs the action of a key or the mouse, or shows why it is disabled.
     pub(super) fn perform(&mut self, requested: Result<Action, &'static str>) -> Option<Effect> {
         *self.page_mut().message_mut() = None;
-        self.toasts.go_on();
+        self.toasts.dismiss_answers();
         match requested {
             Ok(action) => self.update(action),
             Err(reason) => {
@@ -108,7 +108,7 @@ impl App {
         !self.area.is_empty() && view::is_too_small(self.area)
     }
 
-    const fn is_asked_for_a_key(&self) -> bool {
+    const fn is_recording_key(&self) -> bool {
         matches!((self.screen, &self.settings.question), (PageId::Settings, Some(Question::Key)))
             && self.overlay.is_none()
             && self.command_palette.is_none()
@@ -163,12 +163,12 @@ impl App {
     }
 
     /// The key context of the screen. The help lists the keys of the context below it.
-    pub fn place(&self) -> KeyContext {
-        if self.command_palette.is_some() { KeyContext::CommandPalette } else { self.place_below() }
+    pub fn key_context(&self) -> KeyContext {
+        if self.command_palette.is_some() { KeyContext::CommandPalette } else { self.page_key_context() }
     }
 
     /// Like [`Self::place`], but ignoring the command palette.
-    pub(super) fn place_below(&self) -> KeyContext {
+    pub(super) fn page_key_context(&self) -> KeyContext {
         let asked = self.page().open_question(self.caps).filter(|asked| self.overlay.is_none() && !asked.has_own_keys);
         if let Some(asked) = asked {
             return KeyContext::Question { is_typed: asked.field.is_some() };

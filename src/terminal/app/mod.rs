@@ -13,7 +13,7 @@ mod settings;
 mod tabs;
 mod view;
 
-pub use view::SMALLEST as LEAST_SIZE;
+pub use view::MIN_SIZE;
 
 use std::{
     path::{Path, PathBuf},
@@ -31,7 +31,7 @@ use crate::{
     table::{Layout, LayoutError, Table},
     terminal::{
         Action, CalibrationAction, Capabilities, CoachAction, CommandPalette, Complaint, DrillAction, Effect, Glyphs,
-        Keys, LONGEST_FOR_GUESTS, PageId, SavedSession, Seat, Settings, SettingsAction, SettingsPage, StrokeDraft,
+        Keys, MAX_GUEST_THINK_MS, PageId, SavedSession, Seat, Settings, SettingsAction, SettingsPage, StrokeDraft,
         Subscriptions, ThemeName, Toasts, TrainingAction,
         pages::{
             Page,
@@ -40,7 +40,7 @@ use crate::{
             drills::{DrillsPage, TransferredPosition},
             training::TrainingPage,
         },
-        shown::ShownTable,
+        shared_table::SharedTable,
         ui::Theme,
     },
 };
@@ -151,24 +151,24 @@ impl App {
 
     /// Sets where the player's files are.
     #[must_use]
-    pub fn with_places(mut self, places: DataPaths) -> Self {
-        self.training.folder.clone_from(&places.runs);
-        self.drills.places = places.clone();
-        self.settings.places = places.clone();
-        self.calibration = CalibrationPage::new(places.clone());
-        self.training.places = places;
+    pub fn with_paths(mut self, paths: DataPaths) -> Self {
+        self.training.folder.clone_from(&paths.runs);
+        self.drills.places = paths.clone();
+        self.settings.places = paths.clone();
+        self.calibration = CalibrationPage::new(paths.clone());
+        self.training.places = paths;
         self
     }
 
     /// Sets the player at the terminal.
     #[must_use]
     pub fn with_seat(self, seat: &Seat) -> Self {
-        let mut app = self.with_places(seat.places.clone());
+        let mut app = self.with_paths(seat.paths.clone());
         app.is_guest = seat.is_guest;
         app.coach.player.clone_from(&seat.player);
         app.training.is_guest = seat.is_guest;
         if seat.is_guest {
-            app.coach.limit_thinking_time(Duration::from_millis(LONGEST_FOR_GUESTS));
+            app.coach.limit_thinking_time(Duration::from_millis(MAX_GUEST_THINK_MS));
         }
         app
     }
@@ -211,11 +211,11 @@ impl App {
     #[must_use]
     pub fn with_draft(mut self, draft: Option<StrokeDraft>) -> Self {
         let Some(draft) = draft else { return self };
-        let left = StrokeDraft { is_told: false, ..draft.clone() };
-        let is_told = draft.is_told;
+        let left = StrokeDraft { is_announced: false, ..draft.clone() };
+        let is_announced = draft.is_announced;
         if let Some(test) = self.calibration.restore_draft(draft) {
             self.draft_at_start = Some(left);
-            if !is_told {
+            if !is_announced {
                 let sentence = format!("a stroke of {test} that was typed in part is kept: F7 goes on with it");
                 // Cleared by the next key, like an answer: otherwise it would cover the form that it offers.
                 self.toasts.push(sentence, true);
@@ -227,8 +227,8 @@ impl App {
     /// Returns the stroke that is typed in part, for the next session. It is announced again if anything was typed since the last start.
     pub fn draft(&self) -> Option<StrokeDraft> {
         let draft = self.calibration.draft()?;
-        let is_told = self.draft_at_start.as_ref() == Some(&draft);
-        Some(StrokeDraft { is_told, ..draft })
+        let is_announced = self.draft_at_start.as_ref() == Some(&draft);
+        Some(StrokeDraft { is_announced, ..draft })
     }
 
     /// Returns the state that the next session can continue from; `None` if there is nothing worth keeping.
@@ -369,20 +369,20 @@ impl App {
     /// Returns what to poll for the open page; reports go to [`App::receive_training`] and `CoachPage::see`.
     pub fn subscriptions(&self) -> Subscriptions {
         if let Some(followed) = self.coach.followed() {
-            return Subscriptions { shown: Some(followed.folder.clone()), ..Subscriptions::default() };
+            return Subscriptions { followed_table: Some(followed.folder.clone()), ..Subscriptions::default() };
         }
         if self.screen == PageId::Training { self.training.subscriptions() } else { Subscriptions::default() }
     }
 
     /// Returns the view of the coach's table that others may see, while the player shares it.
-    pub fn shown_table(&self) -> Option<ShownTable> {
+    pub fn shared_table(&self) -> Option<SharedTable> {
         self.coach.shared_table(self.screen == PageId::Coach)
     }
 
     /// Stops sharing the table because its view could not be written, and shows `sentence`.
-    pub fn not_shown(&mut self, sentence: String) {
+    pub fn sharing_failed(&mut self, sentence: String) {
         self.coach.stop_sharing();
-        self.failed(sentence);
+        self.report_failure(sentence);
     }
 
     /// Advances all animations by `seconds`.

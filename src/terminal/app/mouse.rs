@@ -32,7 +32,7 @@ impl App {
             Kind::Down(Left) => self.click(event),
             Kind::ScrollUp => self.wheel(event, -1),
             Kind::ScrollDown => self.wheel(event, 1),
-            Kind::Drag(Left) if self.place() == KeyContext::Coach && self.overlay.is_none() => {
+            Kind::Drag(Left) if self.key_context() == KeyContext::Coach && self.overlay.is_none() => {
                 let pointer = table_mapping(&self.coach, self.area).nearest_metres(event.column, event.row)?;
                 self.coach.drag_to(pointer)
             }
@@ -98,7 +98,7 @@ impl App {
     /// Moves the selection of the visible list by `lines`, exactly as the arrow keys would.
     fn move_mark(&mut self, lines: isize) -> Option<Effect> {
         let arrow = KeyEvent::from(if lines < 0 { KeyCode::Up } else { KeyCode::Down });
-        let found = bindings::find(&arrow, self.place(), |when| self.disabled_reason(when))?;
+        let found = bindings::find(&arrow, self.key_context(), |when| self.disabled_reason(when))?;
         // A refusal is reported once; of several steps, only the last effect counts.
         let times = if found.is_ok() { lines.unsigned_abs() } else { 1 };
         (0..times).fold(None, |effect, _| self.perform(found).or(effect))

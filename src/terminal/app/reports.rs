@@ -9,14 +9,14 @@ impl App {
         let effect = self.coach.receive(answer);
         if was_thinking && self.coach.spinner().is_none() {
             // Refusals because the coach was thinking no longer apply.
-            self.toasts.go_on();
+            self.toasts.dismiss_answers();
         }
         self.collect_toasts(false);
         effect
     }
 
     /// Handles the loss of the coach's worker thread, and with it the answer.
-    pub fn coach_lost(&mut self) {
+    pub fn coach_failed(&mut self) {
         self.coach.handle_worker_loss();
         self.collect_toasts(false);
     }
@@ -78,7 +78,7 @@ impl App {
     }
 
     /// Reports a failure outside the screens.
-    pub fn failed(&mut self, sentence: String) {
+    pub fn report_failure(&mut self, sentence: String) {
         self.toasts.push(sentence, false);
     }
 }

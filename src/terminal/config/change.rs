@@ -26,7 +26,7 @@ pub enum Change {
 
 /// Why the text was not changed.
 #[derive(Debug, thiserror::Error, PartialEq)]
-pub enum Unchanged {
+pub enum ChangeError {
     /// The text is not valid TOML.
     #[error("line {line}: {text}")]
     Damaged {
@@ -43,8 +43,8 @@ pub enum Unchanged {
 /// Applies the change to `text`; `None` stands for a file that does not exist yet.
 ///
 /// # Errors
-/// [`Unchanged`]: the text stays as it is.
-pub fn changed(text: Option<&str>, change: &Change) -> Result<String, Unchanged> {
+/// [`ChangeError`]: the text stays as it is.
+pub fn changed(text: Option<&str>, change: &Change) -> Result<String, ChangeError> {
     let text = text.unwrap_or(FIRST_LINE);
     let document: DocumentMut = text.parse().map_err(|error| damaged(text, &error))?;
     let new = if document.is_empty() && !text.is_empty() {
@@ -66,7 +66,7 @@ pub fn is_changeable(text: &str) -> bool {
 }
 
 /// Applies the change to `document`, which was parsed from `text`.
-fn edited(mut document: DocumentMut, text: &str, change: &Change) -> Result<String, Unchanged> {
+fn edited(mut document: DocumentMut, text: &str, change: &Change) -> Result<String, ChangeError> {
     match change {
         Change::Default(key, _) if !document.contains_key(key) => {}
         Change::Value(key, value) | Change::Default(key, value) => put(document.as_table_mut(), key, value, text)?,
@@ -76,13 +76,13 @@ fn edited(mut document: DocumentMut, text: &str, change: &Change) -> Result<Stri
                 return Ok(document.to_string());
             }
             let keys = document.as_table_mut().entry(KEYS).or_insert_with(|| Item::Table(Table::new()));
-            let keys = keys.as_table_like_mut().ok_or_else(|| Unchanged::Misplaced(KEYS.to_owned()))?;
+            let keys = keys.as_table_like_mut().ok_or_else(|| ChangeError::Misplaced(KEYS.to_owned()))?;
             let written: Vec<String> = keys.iter().map(|(key, _)| key.to_owned()).filter(|key| is_gone(key)).collect();
             for key in &written {
                 keys.remove(key);
             }
-            if let Some((pressed, meant)) = added {
-                keys.insert(&name(*pressed), Item::Value(name(*meant).into()));
+            if let Some((pressed, target)) = added {
+                keys.insert(&name(*pressed), Item::Value(name(*target).into()));
             }
         }
     }
@@ -90,7 +90,7 @@ fn edited(mut document: DocumentMut, text: &str, change: &Change) -> Result<Stri
 }
 
 /// Replaces the value of `key`, keeping the comment after it, or appends a new one.
-fn put(table: &mut Table, key: &str, value: &str, text: &str) -> Result<(), Unchanged> {
+fn put(table: &mut Table, key: &str, value: &str, text: &str) -> Result<(), ChangeError> {
     let mut value: Value = value.parse().map_err(|error| damaged(text, &error))?;
     match table.get_mut(key) {
         None => {
@@ -100,14 +100,14 @@ fn put(table: &mut Table, key: &str, value: &str, text: &str) -> Result<(), Unch
             value.decor_mut().clone_from(known.decor());
             *known = value;
         }
-        Some(_) => return Err(Unchanged::Misplaced(key.to_owned())),
+        Some(_) => return Err(ChangeError::Misplaced(key.to_owned())),
     }
     Ok(())
 }
 
-fn damaged(text: &str, error: &TomlError) -> Unchanged {
+fn damaged(text: &str, error: &TomlError) -> ChangeError {
     let line = error.span().map_or(1, |span| line_at(text, span.start));
-    Unchanged::Damaged { line, text: error.message().to_owned() }
+    ChangeError::Damaged { line, text: error.message().to_owned() }
 }
 
 #[cfg(test)]
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn a_new_value_stands_before_the_tables_and_is_read_back() {
+    fn a_new_value_is_written_before_the_tables_and_read_back() {
         let new = changed(Some(FILE), &Change::Value("speed", "2.0".to_owned())).unwrap();
         assert_eq!(read(&new).0.speed, 2.0, "{new}");
         assert_eq!(new.replace("speed = 2.0\n", ""), FILE);
@@ -142,15 +142,15 @@ mod tests {
         assert!(first.starts_with(FIRST_LINE) && !read(&first).0.mouse, "{first}");
         let commented = changed(Some("# only this\n[keys]\nx = \"u\"\n"), &Change::Value("plan", "false".to_owned()));
         let (settings, complaints) = read(&commented.unwrap());
-        assert!(!settings.plan && settings.keys.meant_by(key("x")) == Some(key("u")) && complaints.is_empty());
+        assert!(!settings.plan && settings.keys.target_of(key("x")) == Some(key("u")) && complaints.is_empty());
     }
 
     #[test]
-    fn keys_come_and_go_however_they_are_written() {
+    fn key_bindings_are_added_and_removed_in_any_spelling() {
         let change = Change::Keys(vec![key("X")], Some((key("Ctrl-a"), key("\""))));
         let new = changed(Some(FILE), &change).unwrap();
         let keys = read(&new).0.keys;
-        assert_eq!((keys.meant_by(key("X")), keys.meant_by(key("Ctrl-a"))), (None, Some(key("\""))), "{new}");
+        assert_eq!((keys.target_of(key("X")), keys.target_of(key("Ctrl-a"))), (None, Some(key("\""))), "{new}");
         assert!(new.contains("[else]\ny = 1") && new.contains("# for the terrace"), "{new}");
         let gone = changed(Some(&new), &Change::Keys(vec![key("Ctrl-a")], None)).unwrap();
         assert_eq!(read(&gone).0.keys, super::super::Keys::default(), "{gone}");
@@ -158,14 +158,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_damaged_or_something_else_is_named_and_not_changed() {
+    fn damaged_or_misplaced_settings_are_reported_and_not_changed() {
         let theme = Change::Value("theme", "\"dark\"".to_owned());
         let damaged = changed(Some("\u{20ac} = 1\n"), &theme).unwrap_err();
-        assert!(matches!(damaged, Unchanged::Damaged { line: 1, .. }), "{damaged:?}");
+        assert!(matches!(damaged, ChangeError::Damaged { line: 1, .. }), "{damaged:?}");
         let twice = changed(Some("plan = true\nplan = true\n"), &theme).unwrap_err();
-        assert!(matches!(twice, Unchanged::Damaged { line: 2, .. }), "{twice:?}");
-        assert_eq!(changed(Some("[theme]\na = 1\n"), &theme), Err(Unchanged::Misplaced("theme".to_owned())));
+        assert!(matches!(twice, ChangeError::Damaged { line: 2, .. }), "{twice:?}");
+        assert_eq!(changed(Some("[theme]\na = 1\n"), &theme), Err(ChangeError::Misplaced("theme".to_owned())));
         let keys = Change::Keys(Vec::new(), Some((key("x"), key("u"))));
-        assert_eq!(changed(Some("keys = 3\n"), &keys), Err(Unchanged::Misplaced(KEYS.to_owned())));
+        assert_eq!(changed(Some("keys = 3\n"), &keys), Err(ChangeError::Misplaced(KEYS.to_owned())));
     }
 }

@@ -25,8 +25,8 @@ pub struct StrokeDraft {
     /// Whether the stroke belongs to a daily check.
     pub is_daily: bool,
     /// Whether the program has already announced this draft at a start.
-    #[serde(default)]
-    pub is_told: bool,
+    #[serde(default, rename = "is_told")]
+    pub is_announced: bool,
 }
 
 impl StrokeDraft {
@@ -34,7 +34,7 @@ impl StrokeDraft {
     ///
     /// # Errors
     /// The message about a file that cannot be read, which is set aside.
-    pub fn read_or_put_aside(path: &Path) -> Result<Option<Self>, String> {
+    pub fn load_or_rename_unreadable(path: &Path) -> Result<Option<Self>, String> {
         let read = storage::read_if_exists(path, storage::MAX_SMALL_FILE).map_err(|error| error.to_string());
         let draft = read.and_then(|bytes| {
             let draft = bytes.map(|bytes| serde_json::from_slice(&bytes)).transpose();
@@ -63,17 +63,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_damaged_draft_is_put_aside_and_told_once() {
+    fn a_damaged_draft_is_renamed_and_reported_once() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("draft.json");
-        assert_eq!(StrokeDraft::read_or_put_aside(&path), Ok(None));
+        assert_eq!(StrokeDraft::load_or_rename_unreadable(&path), Ok(None));
         fs::write(&path, "{").unwrap();
-        let said = StrokeDraft::read_or_put_aside(&path).unwrap_err();
+        let said = StrokeDraft::load_or_rename_unreadable(&path).unwrap_err();
         assert!(said.contains("draft.json: it is damaged") && said.contains("draft.unread.json"), "{said}");
         assert_eq!(fs::read(path.with_extension("unread.json")).unwrap(), b"{");
-        assert_eq!(StrokeDraft::read_or_put_aside(&path), Ok(None));
+        assert_eq!(StrokeDraft::load_or_rename_unreadable(&path), Ok(None));
         fs::write(&path, "[").unwrap();
-        let said = StrokeDraft::read_or_put_aside(&path).unwrap_err();
+        let said = StrokeDraft::load_or_rename_unreadable(&path).unwrap_err();
         assert!(said.contains("draft.unread-2.json"), "{said}");
         assert_eq!(fs::read(path.with_extension("unread.json")).unwrap(), b"{", "the first is still kept");
     }

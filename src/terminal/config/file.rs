@@ -22,7 +22,7 @@ pub struct SettingsTask {
     /// Identifies the report of this task.
     pub number: u64,
     /// Locations of the settings file and of the player's own tables.
-    pub places: DataPaths,
+    pub paths: DataPaths,
     /// The change to make; `None` to read the file.
     pub change: Option<Change>,
 }
@@ -52,14 +52,14 @@ pub struct SettingsFile {
 impl SettingsFile {
     /// Runs a task. A change is applied to the present text of the file, so that changes by other programs are kept.
     pub fn run(&mut self, task: &SettingsTask) -> SettingsReport {
-        let SettingsTask { number, places, change } = task;
-        let path = &places.settings;
+        let SettingsTask { number, paths, change } = task;
+        let path = &paths.settings;
         let report = |settings, is_writable, troubles| SettingsReport {
             number: *number,
             settings,
             is_writable,
             troubles,
-            tables: places.own_tables(),
+            tables: paths.own_tables(),
         };
         let unwritten = |settings, sentence: String| {
             let sentence =
@@ -131,8 +131,8 @@ mod tests {
     use crate::terminal::ThemeName;
 
     fn task(path: &Path, change: impl Into<Option<Change>>) -> SettingsTask {
-        let places = DataPaths { settings: path.to_owned(), ..DataPaths::under(path.parent().unwrap()) };
-        SettingsTask { number: 1, places, change: change.into() }
+        let paths = DataPaths { settings: path.to_owned(), ..DataPaths::under(path.parent().unwrap()) };
+        SettingsTask { number: 1, paths, change: change.into() }
     }
 
     fn theme(name: &str) -> Change {
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_is_made_read_and_changed() {
+    fn a_settings_file_is_created_read_and_changed() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deep/config.toml");
         let mut file = SettingsFile::default();
@@ -151,7 +151,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn links_stay() {
+    fn symbolic_links_to_settings_stay() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("config.toml");
         let mut file = SettingsFile::default();
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn a_damaged_file_is_named_with_its_line_and_left_as_it_is() {
+    fn a_damaged_settings_file_is_reported_with_its_line_and_kept() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("config.toml");
         for (bytes, line) in [(&b"plan = true\nspeed = = 2\n"[..], "line 2"), (b"plan = true\n# \xff\n", "line 2")] {

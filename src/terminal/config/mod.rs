@@ -110,7 +110,7 @@ impl Settings {
         let number = number.as_deref().unwrap_or(typed);
         for value in [typed, &quoted(typed), number] {
             let mut settings = self.clone();
-            if read::take_value(&mut settings, entry, value).is_some() {
+            if read::apply_value(&mut settings, entry, value).is_some() {
                 if settings.table != self.table {
                     settings.table()?;
                 }

@@ -23,7 +23,7 @@ pub const KEYS: &str = "keys";
 const TABLE: &str = "table";
 
 /// Number of syntax errors after which the file is given up, since each costs another pass over it.
-const MOST_MISTAKES: usize = 50;
+const MAX_MISTAKES: usize = 50;
 
 /// A mistake in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -111,7 +111,7 @@ fn without_mistakes(text: &str) -> (String, Vec<Complaint>) {
         let text_of = |what: &str| {
             format!("{what} is not taken: {reason}; accepted are lines like name = value, with words in quotes")
         };
-        if written.is_empty() || complaints.len() == MOST_MISTAKES {
+        if written.is_empty() || complaints.len() == MAX_MISTAKES {
             // Something above is not closed, or the file is not a settings file.
             complaints.push(Complaint { line: Some(number), text: text_of("the file") });
             return (String::new(), complaints);
@@ -122,7 +122,7 @@ fn without_mistakes(text: &str) -> (String, Vec<Complaint>) {
 }
 
 /// Sets `entry` to `value`, given in TOML; `None` if it is invalid or not accepted.
-pub fn take_value(settings: &mut Settings, entry: &Entry, value: &str) -> Option<()> {
+pub fn apply_value(settings: &mut Settings, entry: &Entry, value: &str) -> Option<()> {
     let text = format!("value = {value}");
     let table = DeTable::parse(&text).ok()?;
     let mut values = table.get_ref().values();
@@ -172,7 +172,7 @@ mod tests {
     use crate::{coach::Skill, game::Rule, table::Table, terminal::ThemeName};
 
     #[test]
-    fn the_documentation_is_itself_a_file_and_changes_nothing() {
+    fn the_documentation_parses_as_settings_and_changes_nothing() {
         let mut settings = Settings { theme: ThemeName::Light, rule: Rule::ThreeCushion, ..Settings::default() };
         settings.skill = "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1".parse().unwrap();
         settings.keys.add(chord("x").unwrap(), chord("Ctrl-r").unwrap());
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn every_wrong_line_is_named_and_the_others_count() {
+    fn every_wrong_line_is_reported_and_the_others_apply() {
         let text = "theme = \"light\"\nspeed = 9.5\nskill = 3\n\ntempo = 1\nthink_ms = 0.5\n[keys]\n\"Hyper-x\" = \"Enter\"\n\"x\" = \"Enter\"\n";
         let (settings, complaints) = read(text);
         assert_eq!((settings.theme, settings.speed, settings.skill), (ThemeName::Light, 1.0, Skill::EXPERT));
@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mistake_among_letters_of_several_bytes_has_its_line_too() {
+    fn line_numbers_are_right_after_multibyte_letters() {
         for text in ["#\u{20ac}\ntheme = \u{201c}dark\u{201d}\n", "rule = \"\u{fc}\"\n\u{fc} = 1\n", "x = '\u{1f3b1}\n"]
         {
             assert!(!read(text).1.is_empty(), "{text}");
@@ -206,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_whose_file_is_wrong_is_named_and_the_usual_one_is_played_on() {
+    fn a_wrong_table_file_is_reported_and_the_default_table_used() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("mine.toml");
         let text = toml::to_string(&Table::default()).unwrap().replacen("mu_s = ", "mu_s = -", 1);
@@ -218,13 +218,13 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_file_of_settings_is_given_up_soon() {
+    fn a_file_without_settings_is_given_up_soon() {
         let (settings, complaints) = read(&"no settings at all\n".repeat(50_000));
-        assert_eq!((settings, complaints.len()), (Settings::default(), MOST_MISTAKES + 1));
+        assert_eq!((settings, complaints.len()), (Settings::default(), MAX_MISTAKES + 1));
     }
 
     #[test]
-    fn a_mistake_in_the_syntax_costs_one_line_only() {
+    fn a_syntax_mistake_costs_only_its_line() {
         for wrong in ["theme = dark light", "theme", "theme: \"light\"", "theme = light", "= 3", "\u{20ac}", "[theme"] {
             let (settings, complaints) =
                 read(&format!("speed = 2.0\n{wrong}\nrule = \"one-cushion\"\njumps = false\n"));

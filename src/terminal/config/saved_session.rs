@@ -17,7 +17,7 @@ use crate::{
 const VERSION: u32 = 1;
 
 /// Most earlier sessions kept with the last one.
-const MOST_FORMER: usize = 4;
+const MAX_FORMER: usize = 4;
 
 /// The part of the file with its version.
 #[derive(Deserialize)]
@@ -64,7 +64,7 @@ impl SavedSession {
 
     /// Records the terms that the settings had.
     #[must_use]
-    pub fn under(self, settings: Terms) -> Self {
+    pub fn with_settings(self, settings: Terms) -> Self {
         Self { settings: Some(settings), ..self }
     }
 
@@ -75,8 +75,8 @@ impl SavedSession {
 
     /// Appends earlier sessions that were not continued, the latest first.
     #[must_use]
-    pub fn followed_by(self, mut former: Vec<Self>) -> Self {
-        former.truncate(MOST_FORMER);
+    pub fn with_former_sessions(self, mut former: Vec<Self>) -> Self {
+        former.truncate(MAX_FORMER);
         Self { former, ..self }
     }
 
@@ -106,7 +106,7 @@ impl SavedSession {
     ///
     /// # Errors
     /// The message about such a file.
-    pub fn load_or_put_aside(path: &Path) -> Result<Option<Self>, String> {
+    pub fn load_or_rename_unreadable(path: &Path) -> Result<Option<Self>, String> {
         Self::load(path).map_err(|error| {
             format!(
                 "{}: {error}; the last session cannot be continued, and {}",
@@ -117,7 +117,7 @@ impl SavedSession {
     }
 
     /// Returns this session followed by the earlier ones. A practice session that occurs several times stays only in the latest.
-    pub fn with_former(mut self) -> Vec<Self> {
+    pub fn into_sessions(mut self) -> Vec<Self> {
         let former = std::mem::take(&mut self.former);
         let mut sessions = vec![self];
         for mut session in former.into_iter().flat_map(Self::checked) {
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn a_session_is_read_back_and_whatever_else_stands_there_is_named() {
+    fn a_session_is_read_back_and_other_content_is_reported() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("state/last.json");
         assert_eq!(SavedSession::load(&path), Ok(None));
@@ -189,14 +189,14 @@ mod tests {
         refused("it is damaged");
         std::fs::write(&path, "{").unwrap();
         refused("it is damaged");
-        let said = SavedSession::load_or_put_aside(&path).unwrap_err();
+        let said = SavedSession::load_or_rename_unreadable(&path).unwrap_err();
         assert!(said.contains("last.json: it is damaged") && said.contains("last.unread.json"), "{said}");
         assert_eq!(std::fs::read(path.with_extension("unread.json")).unwrap(), b"{");
-        assert_eq!(SavedSession::load_or_put_aside(&path), Ok(None));
+        assert_eq!(SavedSession::load_or_rename_unreadable(&path), Ok(None));
     }
 
     #[test]
-    fn a_session_of_an_older_version_does_not_say_what_was_set_then() {
+    fn a_session_of_an_older_version_has_no_settings() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("last.json");
         let last = session(Table::default());
@@ -205,12 +205,12 @@ mod tests {
         assert!(!text.contains("settings"), "as older versions wrote it: {text}");
         assert_eq!(SavedSession::load(&path).unwrap().unwrap().settings, None);
         let set = Terms { skill: Skill::EXPERT, ..last.terms() };
-        last.under(set).save(&path).unwrap();
+        last.with_settings(set).save(&path).unwrap();
         assert_eq!(SavedSession::load(&path).unwrap().unwrap().settings, Some(set));
     }
 
     #[test]
-    fn former_sessions_are_kept_with_the_last_one_as_long_as_nobody_goes_on_with_them() {
+    fn former_sessions_are_kept_until_they_are_continued() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("last.json");
         let by = |number: u32| {
@@ -219,15 +219,15 @@ mod tests {
             session
         };
         for number in 1..=9 {
-            let former = SavedSession::load(&path).unwrap().map_or_else(Vec::new, SavedSession::with_former);
-            by(number).followed_by(former).save(&path).unwrap();
+            let former = SavedSession::load(&path).unwrap().map_or_else(Vec::new, SavedSession::into_sessions);
+            by(number).with_former_sessions(former).save(&path).unwrap();
         }
-        let kept = SavedSession::load(&path).unwrap().unwrap().with_former();
-        assert_eq!(kept, (1..=9).rev().take(1 + MOST_FORMER).map(by).collect::<Vec<_>>());
+        let kept = SavedSession::load(&path).unwrap().unwrap().into_sessions();
+        assert_eq!(kept, (1..=9).rev().take(1 + MAX_FORMER).map(by).collect::<Vec<_>>());
     }
 
     #[test]
-    fn a_session_on_the_former_match_table_goes_on_on_the_present_one() {
+    fn a_session_on_the_former_match_table_moves_to_the_present_one() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("last.json");
         let on = |textbook: &str, name: &str| {

@@ -43,12 +43,12 @@ impl AnsiBackend {
             modifier: Modifier::empty(),
             cursor: None,
         };
-        backend.forget();
+        backend.invalidate();
         backend
     }
 
     /// Discards buffered bytes and all assumptions about the terminal's state.
-    pub fn forget(&mut self) {
+    pub fn invalidate(&mut self) {
         self.bytes.clear();
         self.bytes.extend_from_slice(BEGIN);
         self.reset_style();
@@ -98,9 +98,9 @@ impl AnsiBackend {
         let place = |cell: (u16, u16, &'a Cell)| {
             // A blank keeps the foreground colour of the cell before it.
             if !is_blank(cell.2) {
-                front = place_of(cell.2.fg, &mut fronts);
+                front = index_of(cell.2.fg, &mut fronts);
             }
-            (place_of((cell.2.modifier, cell.2.bg), &mut grounds), front, cell)
+            (index_of((cell.2.modifier, cell.2.bg), &mut grounds), front, cell)
         };
         let mut cells: Vec<_> = cells.into_iter().map(place).collect();
         cells.sort_by_key(|&(ground, front, _)| (ground, front));
@@ -151,7 +151,7 @@ fn is_blank(cell: &Cell) -> bool {
 }
 
 /// Index of `one` in the list; appends it if it is missing.
-fn place_of<T: PartialEq>(one: T, list: &mut Vec<T>) -> usize {
+fn index_of<T: PartialEq>(one: T, list: &mut Vec<T>) -> usize {
     list.iter().position(|known| *known == one).unwrap_or_else(|| {
         list.push(one);
         list.len() - 1
@@ -307,7 +307,7 @@ mod tests {
     }
 
     #[test]
-    fn what_follows_a_wide_character_stands_where_it_was_drawn_and_leaves_no_ghost() {
+    fn text_after_a_wide_character_keeps_its_column() {
         let wide = |frame: &mut ratatui::Frame| {
             first(frame);
             frame.buffer_mut().set_string(2, 1, "日本語 🎱 title", Style::new().fg(Color::Cyan));
@@ -316,12 +316,12 @@ mod tests {
     }
 
     #[test]
-    fn a_frame_without_changes_is_no_bytes() {
+    fn a_frame_without_changes_writes_no_bytes() {
         assert_eq!(check(&[first, first]), 0);
     }
 
     #[test]
-    fn a_small_change_is_a_small_frame() {
+    fn a_small_change_writes_few_bytes() {
         let bytes = check(&[first, |frame| {
             first(frame);
             frame.buffer_mut().set_string(9, 2, "*", Style::new());
@@ -330,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn a_colour_that_comes_again_and_again_is_named_once_a_frame() {
+    fn a_repeated_colour_is_written_once_per_frame() {
         let bytes = check(&[
             |_| (),
             |frame| {

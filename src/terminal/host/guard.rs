@@ -71,7 +71,7 @@ impl TerminalGuard {
         enable_raw_mode()?;
         let mouse = if self.mouse { ENABLE_MOUSE } else { "" };
         execute!(self.output, EnterAlternateScreen, Hide, EnableBracketedPaste, Print(mouse))?;
-        self.terminal.backend_mut().forget();
+        self.terminal.backend_mut().invalidate();
         // The next frame has to be painted in full. `Terminal::clear` would query the cursor position, and the thread that reads keys would
         // take the answer.
         let size = self.terminal.size()?;
@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_gives_the_terminal_back_and_is_reported_then() {
+    fn a_panic_restores_the_terminal_and_is_then_reported() {
         let pair = native_pty_system().openpty(PtySize::default()).unwrap();
         let mut command = CommandBuilder::new(std::env::current_exe().unwrap());
         command.args(["--exact", "--ignored", "--nocapture", "terminal::host::guard::tests::draws_and_panics"]);

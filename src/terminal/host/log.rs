@@ -12,7 +12,7 @@ use tracing::Level;
 use crate::printing::EscapingWriter;
 
 /// Size from which the file is rotated, bytes; at most two files of this size are kept.
-const LARGEST: u64 = 1 << 20;
+const MAX_BYTES: u64 = 1 << 20;
 
 /// Default log level, unless `CAROM_LOG` sets another.
 const LEVEL: Level = Level::INFO;
@@ -54,7 +54,7 @@ impl LogFile {
 
 impl Write for LogFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        if self.size >= LARGEST {
+        if self.size >= MAX_BYTES {
             *self = Self::open(&self.path)?;
         }
         let written = self.file.write(bytes)?;
@@ -72,7 +72,7 @@ fn open(path: &Path) -> io::Result<File> {
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder)?;
     }
-    if fs::metadata(path).is_ok_and(|known| known.len() >= LARGEST) {
+    if fs::metadata(path).is_ok_and(|known| known.len() >= MAX_BYTES) {
         fs::rename(path, path.with_extension("log.old"))?;
     }
     OpenOptions::new().create(true).append(true).open(path)
@@ -83,27 +83,27 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_that_grows_large_meanwhile_is_laid_aside_too() {
+    fn a_log_that_grows_large_is_rotated() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("carom.log");
         let mut log = LogFile::open(&path).unwrap();
-        for _ in 0..5 * LARGEST / 4096 {
+        for _ in 0..5 * MAX_BYTES / 4096 {
             log.write_all(&[b'a'; 4096]).unwrap();
         }
         let sizes = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().metadata().unwrap().len());
-        assert!(sizes.sum::<u64>() <= 2 * LARGEST);
+        assert!(sizes.sum::<u64>() <= 2 * MAX_BYTES);
     }
 
     #[test]
-    fn a_large_file_is_laid_aside_and_a_small_one_goes_on() {
+    fn a_large_log_is_rotated_and_a_small_one_continued() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deep/carom.log");
         open(&path).unwrap().write_all(b"one\n").unwrap();
         open(&path).unwrap().write_all(b"two\n").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"one\ntwo\n");
-        open(&path).unwrap().set_len(LARGEST).unwrap();
+        open(&path).unwrap().set_len(MAX_BYTES).unwrap();
         open(&path).unwrap().write_all(b"three\n").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"three\n");
-        assert_eq!(fs::metadata(path.with_extension("log.old")).unwrap().len(), LARGEST);
+        assert_eq!(fs::metadata(path.with_extension("log.old")).unwrap().len(), MAX_BYTES);
     }
 }

@@ -8,6 +8,6 @@ mod log;
 mod pace;
 pub mod runner;
 mod sgr;
-mod showing;
+mod table_sharing;
 
 pub use self::guard::has_terminal;

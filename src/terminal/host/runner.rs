@@ -15,8 +15,8 @@ use crate::{
     printing::{self, FULL_VERSION, OneLine},
     storage::DataPaths,
     terminal::{
-        App, CoachAnswer, CoachNews, Effect, SavedSession, TrainingReport,
-        host::{events, guard::TerminalGuard, log, pace::Pace, showing::TableSharing},
+        App, CoachAnswer, CoachEvent, Effect, SavedSession, TrainingReport,
+        host::{events, guard::TerminalGuard, log, pace::Pace, table_sharing::TableSharing},
         tasks::{Tasks, event::Event},
     },
 };
@@ -28,34 +28,34 @@ const MIN_FRAME_INTERVAL: Duration = Duration::from_millis(15);
 const SAVE_INTERVAL: Duration = Duration::from_secs(2);
 
 /// Whether the loop continues.
-enum Next {
-    GoOn,
+enum Flow {
+    Continue,
     Quit,
     /// A signal ends the process.
-    Die(i32),
+    EndBySignal(i32),
 }
 
 /// Runs the app on the terminal until the player quits.
 ///
 /// # Errors
 /// Any error of the terminal.
-pub fn run(app: App, places: DataPaths) -> io::Result<()> {
+pub fn run(app: App, paths: DataPaths) -> io::Result<()> {
     // The program works without a log too.
-    let _ = log::start(&places.log, std::env::var("CAROM_LOG").ok().as_deref());
+    let _ = log::start(&paths.log, std::env::var("CAROM_LOG").ok().as_deref());
     info!(version = FULL_VERSION, caps = ?app.caps, "the screen opens");
     let (to_screen, events) = events::open()?;
     let session = TerminalGuard::start(app.mouse)?;
     let tasks = Tasks::new(to_screen)?;
     let saved = (None, Instant::now());
     let ticked = Instant::now();
-    let showing = TableSharing::new(places.spectator_folder.clone());
+    let sharing = TableSharing::new(paths.spectator_folder.clone());
     let (has_resumed, has_save_failed, last_logged) = (false, false, String::new());
     let mut runner =
-        Runner { app, session, tasks, places, ticked, has_resumed, saved, has_save_failed, last_logged, showing };
+        Runner { app, session, tasks, paths, ticked, has_resumed, saved, has_save_failed, last_logged, sharing };
     let end = runner.event_loop(&events);
-    runner.showing.end();
+    runner.sharing.stop();
     runner.save_session(true);
-    let draft_saved = runner.keep_draft();
+    let draft_saved = runner.save_draft();
     info!(?end, "the screen closes");
     let left = runner.session.leave();
     // The player sees the shell again while the last changes are written.
@@ -76,7 +76,7 @@ const fn can_be_deferred(event: &Event) -> bool {
     matches!(
         event,
         Event::Training(TrainingReport::Followed(..) | TrainingReport::HasPolicy(..))
-            | Event::Answer(CoachAnswer { news: CoachNews::Better(_), .. })
+            | Event::Answer(CoachAnswer { event: CoachEvent::Better(_), .. })
     )
 }
 
@@ -84,7 +84,7 @@ struct Runner {
     app: App,
     session: TerminalGuard,
     tasks: Tasks,
-    places: DataPaths,
+    paths: DataPaths,
     /// Time of the last tick of the app, or of the return from being suspended.
     ticked: Instant,
     /// Whether the terminal has already been taken over again when the signal for it arrives.
@@ -96,7 +96,7 @@ struct Runner {
     /// The last message written to the log.
     last_logged: String,
     /// Writer of the shared table.
-    showing: TableSharing,
+    sharing: TableSharing,
 }
 
 impl Runner {
@@ -108,9 +108,9 @@ impl Runner {
             self.tasks.subscribe(self.app.subscriptions())?;
             let interval = self.app.frame_interval().map(Duration::from_secs_f64);
             // A toast that disappears needs one more frame.
-            let toast = self.app.toasts.left().map(|left| self.ticked + Duration::from_secs_f64(left));
-            let writing = self.next_save().into_iter().chain(self.showing.due(&self.app));
-            let first = match pace.wake(interval).into_iter().chain(toast).chain(writing).min() {
+            let toast = self.app.toasts.time_left().map(|left| self.ticked + Duration::from_secs_f64(left));
+            let writing = self.next_save().into_iter().chain(self.sharing.due(&self.app));
+            let first = match pace.next_wake(interval).into_iter().chain(toast).chain(writing).min() {
                 // Nothing moves: no timer, no processor time, no bytes.
                 None => events.recv().map_err(|_| RecvTimeoutError::Disconnected),
                 Some(due) => events.recv_timeout(due.saturating_duration_since(Instant::now())),
@@ -133,22 +133,22 @@ impl Runner {
             for event in first.into_iter().chain(events.try_iter()) {
                 can_wait &= can_be_deferred(&event);
                 match self.handle(event)? {
-                    Next::GoOn => {}
-                    Next::Quit => return Ok(None),
-                    Next::Die(signal) => return Ok(Some(signal)),
+                    Flow::Continue => {}
+                    Flow::Quit => return Ok(None),
+                    Flow::EndBySignal(signal) => return Ok(Some(signal)),
                 }
             }
-            if can_wait && !pace.news(Instant::now(), self.app.frame_interval().is_some()) {
+            if can_wait && !pace.on_report(Instant::now(), self.app.frame_interval().is_some()) {
                 continue;
             }
             // Before the frame, which a slow link may delay.
             self.save_session(false);
-            if let Err(sentence) = self.showing.write(&self.app) {
-                self.app.not_shown(sentence);
+            if let Err(sentence) = self.sharing.write(&self.app) {
+                self.app.sharing_failed(sentence);
             }
             self.log_messages();
             self.draw()?;
-            pace.drew(Instant::now());
+            pace.on_drawn(Instant::now());
         }
     }
 
@@ -169,19 +169,19 @@ impl Runner {
             self.saved.1 = Instant::now();
             return;
         }
-        if let Some(Err(error)) = last.as_ref().map(|last| last.save(&self.places.last_session)) {
+        if let Some(Err(error)) = last.as_ref().map(|last| last.save(&self.paths.last_session)) {
             // Report the failure once: repeating it would not help.
             if !std::mem::replace(&mut self.has_save_failed, true) {
-                let path = self.places.last_session.display();
-                self.app.failed(format!("{path}: {error}; the next start cannot go on from here"));
+                let path = self.paths.last_session.display();
+                self.app.report_failure(format!("{path}: {error}; the next start cannot go on from here"));
             }
         }
         self.saved = (last, Instant::now());
     }
 
     /// Saves the partly typed stroke for the next session, replacing that of the last one, however this session ends.
-    fn keep_draft(&self) -> io::Result<()> {
-        let path = &self.places.draft;
+    fn save_draft(&self) -> io::Result<()> {
+        let path = &self.paths.draft;
         let with_path = |error| io::Error::other(format!("{}: {error}", path.display()));
         match self.app.draft() {
             Some(draft) => draft.save(path).map_err(with_path),
@@ -193,7 +193,7 @@ impl Runner {
 
     /// Writes the refusals and failures that were shown to the log.
     fn log_messages(&mut self) {
-        for text in self.app.toasts.take_unwritten() {
+        for text in self.app.toasts.take_unlogged() {
             // A key that is held down is refused repeatedly.
             if self.last_logged == text {
                 continue;
@@ -211,7 +211,7 @@ impl Runner {
         })
     }
 
-    fn handle(&mut self, event: Event) -> io::Result<Next> {
+    fn handle(&mut self, event: Event) -> io::Result<Flow> {
         self.tasks.acknowledge(&event);
         let effect = match event {
             Event::Input(TerminalEvent::Key(key)) => self.app.handle(&key),
@@ -223,7 +223,7 @@ impl Runner {
             Event::Answer(answer) => self.app.receive(answer),
             // A resize only needs a frame, which follows anyway.
             Event::Input(_) | Event::Signal(Signal::Resized) => None,
-            Event::InputEnded => return Ok(Next::Quit),
+            Event::InputEnded => return Ok(Flow::Quit),
             Event::Signal(Signal::Stop) => Some(Effect::Suspend),
             // Another program may have used the terminal meanwhile.
             Event::Signal(Signal::Continued) if std::mem::take(&mut self.has_resumed) => None,
@@ -232,13 +232,13 @@ impl Runner {
                 self.resume()?;
                 None
             }
-            Event::Signal(Signal::End(signal)) => return Ok(Next::Die(signal)),
+            Event::Signal(Signal::End(signal)) => return Ok(Flow::EndBySignal(signal)),
             Event::Training(report) => {
                 self.app.receive_training(report);
                 None
             }
-            Event::Shown(seen) => {
-                self.app.coach.receive_shared(seen);
+            Event::FollowedTable(state) => {
+                self.app.coach.receive_shared(state);
                 None
             }
             Event::Settings(report) => self.app.receive_settings(report),
@@ -246,25 +246,25 @@ impl Runner {
             Event::Drill(report) => Some(Effect::Drill(self.app.receive_drill(report))),
         };
         match effect {
-            Some(Effect::Quit) => return Ok(Next::Quit),
+            Some(Effect::Quit) => return Ok(Flow::Quit),
             Some(Effect::Suspend) => self.suspend()?,
-            Some(Effect::Ask(job)) => {
-                let is_asked = self.tasks.coach.give(job);
-                if !is_asked {
-                    self.app.coach_lost();
+            Some(Effect::AskCoach(job)) => {
+                let is_running = self.tasks.coach.submit(job);
+                if !is_running {
+                    self.app.coach_failed();
                 }
             }
             Some(Effect::Train(launch)) => self.tasks.train(*launch)?,
             Some(Effect::Send(request, folder)) => self.tasks.send(request, folder)?,
-            Some(Effect::Keep(keeping)) => self.tasks.keep(*keeping)?,
+            Some(Effect::SavePolicy(task)) => self.tasks.save_policy(*task)?,
             Some(Effect::LoadPolicy(folder)) => self.tasks.load_policy(folder)?,
             Some(Effect::Drill(tasks)) => self.tasks.practise(tasks)?,
-            Some(Effect::Settings(task)) => _ = self.tasks.settings.give(*task),
+            Some(Effect::Settings(task)) => _ = self.tasks.settings.submit(*task),
             Some(Effect::Calibrate(tasks)) => self.tasks.calibrate(tasks),
             Some(Effect::Copy(text)) => self.session.copy(&text)?,
             None => {}
         }
-        Ok(Next::GoOn)
+        Ok(Flow::Continue)
     }
 
     /// Restores the terminal and suspends the program until the shell continues it.

@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn a_capital_is_found_whether_or_not_shift_is_reported() {
+    fn a_capital_letter_matches_with_and_without_reported_shift() {
         for modifiers in [KeyModifiers::NONE, KeyModifiers::SHIFT] {
             assert!(Chord::char('U').matches(&KeyEvent::new(KeyCode::Char('U'), modifiers)));
         }

@@ -28,15 +28,15 @@ pub struct Binding<A: 'static, W> {
     /// Section of the help.
     pub section: Section,
     /// Further search words for the command palette.
-    pub also: &'static str,
+    pub search_words: &'static str,
     /// Descriptions of the single actions, in the order of their first keys; empty if the description fits each of them.
     pub each: &'static [&'static str],
 }
 
 impl<A, W: Copy> Binding<A, W> {
     /// Adds search `words` for the command palette.
-    pub const fn known_as(self, also: &'static str) -> Self {
-        Self { also, ..self }
+    pub const fn known_as(self, search_words: &'static str) -> Self {
+        Self { search_words, ..self }
     }
 
     /// Adds a description of each action, in the order of their first keys.
@@ -53,7 +53,7 @@ pub const fn bind<A, W: Copy>(
     hint: Option<(&'static str, usize)>,
     description: &'static str,
 ) -> Binding<A, W> {
-    Binding { keys, hint, description, when, section, also: "", each: &[] }
+    Binding { keys, hint, description, when, section, search_words: "", each: &[] }
 }
 
 /// A key without modifiers.

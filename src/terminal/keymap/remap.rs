@@ -21,18 +21,18 @@ pub struct Keys {
 }
 
 impl Keys {
-    /// Binds `pressed` to act as `meant`.
-    pub fn add(&mut self, pressed: Chord, meant: Chord) {
+    /// Binds `pressed` to act as `target`.
+    pub fn add(&mut self, pressed: Chord, target: Chord) {
         self.remove(pressed);
-        self.pairs.push((pressed, meant));
+        self.pairs.push((pressed, target));
         // Sorted by name, like the keys of a file that is read again.
         self.pairs.sort_by_key(|(pressed, _)| name(*pressed));
     }
 
     /// Returns the key that a pressed key acts as.
     pub fn translate(&self, event: &KeyEvent) -> KeyEvent {
-        let meant = self.pairs.iter().find(|(pressed, _)| pressed.matches(event)).map(|(_, meant)| *meant);
-        meant.map_or(*event, |meant| KeyEvent { kind: event.kind, ..meant.event() })
+        let target = self.pairs.iter().find(|(pressed, _)| pressed.matches(event)).map(|(_, target)| *target);
+        target.map_or(*event, |target| KeyEvent { kind: event.kind, ..target.event() })
     }
 
     /// Restores the default of `pressed`.
@@ -41,27 +41,27 @@ impl Keys {
     }
 
     /// The key that `pressed` acts as, or `None` if it has its default.
-    pub fn meant_by(&self, pressed: Chord) -> Option<Chord> {
-        self.pairs.iter().find(|(known, _)| *known == pressed).map(|(_, meant)| *meant)
+    pub fn target_of(&self, pressed: Chord) -> Option<Chord> {
+        self.pairs.iter().find(|(known, _)| *known == pressed).map(|(_, target)| *target)
     }
 
     /// The rebound keys that concern `chords`: those that act as one of them, and those among them that act as another key.
     pub fn about(&self, chords: &[Chord]) -> Vec<Chord> {
-        let is_about = |(pressed, meant): &&(Chord, Chord)| chords.contains(pressed) || chords.contains(meant);
+        let is_about = |(pressed, target): &&(Chord, Chord)| chords.contains(pressed) || chords.contains(target);
         self.pairs.iter().filter(is_about).map(|(pressed, _)| *pressed).collect()
     }
 
-    /// The keys that act as `meant`, user-defined ones first.
-    pub fn keys_for(&self, meant: Chord) -> impl Iterator<Item = Chord> {
-        let own = self.pairs.iter().filter(move |(_, work)| *work == meant).map(|(pressed, _)| *pressed);
-        let kept = self.pairs.iter().all(|(pressed, _)| *pressed != meant).then_some(meant);
+    /// The keys that act as `target`, user-defined ones first.
+    pub fn keys_for(&self, target: Chord) -> impl Iterator<Item = Chord> {
+        let own = self.pairs.iter().filter(move |(_, acts_as)| *acts_as == target).map(|(pressed, _)| *pressed);
+        let kept = self.pairs.iter().all(|(pressed, _)| *pressed != target).then_some(target);
         own.chain(kept)
     }
 
     /// The bindings as lines of the settings file.
     pub fn document(&self) -> String {
         let quoted = |chord: &Chord| toml::Value::String(name(*chord)).to_string();
-        let line = |(pressed, meant): &(Chord, Chord)| format!("{} = {}\n", quoted(pressed), quoted(meant));
+        let line = |(pressed, target): &(Chord, Chord)| format!("{} = {}\n", quoted(pressed), quoted(target));
         self.pairs.iter().map(line).collect::<Vec<_>>().concat()
     }
 }
@@ -136,7 +136,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn keys_are_read_as_they_are_written() {
+    fn key_names_parse_back() {
         for text in ["x", "X", "-", "Ctrl-r", "Ctrl--", "Shift-Left", "Shift-Tab", "F12", "Space", "PageUp", "ä"] {
             assert_eq!(name(chord(text).unwrap()), text);
         }
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn a_key_does_anothers_work_and_gives_up_its_own() {
+    fn a_rebound_key_acts_as_another_and_loses_its_own_action() {
         let mut keys = Keys::default();
         let [x, enter] = ["x", "Enter"].map(|text| chord(text).unwrap());
         keys.add(x, enter);

@@ -67,7 +67,7 @@ pub trait Page: PageView {
 
     /// Passes typed or pasted input to the focused text field. Returns `false` if there is no such field or the key is not for it.
     fn input(&mut self, typed: Typed) -> bool {
-        let taken = self.field_mut().is_some_and(|field| field.take(typed));
+        let taken = self.field_mut().is_some_and(|field| field.handle(typed));
         if taken {
             *self.message_mut() = None;
         }

@@ -57,9 +57,9 @@ pub enum Command {
     /// Explain the words used for shots.
     Words,
     /// Describe the shot's contacts (with `true`, all its events) and its outcome.
-    Tell(bool),
+    Describe(bool),
     /// Continue with the balls as the shot leaves them.
-    GoOn,
+    NextPosition,
     /// List the filmed shots.
     Films,
     /// Describe the filmed shot with this number and its simulation.
@@ -129,10 +129,10 @@ impl FromStr for Command {
             ["numbers"] => Self::Numbers,
             ["system"] => Self::System,
             ["words"] => Self::Words,
-            ["tell" | "play"] => Self::Tell(false),
-            ["tell", "all"] => Self::Tell(true),
+            ["tell" | "play"] => Self::Describe(false),
+            ["tell", "all"] => Self::Describe(true),
             ["margins"] => Self::Margins,
-            ["go", "on"] => Self::GoOn,
+            ["go", "on"] => Self::NextPosition,
             ["where" | "balls"] => Self::Where,
             ["opening"] => Self::Opening(Side::default()),
             ["opening", side] => Self::Opening(side.parse().map_err(|error| format!("{error}"))?),
@@ -194,13 +194,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn everything_in_the_help_is_understood() {
+    fn every_command_of_the_help_parses() {
         for (line, _) in HELP {
             assert!(line.parse::<Command>().is_ok(), "{line}");
         }
         assert_eq!(["", "ask"].map(str::parse), [Ok(Command::Shot), Ok(Command::Shot)]);
         assert_eq!(["other", "next"].map(str::parse), [Ok(Command::Other), Ok(Command::Other)]);
-        assert_eq!("play".parse(), Ok(Command::Tell(false)));
+        assert_eq!("play".parse(), Ok(Command::Describe(false)));
         assert_eq!("balls".parse(), Ok(Command::Where));
         assert_eq!("?".parse(), Ok(Command::Help));
         assert_eq!("exit".parse(), Ok(Command::Quit));
@@ -217,7 +217,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_understood_is_named() {
+    fn unknown_commands_are_named() {
         for (line, named) in [
             ("dance", "dance"),
             ("move blue left 3", "blue"),

@@ -33,7 +33,7 @@ pub fn list() -> String {
 ///
 /// # Errors
 /// Fails if there is no shot with this number.
-pub fn tell(number: u32, unit: LengthUnit) -> Result<String, String> {
+pub fn describe(number: u32, unit: LengthUnit) -> Result<String, String> {
     let shot = listed().iter().find(|listed| listed.filmed.number == number);
     let shot = shot.ok_or_else(|| format!("There is no filmed shot {number}; film lists them."))?;
     let played = FilmReplay::new(&shot.filmed)?;
@@ -46,7 +46,7 @@ pub fn tell(number: u32, unit: LengthUnit) -> Result<String, String> {
             speech::of_speed(unit),
             fixed(shot.filmed.duration(), 1)
         ),
-        speech::places(table(), &shot.layout, CueBall::White, unit),
+        speech::positions(table(), &shot.layout, CueBall::White, unit),
         format!("The stroke was fitted on the first {FITTED_SECONDS} seconds; all that comes later is predicted."),
     ];
     let end = played.replay.duration();

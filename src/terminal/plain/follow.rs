@@ -16,8 +16,8 @@ use crate::{
     table::Layout,
     terminal::{
         plain::speech,
-        shown::{Author, Doing},
-        tasks::onlooker::{Onlooker, Seen, SeenTable, damage_words},
+        shared_table::{Activity, Author},
+        tasks::table_watcher::{FollowedTable, FollowedTableState, TableWatcher, damage_message},
         words::percent,
     },
 };
@@ -41,31 +41,31 @@ pub fn follow_in_lines(
     stop: &AtomicBool,
     out: &mut impl Write,
 ) -> io::Result<()> {
-    let mut onlooker = Onlooker::new(folder.to_owned());
+    let mut watcher = TableWatcher::new(folder.to_owned());
     let mut describer = Describer { name, units, last: Described::default() };
-    let mut waiting: Option<(Box<SeenTable>, Instant)> = None;
+    let mut waiting: Option<(Box<FollowedTable>, Instant)> = None;
     let mut is_over = false;
     while !is_over {
         is_over = stop.load(Ordering::Relaxed);
         let mut is_damaged = false;
-        match onlooker.look() {
-            Some(Seen::Nothing) => is_over = true,
-            Some(Seen::Damaged) => is_damaged = true,
-            Some(Seen::Table(seen)) if json => printing::json_line(out, &seen.shown)?,
-            Some(Seen::Table(seen)) => waiting = Some((seen, Instant::now())),
+        match watcher.poll() {
+            Some(FollowedTableState::Nothing) => is_over = true,
+            Some(FollowedTableState::Damaged) => is_damaged = true,
+            Some(FollowedTableState::Table(seen)) if json => printing::json_line(out, &seen.shown)?,
+            Some(FollowedTableState::Table(seen)) => waiting = Some((seen, Instant::now())),
             None => {}
         }
-        let is_due = |(seen, since): &mut (Box<SeenTable>, Instant)| {
+        let is_due = |(seen, since): &mut (Box<FollowedTable>, Instant)| {
             is_over || is_damaged || since.elapsed() >= QUIET || seen.shown.shot.is_some_and(|shot| shot.playing)
         };
         if let Some((seen, _)) = waiting.take_if(is_due) {
-            for line in describer.news(&seen) {
+            for line in describer.describe_changes(&seen) {
                 writeln!(out, "{line}")?;
             }
         }
         // JSON output contains tables only.
         if is_damaged && !json {
-            writeln!(out, "{}", damage_words(name))?;
+            writeln!(out, "{}", damage_message(name))?;
         }
         out.flush()?;
         if !is_over {
@@ -81,7 +81,7 @@ struct Described {
     scene: String,
     layout: Option<Layout>,
     cue: Option<CueInputs>,
-    doing: Option<Doing>,
+    doing: Option<Activity>,
     plays: bool,
 }
 
@@ -93,7 +93,7 @@ struct Describer<'a> {
 }
 
 impl Describer<'_> {
-    fn news(&mut self, seen: &SeenTable) -> Vec<String> {
+    fn describe_changes(&mut self, seen: &FollowedTable) -> Vec<String> {
         let (name, shown, last) = (self.name, &seen.shown, &mut self.last);
         let mut lines = Vec::new();
         let scene = format!("{name} plays {} on the table {}, as {}.", shown.rule, shown.table.name, shown.skill);
@@ -101,16 +101,16 @@ impl Describer<'_> {
             lines.push(scene.clone());
             last.scene = scene;
         }
-        if last.doing.replace(shown.doing) != Some(shown.doing) && shown.doing == Doing::Elsewhere {
+        if last.doing.replace(shown.doing) != Some(shown.doing) && shown.doing == Activity::Elsewhere {
             lines.push(format!("{name} is at another screen."));
         }
         if last.layout.replace(shown.layout) != Some(shown.layout) {
-            let places = speech::places(&shown.table, &shown.layout, shown.cue_ball, self.units.length);
-            lines.extend(places.lines().map(str::to_owned));
+            let positions = speech::positions(&shown.table, &shown.layout, shown.cue_ball, self.units.length);
+            lines.extend(positions.lines().map(str::to_owned));
             last.cue = None;
         }
         let Some((stroke, shot)) = shown.shot.zip(seen.shot.as_ref()) else { return lines };
-        let is_settled = shown.doing != Doing::Thinking && stroke.author != Author::Search;
+        let is_settled = shown.doing != Activity::Thinking && stroke.author != Author::Search;
         if is_settled && last.cue.replace(stroke.cue) != Some(stroke.cue) {
             let whose = if stroke.author == Author::Player { "Their own stroke" } else { "The coach recommends" };
             let made = stroke.made.map_or_else(String::new, |(made, of)| {
@@ -143,12 +143,12 @@ mod tests {
         table::Table,
         terminal::{
             Shot,
-            shown::{ShownShot, ShownTable},
+            shared_table::{SharedShot, SharedTable},
         },
     };
 
     #[test]
-    fn a_shot_that_ends_earlier_there_is_told_to_its_end() {
+    fn a_followed_shot_that_ends_earlier_is_described_to_its_end() {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let cue = CueInputs::parse("0.2,0.3,6,-72,2.5").unwrap();
@@ -157,16 +157,16 @@ mod tests {
         let shot = Arc::new(Shot::of(&table, recording, cue, true, "the coach"));
         let at = |time, playing| {
             let (author, solved, made, speed, over) = (Author::Coach, true, None, 1.0, time == end);
-            let stroke = ShownShot { cue, author, solved, made, time, speed, playing, over };
-            let shown = ShownTable::new(Doing::Watching, table.clone(), layout, Rule::StraightRail, Skill::CLUB);
-            let shown = ShownTable { shot: Some(stroke), ..shown };
-            SeenTable { shown, age: Duration::ZERO, shot: Some(shot.clone()) }
+            let stroke = SharedShot { cue, author, solved, made, time, speed, playing, over };
+            let shown = SharedTable::new(Activity::Watching, table.clone(), layout, Rule::StraightRail, Skill::CLUB);
+            let shown = SharedTable { shot: Some(stroke), ..shown };
+            FollowedTable { shown, age: Duration::ZERO, shot: Some(shot.clone()) }
         };
         let mut describer = Describer { name: "anna", units: Units::default(), last: Described::default() };
-        assert_eq!(describer.news(&at(0.0, true)).last().unwrap(), "anna plays the shot.");
-        assert!(describer.news(&at(0.5 * end, false)).is_empty(), "a pause is no end");
-        describer.news(&at(0.5 * end, true));
-        let said = describer.news(&at(end, false));
+        assert_eq!(describer.describe_changes(&at(0.0, true)).last().unwrap(), "anna plays the shot.");
+        assert!(describer.describe_changes(&at(0.5 * end, false)).is_empty(), "a pause is no end");
+        describer.describe_changes(&at(0.5 * end, true));
+        let said = describer.describe_changes(&at(end, false));
         assert!(said.len() == 1 && said[0].contains("oint"), "{said:?}");
     }
 }

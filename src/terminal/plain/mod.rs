@@ -36,7 +36,7 @@ use crate::{
 
 /// A shot found by the coach or tried by the player.
 #[derive(Clone, Copy, Debug)]
-struct Found {
+struct ShotCandidate {
     cue: CueInputs,
     /// Whether it is the best attempt of a search that found no point.
     is_attempt: bool,
@@ -53,7 +53,7 @@ struct Conversation {
     own: Option<(Skill, &'static str)>,
     balls: History<(Layout, CueBall)>,
     /// The shots found for the present balls, and the index of the one being discussed.
-    shots: Vec<Found>,
+    shots: Vec<ShotCandidate>,
     chosen: usize,
     /// Why the first shot is best.
     why: Option<Why>,
@@ -63,7 +63,7 @@ struct Conversation {
 
 /// Initial state of a conversation.
 #[derive(Clone, Copy, Debug)]
-pub struct Beginning {
+pub struct InitialState {
     /// Positions of the balls.
     pub layout: Layout,
     /// The player's own skill, if saved; otherwise an average in the settings is used.
@@ -84,7 +84,7 @@ type Answer = Result<String, String>;
 /// Any error of reading or writing.
 pub fn converse(
     coach: Coach,
-    Beginning { layout, own, seed }: Beginning,
+    InitialState { layout, own, seed }: InitialState,
     settings: &Settings,
     mut input: impl BufRead,
     mut output: impl Write,
@@ -113,7 +113,7 @@ pub fn converse(
         units: settings.units,
         rng,
     };
-    write!(output, "carom. Say help for a list of commands.\n{}\n{prompt}", talk.places())?;
+    write!(output, "carom. Say help for a list of commands.\n{}\n{prompt}", talk.positions())?;
     output.flush()?;
     let mut refused = 0;
     // Lines that are not UTF-8 are answered like any other unknown command.
@@ -131,7 +131,7 @@ pub fn converse(
         };
         refused += usize::from(answer.is_err());
         let (Ok(said) | Err(said)) = answer;
-        write!(output, "{}\n{prompt}", speech::for_ears(&said))?;
+        write!(output, "{}\n{prompt}", speech::to_spoken(&said))?;
         output.flush()?;
     }
     Ok(refused)
@@ -150,13 +150,13 @@ impl Conversation {
         self.balls.present().1
     }
 
-    fn places(&self) -> String {
-        speech::places(self.table(), self.layout(), self.cue_ball(), self.units.length)
+    fn positions(&self) -> String {
+        speech::positions(self.table(), self.layout(), self.cue_ball(), self.units.length)
     }
 
     fn answer(&mut self, command: Command) -> Answer {
         Ok(match command {
-            Command::Where => self.places(),
+            Command::Where => self.positions(),
             Command::Balls(text) => {
                 let layout = Layout::parse(&text, self.table()).map_err(|error| error.to_string())?;
                 layout.validate(self.table()).map_err(|error| error.for_player(self.cue_ball()).to_string())?;
@@ -170,7 +170,7 @@ impl Conversation {
             Command::Move(colour, step) => {
                 let ball = self.cue_ball().to_ball_order([0, 1, 2])[colour];
                 let moved = slide(self.table(), self.layout(), ball, step);
-                let stopped = moved.stop_words(ball, self.cue_ball().names());
+                let stopped = moved.stop_message(ball, self.cue_ball().names());
                 let stopped = stopped.map_or(String::new(), |place| format!("\nIt stops there, {place}."));
                 self.place(moved.layout) + &stopped
             }
@@ -205,8 +205,9 @@ impl Conversation {
             }
             Command::PlanNow => speech::plan(self.request.plan, self.shots.get(self.chosen).and_then(|shot| shot.next)),
             Command::Chances => self.with_chosen_shot(|talk, _| {
-                let of = |shot: &Found| speech::chance(shot.is_attempt, shot.rate, talk.request.skill).join(" ");
-                let line = |(number, shot): (usize, &Found)| format!("Shot {number}. {}", of(shot));
+                let of =
+                    |shot: &ShotCandidate| speech::chance(shot.is_attempt, shot.rate, talk.request.skill).join(" ");
+                let line = |(number, shot): (usize, &ShotCandidate)| format!("Shot {number}. {}", of(shot));
                 Ok((1..).zip(&talk.shots).map(line).collect::<Vec<_>>().join("\n"))
             })?,
             Command::Why => self.with_chosen_shot(|talk, _| {
@@ -236,20 +237,20 @@ impl Conversation {
                 Ok(speech::system(guide(talk.table(), &talk.recorded(shot)?).as_ref()))
             })?,
             Command::Words => speech::words(self.table(), self.units.length),
-            Command::Tell(all) => self.with_chosen_shot(|talk, shot| {
+            Command::Describe(all) => self.with_chosen_shot(|talk, shot| {
                 let recording = talk.recorded(shot)?;
                 let verdict = Verdict::of(talk.request.rule, talk.table(), talk.layout(), &recording);
                 let outcome = verdict.words(talk.cue_ball(), talk.units.length);
                 Ok(format!("{}\n{outcome}.", speech::events(&recording, all, talk.cue_ball(), talk.units.length)))
             })?,
-            Command::GoOn => {
+            Command::NextPosition => {
                 let shot = self.shots.get(self.chosen).ok_or(NO_SHOT)?;
                 let end = self.recorded(shot)?.final_layout();
                 self.place(end)
             }
             Command::Films => film::list(),
-            Command::Film(number) => film::tell(number, self.units.length)?,
-            Command::Undo if self.balls.undo() => self.drop_shots(self.places()),
+            Command::Film(number) => film::describe(number, self.units.length)?,
+            Command::Undo if self.balls.undo() => self.drop_shots(self.positions()),
             Command::Undo => return Err("There is nothing to take back.".to_owned()),
             Command::Help => command::help(),
             Command::Quit => String::new(),
@@ -267,10 +268,10 @@ impl Conversation {
     fn place(&mut self, layout: Layout) -> String {
         // If no ball moves, there is no step to undo.
         if layout == *self.layout() {
-            return self.places();
+            return self.positions();
         }
         self.balls.push((layout, self.cue_ball()));
-        self.drop_shots(self.places())
+        self.drop_shots(self.positions())
     }
 
     /// Drops the shots, because they were for another situation.
@@ -285,13 +286,13 @@ impl Conversation {
         let shooter = self.request.shooter();
         self.why =
             why(shooter, self.request.rule, self.table(), self.layout(), &advice, 0).ok().filter(|_| advice.solved);
-        let best = Found {
+        let best = ShotCandidate {
             cue: advice.cue,
             is_attempt: advice.kind.is_none(),
             rate: advice.make_probability,
             next: advice.next_probability,
         };
-        let others = advice.alternatives.iter().map(|shot| Found {
+        let others = advice.alternatives.iter().map(|shot| ShotCandidate {
             cue: shot.cue,
             is_attempt: false,
             rate: shot.make_probability,
@@ -318,7 +319,7 @@ impl Conversation {
         let has_errors = !self.request.skill.is_perfect();
         let rate = has_errors
             .then(|| judge(self.request.shooter(), rule, self.table(), self.layout(), &cue, 0..ATTEMPTS, seed));
-        let found = Found { cue, is_attempt: false, rate, next: None };
+        let found = ShotCandidate { cue, is_attempt: false, rate, next: None };
         let verdict = Verdict::of(rule, self.table(), self.layout(), &self.recorded(&found)?);
         if self.shots.is_empty() {
             self.why = None;
@@ -356,11 +357,11 @@ impl Conversation {
         })
     }
 
-    fn with_chosen_shot(&self, say: impl Fn(&Self, &Found) -> Answer) -> Answer {
+    fn with_chosen_shot(&self, say: impl Fn(&Self, &ShotCandidate) -> Answer) -> Answer {
         say(self, self.shots.get(self.chosen).ok_or(NO_SHOT)?)
     }
 
-    fn recorded(&self, shot: &Found) -> Result<Recording, String> {
+    fn recorded(&self, shot: &ShotCandidate) -> Result<Recording, String> {
         Recording::new(self.table(), self.layout(), &shot.cue).map_err(|error| error.to_string())
     }
 }

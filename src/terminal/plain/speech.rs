@@ -11,7 +11,7 @@ use crate::{
     simulation::{Event, EventKind, Recording},
     statistics::SuccessRate,
     table::{CueBall, Layout, Table},
-    terminal::words::{event_words, fixed, in_diamonds, percent, rail_name},
+    terminal::words::{event_words, fixed, percent, rail_name, to_diamonds},
 };
 
 /// Small unit of length: how many make a metre, its name, and the decimals to display.
@@ -24,8 +24,8 @@ const fn small(unit: LengthUnit, decimals: usize) -> (f64, &'static str, usize) 
 }
 
 /// Spells out the signs in sentences shared with the screen, so that they are read aloud the same way.
-pub fn for_ears(said: &str) -> String {
-    said.replace(" %", " percent").replace('\u{b0}', " degrees")
+pub fn to_spoken(text: &str) -> String {
+    text.replace(" %", " percent").replace('\u{b0}', " degrees")
 }
 
 /// Unit of speed in words.
@@ -48,12 +48,12 @@ fn coordinate(metres: f64, unit: LengthUnit) -> String {
 }
 
 /// Positions of the balls; the cue ball is named if it is not white.
-pub fn places(table: &Table, layout: &Layout, cue_ball: CueBall, unit: LengthUnit) -> String {
+pub fn positions(table: &Table, layout: &Layout, cue_ball: CueBall, unit: LengthUnit) -> String {
     let (_, small, _) = small(unit, 0);
     let names = cue_ball.to_ball_order(["White", "Yellow", "Red"]);
     let place = |ball: usize| {
         let at = layout.balls[ball];
-        let diamonds = in_diamonds(table, at);
+        let diamonds = to_diamonds(table, at);
         format!(
             "{} lies at {} diamonds along and {} up, {} and {} {small} from the middle.",
             names[ball],
@@ -63,8 +63,8 @@ pub fn places(table: &Table, layout: &Layout, cue_ball: CueBall, unit: LengthUni
             coordinate(at.y, unit)
         )
     };
-    let places = cue_ball.to_ball_order([0, 1, 2]).map(place).join("\n");
-    if cue_ball == CueBall::White { places } else { format!("{places}\nThe cue ball is {cue_ball}.") }
+    let positions = cue_ball.to_ball_order([0, 1, 2]).map(place).join("\n");
+    if cue_ball == CueBall::White { positions } else { format!("{positions}\nThe cue ball is {cue_ball}.") }
 }
 
 /// The stroke in numbers.

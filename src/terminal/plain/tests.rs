@@ -13,29 +13,29 @@ fn talk_of(own: Option<Skill>, settings: &Settings, lines: &str) -> String {
     let table = Table::default();
     let layout = Layout::parse("-0.5,0 0,0 0.5,0.03", &table).unwrap();
     let mut output = Vec::new();
-    let beginning = Beginning { layout, own, seed: 1 };
-    converse(Coach::new(table), beginning, settings, lines.as_bytes(), &mut output, "").unwrap();
+    let initial = InitialState { layout, own, seed: 1 };
+    converse(Coach::new(table), initial, settings, lines.as_bytes(), &mut output, "").unwrap();
     String::from_utf8(output).unwrap()
 }
 
-fn assert_contains(said: &str, all: &[&str]) {
+fn assert_contains(reply: &str, all: &[&str]) {
     for words in all {
-        assert!(said.contains(words), "{words}: {said}");
+        assert!(reply.contains(words), "{words}: {reply}");
     }
 }
 
 #[test]
-fn a_line_that_is_too_long_is_refused_and_the_talk_goes_on() {
-    let said = talk(&format!("{}\nwhere\nquit", "x".repeat(2 << 20)));
-    assert!(said.contains("too long; accepted are up to 1048576 bytes") && said.len() < 2000, "{}", said.len());
-    assert_eq!(said.matches("White lies at").count(), 2, "{said}");
+fn a_too_long_line_is_refused_and_the_conversation_continues() {
+    let reply = talk(&format!("{}\nwhere\nquit", "x".repeat(2 << 20)));
+    assert!(reply.contains("too long; accepted are up to 1048576 bytes") && reply.len() < 2000, "{}", reply.len());
+    assert_eq!(reply.matches("White lies at").count(), 2, "{reply}");
 }
 
 #[test]
-fn a_shot_is_told_its_margins_its_course_and_its_end() {
-    let said = talk("shot\nnumbers\nmargins\ntell\ngo on\nundo\nquit\nwhere");
+fn a_shot_is_described_with_margins_course_and_end() {
+    let reply = talk("shot\nnumbers\nmargins\ntell\ngo on\nundo\nquit\nwhere");
     assert_contains(
-        &said,
+        &reply,
         &[
             "percent of the time, between",
             "hits yellow",
@@ -47,39 +47,39 @@ fn a_shot_is_told_its_margins_its_course_and_its_end() {
             "all balls lie still",
         ],
     );
-    assert!(!said.contains(['%', '\u{b0}']), "signs are words: {said}");
+    assert!(!reply.contains(['%', '\u{b0}']), "signs are words: {reply}");
     let first = "White lies at 2.59 diamonds along and 2.00 up, -500 and 0 millimetres from the middle.";
-    assert_eq!(said.matches(first).count(), 2, "at the start and after undo, but not after quit: {said}");
+    assert_eq!(reply.matches(first).count(), 2, "at the start and after undo, but not after quit: {reply}");
 }
 
 #[test]
-fn tenths_of_a_millimetre_are_told_where_there_are_some() {
-    let said = talk("balls 2d,0.5d 6d,2d 4d,3.5d");
+fn tenths_of_a_millimetre_are_given_unless_zero() {
+    let reply = talk("balls 2d,0.5d 6d,2d 4d,3.5d");
     for words in [", -710 and -532.5 millimetres", ", 710 and 0 millimetres", ", 0 and 532.5 millimetres"] {
-        assert!(said.contains(words), "{words}: {said}");
+        assert!(reply.contains(words), "{words}: {reply}");
     }
 }
 
 #[test]
-fn distances_and_speeds_are_told_in_the_unit_of_the_settings() {
+fn distances_and_speeds_are_in_the_unit_of_the_settings() {
     let units = Units { length: LengthUnit::Feet, ..Units::default() };
     let settings = Settings { think_ms: 1_000, units, ..Settings::default() };
-    let said = talk_of(None, &settings, "words\nshot\nnumbers\nmargins\ntell\n");
+    let reply = talk_of(None, &settings, "words\nshot\nnumbers\nmargins\ntell\n");
     assert_contains(
-        &said,
+        &reply,
         &["-19.69 and 0.00 inches from the middle", "0.121 inches each", "feet a second, ", "feet a second softer"],
     );
-    assert!(!said.contains("m/s") && !said.contains("metres a second"), "{said}");
-    assert!(!said.contains("millimetres"), "{said}");
+    assert!(!reply.contains("m/s") && !reply.contains("metres a second"), "{reply}");
+    assert!(!reply.contains("millimetres"), "{reply}");
 }
 
 #[test]
-fn the_system_of_a_shot_is_told_and_what_the_words_mean() {
-    let said = talk("system\nwords\nrule three-cushion\nballs 2d,2.6d 2d,2d 6d,2d\nshot\nsystem");
-    assert!(said.contains("There is no shot yet") && said.contains("3.1 millimetres each"), "{said}");
-    let told = said.lines().last().unwrap();
+fn the_system_of_a_shot_and_the_terms_are_explained() {
+    let reply = talk("system\nwords\nrule three-cushion\nballs 2d,2.6d 2d,2d 6d,2d\nshot\nsystem");
+    assert!(reply.contains("There is no shot yet") && reply.contains("3.1 millimetres each"), "{reply}");
+    let told = reply.lines().last().unwrap();
     let is_told = told.contains("Aim through the diamond") || told.starts_with("Parallel shift");
-    assert!(is_told || told == "No diamond system describes this shot.", "{said}");
+    assert!(is_told || told == "No diamond system describes this shot.", "{reply}");
 }
 
 /// The reasons for a shot and its diamond system are computed after the search. They must take less time than 2000 shots on the same
@@ -109,10 +109,10 @@ fn the_reasons_take_no_longer_than_a_short_search() {
 }
 
 #[test]
-fn a_filmed_shot_is_told_beside_its_simulation() {
-    let said = talk("film\nfilm 90\nfilm 91\nwhere");
+fn a_filmed_shot_is_described_next_to_its_simulation() {
+    let reply = talk("film\nfilm 90\nfilm 91\nwhere");
     assert_contains(
-        &said,
+        &reply,
         &[
             "There are 91 filmed shots",
             "Shot 90 of the film: a point, ",
@@ -127,25 +127,25 @@ fn a_filmed_shot_is_told_beside_its_simulation() {
 }
 
 #[test]
-fn the_other_player_has_the_other_ball_and_every_colour_is_told_right() {
-    let said = talk(
+fn with_the_yellow_cue_ball_every_colour_is_right() {
+    let reply = talk(
         "cue ball yellow\nfirst white\nwhere\nmove yellow up 10\nshot\nnumbers\ntell\nundo\nundo\nwhere\ncue ball white\n",
     );
     let told = "Yellow lies at 4.00 diamonds along and 2.03 up, 0 and 10 millimetres from the middle.";
-    assert!(said.contains("The cue ball is yellow.") && said.contains(told), "{said}");
-    assert!(said.contains("Met first: white.") && said.contains("hits white"), "{said}");
-    assert!(said.contains("yellow meets") && !said.contains("white meets yellow"), "{said}");
-    assert!(said.trim_end().ends_with("The cue ball is white already."), "{said}");
+    assert!(reply.contains("The cue ball is yellow.") && reply.contains(told), "{reply}");
+    assert!(reply.contains("Met first: white.") && reply.contains("hits white"), "{reply}");
+    assert!(reply.contains("yellow meets") && !reply.contains("white meets yellow"), "{reply}");
+    assert!(reply.trim_end().ends_with("The cue ball is white already."), "{reply}");
 }
 
 #[test]
-fn the_skill_that_is_kept_plays_and_where_none_is_that_is_said() {
+fn the_saved_skill_is_used_and_its_absence_reported() {
     assert!(talk("skill own").contains("No skill of your own is kept yet"));
     let own = "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1";
     let settings = Settings { think_ms: 1_000, ..Settings::default() };
-    let said = talk_of(own.parse().ok(), &settings, "skill own\nskill 0.6\nshot\nskill 7\n");
+    let reply = talk_of(own.parse().ok(), &settings, "skill own\nskill 0.6\nshot\nskill 7\n");
     assert_contains(
-        &said,
+        &reply,
         &[
             "You average 2.02, by your notes.",
             "The player averages 0.6 points an inning at three-cushion.",
@@ -156,21 +156,21 @@ fn the_skill_that_is_kept_plays_and_where_none_is_that_is_said() {
 }
 
 #[test]
-fn the_players_two_skills_are_told_apart_by_where_they_come_from() {
+fn the_sources_of_the_players_two_skills_are_named() {
     let settings = Settings { think_ms: 300, skill: "0.6".parse().unwrap(), ..Settings::default() };
     let of = |own| talk_of(own, &settings, "skill own\nshot\n");
     assert!(of(None).contains("You average 0.6, as set.\n"));
-    let said = of(Some(Skill::level(7.83)));
-    assert!(said.contains("You average 0.18, by your notes.\n"), "{said}");
-    assert!(said.contains("\nA player who averages 0.18 makes it ") && !said.contains("theta="), "{said}");
+    let reply = of(Some(Skill::level(7.83)));
+    assert!(reply.contains("You average 0.18, by your notes.\n"), "{reply}");
+    assert!(reply.contains("\nA player who averages 0.18 makes it ") && !reply.contains("theta="), "{reply}");
 }
 
 #[test]
 fn why_chances_and_plan_are_answered_in_sentences_without_the_course_again() {
     assert!(talk("why").contains("There is no shot yet") && talk("chances").contains("There is no shot yet"));
-    let said = talk("skill club\nshot\nwhy\nchances\nplan\nplan off\nplan");
+    let reply = talk("skill club\nshot\nwhy\nchances\nplan\nplan off\nplan");
     assert_contains(
-        &said,
+        &reply,
         &[
             "The first shot. It is made ",
             "Shot 1. A club player makes it ",
@@ -178,17 +178,17 @@ fn why_chances_and_plan_are_answered_in_sentences_without_the_course_again() {
             "Say plan on to change",
         ],
     );
-    let reasons = said.lines().find(|line| line.starts_with("It is made ")).unwrap();
-    assert!(!reasons.contains(';') && !said.contains("cushions in all") && !said.contains(" and more."), "{said}");
+    let reasons = reply.lines().find(|line| line.starts_with("It is made ")).unwrap();
+    assert!(!reasons.contains(';') && !reply.contains("cushions in all") && !reply.contains(" and more."), "{reply}");
 }
 
 #[test]
-fn what_cannot_be_done_is_said_and_the_conversation_goes_on() {
-    let said = talk(
+fn impossible_commands_are_reported_and_the_conversation_continues() {
+    let reply = talk(
         "tell\nother\ngo on\nmove white left 0\nundo\nfly\nballs 0,0 0,0 1,0\nmove white right 9000\nmove red right 9000\nfirst white\nrule one-cushion\n",
     );
     assert_contains(
-        &said,
+        &reply,
         &[
             "no shot yet",
             "no other shot",
@@ -204,8 +204,8 @@ fn what_cannot_be_done_is_said_and_the_conversation_goes_on() {
 }
 
 #[test]
-fn a_stroke_of_ones_own_is_tried_in_words_and_changed_in_words() {
-    let said = talk("skill club\ntry yellow 1/2 right, 1 left, 2 up, 3 lengths\ntry soft\ntry it\nquit");
+fn an_own_stroke_is_tried_and_changed_in_words() {
+    let reply = talk("skill club\ntry yellow 1/2 right, 1 left, 2 up, 3 lengths\ntry soft\ntry it\nquit");
     for words in [
         "Yellow, half full on the right; one tip of",
         "medium (3 table lengths)",
@@ -213,7 +213,7 @@ fn a_stroke_of_ones_own_is_tried_in_words_and_changed_in_words() {
         "soft (2 table lengths)",
         "\"it\" is not understood; accepted are",
     ] {
-        assert!(said.contains(words), "{words}: {said}");
+        assert!(reply.contains(words), "{words}: {reply}");
     }
     assert!(talk("try soft").contains("where to aim is missing"));
 }

@@ -13,7 +13,7 @@ const SPEED: f64 = 0.05;
 /// Slowest and fastest stroke, m/s; the fastest is that of the thesis (section 4.1.3).
 const SPEEDS: (f64, f64) = (0.1, 6.0);
 /// Steepest cue elevation, degrees.
-const STEEPEST: f64 = 80.0;
+const MAX_ELEVATION: f64 = 80.0;
 /// Initial speed of a stroke, m/s: the cue ball runs about once around the table.
 const FIRST_SPEED: f64 = 2.5;
 
@@ -27,11 +27,11 @@ fn rounded(value: f64, step: f64) -> f64 {
 /// The initial stroke: level, in the centre, aimed full at the first object ball, or at red if the rule requires red first.
 pub fn first_stroke(point: Point, layout: &Layout) -> CueInputs {
     let level = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed: FIRST_SPEED };
-    at_ball(&level, layout, point.first_ball())
+    aimed_at_ball(&level, layout, point.first_ball())
 }
 
 /// Aims the stroke full at `ball`.
-pub fn at_ball(cue: &CueInputs, layout: &Layout, ball: usize) -> CueInputs {
+pub fn aimed_at_ball(cue: &CueInputs, layout: &Layout, ball: usize) -> CueInputs {
     let degrees = (layout.balls[ball] - layout.balls[0]).to_angle().to_degrees();
     CueInputs { phi: rounded(degrees, DEGREES).to_radians(), ..*cue }
 }
@@ -39,7 +39,7 @@ pub fn at_ball(cue: &CueInputs, layout: &Layout, ball: usize) -> CueInputs {
 /// The object ball that the next press of the key aims at: the one closest to the present aim, or the other one if the stroke already aims
 /// full at it.
 pub fn next_ball(cue: &CueInputs, layout: &Layout) -> usize {
-    let off = |ball| signed_angle(at_ball(cue, layout, ball).phi, cue.phi).abs();
+    let off = |ball| signed_angle(aimed_at_ball(cue, layout, ball).phi, cue.phi).abs();
     let nearer = if off(1) <= off(2) { 1 } else { 2 };
     if off(nearer) < 1e-9 { 3 - nearer } else { nearer }
 }
@@ -54,7 +54,7 @@ pub fn turned(cue: &CueInputs, degrees: f64) -> CueInputs {
 
 /// Raises the cue by `degrees`.
 pub fn raised(cue: &CueInputs, degrees: f64) -> CueInputs {
-    let theta = rounded(cue.theta.to_degrees() + degrees, DEGREES).clamp(0.0, STEEPEST);
+    let theta = rounded(cue.theta.to_degrees() + degrees, DEGREES).clamp(0.0, MAX_ELEVATION);
     CueInputs { theta: theta.to_radians(), ..*cue }
 }
 
@@ -88,20 +88,20 @@ mod tests {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let cue = first_stroke(Point::of(Rule::ThreeCushion, &table, &layout), &layout);
-        assert_eq!(cue, at_ball(&cue, &layout, 2));
+        assert_eq!(cue, aimed_at_ball(&cue, &layout, 2));
     }
 
     #[test]
-    fn the_first_stroke_is_aimed_full_and_the_key_goes_from_ball_to_ball() {
+    fn the_first_stroke_is_aimed_full_and_aiming_cycles_through_balls() {
         let (_, layout, cue) = stroke();
         assert!((cue.phi.to_degrees() - 21.80).abs() < 1e-9, "{}", cue.phi.to_degrees());
-        let other = at_ball(&cue, &layout, next_ball(&cue, &layout));
+        let other = aimed_at_ball(&cue, &layout, next_ball(&cue, &layout));
         assert!((other.phi.to_degrees() - -17.35).abs() < 1e-9);
         assert_eq!([0.0, 1.0, 30.0].map(|degrees| next_ball(&turned(&other, degrees), &layout)), [1, 2, 1]);
     }
 
     #[test]
-    fn steps_there_and_back_come_to_the_same_place_and_turns_go_round() {
+    fn opposite_steps_cancel_and_directions_wrap() {
         let (table, _, cue) = stroke();
         let mut moved = cue;
         for _ in 0..7000 {
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_player_can_do_is_not_set() {
+    fn impossible_inputs_are_clamped() {
         let (table, _, mut cue) = stroke();
         assert_eq!(tip_moved(&table, &cue, 40.0, 0.0), None);
         while let Some(moved) = tip_moved(&table, &cue, 0.5, 0.0) {

@@ -12,7 +12,7 @@ use crate::{
 
 /// A filmed shot in the list.
 #[derive(Debug)]
-pub struct Listed {
+pub struct ListedShot {
     /// The film.
     pub filmed: FilmedShot,
     /// Positions of the balls before the stroke.
@@ -28,10 +28,10 @@ pub fn table() -> &'static Table {
 }
 
 /// All filmed shots, in the order of the match; read at the first call.
-pub fn listed() -> &'static [Listed] {
-    static FILM: OnceLock<Vec<Listed>> = OnceLock::new();
+pub fn listed() -> &'static [ListedShot] {
+    static FILM: OnceLock<Vec<ListedShot>> = OnceLock::new();
     FILM.get_or_init(|| {
-        let list = |filmed: FilmedShot| Listed {
+        let list = |filmed: FilmedShot| ListedShot {
             layout: filmed.layout(table()),
             is_point: filmed.is_point(table(), Rule::ThreeCushion),
             filmed,

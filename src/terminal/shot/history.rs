@@ -1,7 +1,7 @@
 //! Undo and redo with a limited number of steps.
 
 /// Most steps kept. A shot takes a tenth of a megabyte, and players do not go back further.
-const LONGEST: usize = 200;
+const MAX_STEPS: usize = 200;
 
 /// A value with its earlier versions and the undone ones.
 #[derive(Clone, Debug)]
@@ -29,7 +29,7 @@ impl<T> History<T> {
 
     /// Makes `next` the present value; undone versions are dropped.
     pub fn push(&mut self, next: T) {
-        if self.past.len() == LONGEST {
+        if self.past.len() == MAX_STEPS {
             self.past.remove(0);
         }
         self.past.push(std::mem::replace(&mut self.present, next));
@@ -66,10 +66,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_too_long_ago_is_forgotten() {
+    fn the_oldest_undo_steps_are_dropped() {
         let mut history = History::new(0);
-        (1..=LONGEST + 5).for_each(|step| history.push(step));
+        (1..=MAX_STEPS + 5).for_each(|step| history.push(step));
         while history.undo() {}
-        assert_eq!((*history.present(), history.future.len()), (5, LONGEST));
+        assert_eq!((*history.present(), history.future.len()), (5, MAX_STEPS));
     }
 }

@@ -42,7 +42,7 @@ pub struct Dot {
     /// Time at which the ball is here, s.
     pub time: f64,
     /// Position, m.
-    pub place: DVec2,
+    pub position: DVec2,
     /// Height above the cloth, m.
     pub height: f64,
 }
@@ -62,14 +62,14 @@ pub struct Contact {
     /// Time, s.
     pub time: f64,
     /// Position of the cue ball, m.
-    pub place: DVec2,
+    pub position: DVec2,
     /// Position of the object ball, m.
     pub other: DVec2,
 }
 
 /// The first thing that the cue ball hits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Meeting {
+pub enum FirstImpact {
     /// An object ball, with the hit.
     Ball(Hit),
     /// A cushion, and the hit on the first object ball after it, if any.
@@ -78,7 +78,7 @@ pub enum Meeting {
     Nothing,
 }
 
-impl Meeting {
+impl FirstImpact {
     /// The first thing that the cue ball hits in a recorded shot, whose hit on its first object ball is `first`.
     pub fn of(recording: &Recording, first: Option<Hit>) -> Self {
         let met = recording.events().iter().find_map(|event| match event.kind {
@@ -173,8 +173,8 @@ impl Shot {
     }
 
     /// The first thing that the cue ball hits.
-    pub fn meeting(&self) -> Meeting {
-        Meeting::of(&self.recording, self.words.first)
+    pub fn first_impact(&self) -> FirstImpact {
+        FirstImpact::of(&self.recording, self.words.first)
     }
 
     /// Describes the hit on the first object ball, with balls named for the player of `cue_ball`.
@@ -189,7 +189,7 @@ impl Shot {
 fn first_contact(recording: &Recording, ball: usize) -> Option<Contact> {
     let event = recording.events().iter().find(|event| event.kind == EventKind::BallBall(0, ball))?;
     let place = |ball: usize| recording.state(ball, event.time).position;
-    Some(Contact { ball, time: event.time, place: place(0), other: place(ball) })
+    Some(Contact { ball, time: event.time, position: place(0), other: place(ball) })
 }
 
 fn dots(recording: &Recording, ball: usize) -> Vec<Dot> {
@@ -205,7 +205,7 @@ fn dots(recording: &Recording, ball: usize) -> Vec<Dot> {
         if since_dot >= DOT_SPACING {
             // Carry over the excess, so that the distance is right on average.
             since_dot -= DOT_SPACING;
-            dots.push(Dot { time, place, height: recording.height(ball, time) });
+            dots.push(Dot { time, position: place, height: recording.height(ball, time) });
         }
     }
     dots
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn fullness_and_side_are_those_the_player_sees() {
+    fn fullness_and_side_are_as_seen_by_the_player() {
         // The object ball lies half a radius to the right of the cue ball's path along x: its left side is hit.
         let half = shot("-0.7,0 0,-0.03075 0.9,0.5", "0,0,0,0,3");
         let contact = half.words.first.unwrap();
@@ -233,29 +233,29 @@ mod tests {
     }
 
     #[test]
-    fn each_object_ball_is_met_where_the_cue_ball_touches_it_for_the_first_time() {
+    fn contacts_are_the_first_touches_of_each_object_ball() {
         let shot = shot("-1,0 0,0.02 0.6,0.1", "0,0.3,0,0,4");
         let [yellow, red] = shot.contacts[..] else { panic!("{:?}", shot.contacts) };
-        assert!(yellow.time < red.time && yellow.place.distance(shot.words.first.unwrap().place) < 1e-12);
+        assert!(yellow.time < red.time && yellow.position.distance(shot.words.first.unwrap().place) < 1e-12);
         for contact in [yellow, red] {
-            assert!((contact.place.distance(contact.other) - 0.0615).abs() < 1e-9, "{contact:?}");
+            assert!((contact.position.distance(contact.other) - 0.0615).abs() < 1e-9, "{contact:?}");
         }
-        assert!(matches!(shot.meeting(), Meeting::Ball(hit) if hit.ball == 1));
+        assert!(matches!(shot.first_impact(), FirstImpact::Ball(hit) if hit.ball == 1));
     }
 
     #[test]
-    fn a_cushion_before_the_first_ball_is_what_the_cue_ball_meets() {
+    fn a_cushion_before_the_first_ball_is_the_first_impact() {
         let bank = shot("0,0 -0.5,0 1,0.5", "0,0,0,0,4");
         assert!(
-            matches!(bank.meeting(), Meeting::Rail(Rail::Right, Some(hit)) if hit.ball == 1),
+            matches!(bank.first_impact(), FirstImpact::Rail(Rail::Right, Some(hit)) if hit.ball == 1),
             "{:?}",
-            bank.meeting()
+            bank.first_impact()
         );
-        assert_eq!(shot("0,0 -1,0.5 1,0.5", "0,0,0,0,0.2").meeting(), Meeting::Nothing);
+        assert_eq!(shot("0,0 -1,0.5 1,0.5", "0,0,0,0,0.2").first_impact(), FirstImpact::Nothing);
     }
 
     #[test]
-    fn a_ball_that_is_touched_from_the_start_is_met_along_the_stroke() {
+    fn a_ball_touched_from_the_start_is_hit_along_the_stroke() {
         let shot = shot("0,0 0.0615,0 0.9,0.5", "0,0,0,0,3");
         let contact = shot.words.first.unwrap();
         assert!((contact.fullness - 1.0).abs() < 1e-9, "{contact:?}");
@@ -264,11 +264,11 @@ mod tests {
     }
 
     #[test]
-    fn dots_are_evenly_spaced_along_the_way() {
+    fn dots_are_evenly_spaced_along_the_path() {
         let dots = &shot("-1,0 0,0.6 1,0.6", "0,0,0,0,1.5").paths[0];
         assert!(dots.len() > 10);
         for pair in dots.windows(2) {
-            assert!((pair[1].place.distance(pair[0].place) - DOT_SPACING).abs() < 0.01);
+            assert!((pair[1].position.distance(pair[0].position) - DOT_SPACING).abs() < 0.01);
         }
     }
 }

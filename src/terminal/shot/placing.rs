@@ -18,7 +18,7 @@ pub struct Slide {
 
 impl Slide {
     /// Where `ball` stopped before the end of its way, like "at the rail"; `names` are the names of the balls.
-    pub fn stop_words(&self, ball: usize, names: [&str; BALLS]) -> Option<String> {
+    pub fn stop_message(&self, ball: usize, names: [&str; BALLS]) -> Option<String> {
         Some(match self.stopped.as_ref()? {
             LayoutError::Overlap { first, second, .. } => format!("in contact with {}", names[first + second - ball]),
             _ => "at the rail".to_owned(),
@@ -68,7 +68,7 @@ pub fn slide(table: &Table, layout: &Layout, ball: usize, step: DVec2) -> Slide 
 
 /// The displacement from `place`, m, by `count` quarters of a diamond along each axis. A ball between two quarters goes to the next one
 /// first. Counts below one quarter are not rounded.
-pub fn quarters(table: &Table, place: DVec2, count: DVec2) -> DVec2 {
+pub fn quarter_diamonds(table: &Table, place: DVec2, count: DVec2) -> DVec2 {
     // Tolerance for a ball that lies on a quarter.
     const ROUNDING: f64 = 1e-6;
     let quarter = 0.25 * table.diamond();
@@ -101,7 +101,7 @@ mod tests {
         assert!(gap.abs() < 1e-12, "{gap}");
         let again = slide(&table, &moved.layout, 0, DVec2::new(0.0, 0.001));
         assert!(again.stopped.is_some() && again.layout == moved.layout);
-        assert_eq!(again.stop_words(0, BALL_NAMES).unwrap(), "in contact with yellow");
+        assert_eq!(again.stop_message(0, BALL_NAMES).unwrap(), "in contact with yellow");
         let away = slide(&table, &moved.layout, 0, DVec2::new(0.0, -0.001));
         assert_eq!(away.stopped, None);
     }
@@ -110,18 +110,18 @@ mod tests {
     fn a_ball_stops_at_the_cushion_and_slides_along_it() {
         let table = Table::default();
         let moved = slide(&table, &Layout::opening(&table), 0, DVec2::new(-5.0, 0.0));
-        assert_eq!(moved.stop_words(0, BALL_NAMES).unwrap(), "at the rail");
+        assert_eq!(moved.stop_message(0, BALL_NAMES).unwrap(), "at the rail");
         assert!(moved.stopped.unwrap().to_string().contains("outside the table"));
         assert_eq!(moved.layout.balls[0].x, -table.half_length());
         assert_eq!(slide(&table, &moved.layout, 0, DVec2::new(0.0, -0.01)).stopped, None);
     }
 
     #[test]
-    fn quarters_of_a_diamond_are_gone_to_one_after_the_other_from_wherever_a_ball_lies() {
+    fn steps_go_to_successive_quarter_diamonds_from_any_position() {
         let table = Table::default();
         let place = Layout::parse("2.1d,2d 6d,2d 4d,3d", &table).unwrap().balls[0];
         let at = |count: [f64; 2]| {
-            let there = place + quarters(&table, place, DVec2::from(count));
+            let there = place + quarter_diamonds(&table, place, DVec2::from(count));
             (there + 0.5 * DVec2::new(table.length, table.width)) / table.diamond()
         };
         for (count, wanted) in [
@@ -137,7 +137,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn no_series_of_moves_ever_gives_an_impossible_layout(
+        fn any_series_of_moves_gives_a_valid_layout(
             seed in any::<u64>(),
             moves in prop::collection::vec((0..3_usize, -1.0..1.0_f64, -1.0..1.0_f64), 1..40),
         ) {

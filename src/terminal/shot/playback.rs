@@ -60,20 +60,20 @@ impl Playback {
     }
 
     /// Runs a playback command for a shot with these `events` and this `duration`.
-    pub fn act(&mut self, key: PlaybackKey, events: &[Event], duration: f64) {
+    pub fn apply(&mut self, key: PlaybackKey, events: &[Event], duration: f64) {
         match key {
             PlaybackKey::Toggle => self.toggle(duration),
             PlaybackKey::Event(steps) => self.step(steps, events, duration),
             PlaybackKey::Pace(steps) => self.change_speed(steps),
-            PlaybackKey::ToStart => self.jump(0.0),
-            PlaybackKey::ToEnd => self.jump(duration),
+            PlaybackKey::ToStart => self.seek(0.0),
+            PlaybackKey::ToEnd => self.seek(duration),
         }
     }
 
     /// Plays or pauses; at the end of the shot, plays from the start.
     pub fn toggle(&mut self, duration: f64) {
         if !self.playing && self.time >= duration {
-            self.jump(0.0);
+            self.seek(0.0);
         }
         self.playing = !self.playing;
         self.readout = self.time;
@@ -93,7 +93,7 @@ impl Playback {
         self.time += seconds * self.speed();
         self.since_readout += seconds;
         if self.time >= duration {
-            self.jump(duration);
+            self.seek(duration);
         } else if self.since_readout >= READOUT_INTERVAL {
             self.since_readout = 0.0;
             self.readout = self.time;
@@ -101,7 +101,7 @@ impl Playback {
     }
 
     /// Pauses at `time`.
-    pub fn jump(&mut self, time: f64) {
+    pub fn seek(&mut self, time: f64) {
         self.time = time;
         self.readout = time;
         self.since_readout = 0.0;
@@ -110,7 +110,7 @@ impl Playback {
 
     /// Follows another player's clock, which is at `time` in a shot of this `duration`.
     pub fn follow(&mut self, time: f64, duration: f64, playing: bool) {
-        self.jump(time.min(duration));
+        self.seek(time.min(duration));
         self.playing = playing && time < duration;
     }
 
@@ -121,12 +121,12 @@ impl Playback {
         } else {
             (events.iter().rfind(|event| event.time < self.time), 0.0)
         };
-        self.jump(found.map_or(end, |event| event.time));
+        self.seek(found.map_or(end, |event| event.time));
     }
 }
 
 /// Number of events up to `time`.
-pub fn passed(events: &[Event], time: f64) -> usize {
+pub fn passed_count(events: &[Event], time: f64) -> usize {
     events.partition_point(|event| event.time <= time)
 }
 
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn stepping_visits_every_moment_once_and_both_ends() {
+    fn stepping_visits_every_event_time_once_and_both_ends() {
         let mut playback = Playback::default();
         let mut seen = Vec::new();
         for _ in 0..4 {
@@ -153,7 +153,7 @@ mod tests {
             seen.push(playback.time);
         }
         assert_eq!(seen[4..], [1.25, 0.5, 0.0, 0.0]);
-        assert_eq!(passed(&events(), 0.5), 2);
+        assert_eq!(passed_count(&events(), 0.5), 2);
     }
 
     #[test]
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn another_clock_is_followed_to_the_end_of_the_shot_and_no_further() {
+    fn another_players_clock_is_followed_up_to_the_end_of_the_shot() {
         let mut playback = Playback::default();
         playback.follow(1.5, 2.0, true);
         assert!(playback.playing && (playback.time, playback.readout) == (1.5, 1.5));
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_change_ten_times_a_second() {
+    fn readouts_change_ten_times_a_second() {
         let mut playback = Playback::default();
         playback.toggle(60.0);
         let mut changes = 0;

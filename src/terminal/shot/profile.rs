@@ -23,7 +23,7 @@ pub enum Obstacle {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PassedObstacle {
     /// The obstacle.
-    pub what: Obstacle,
+    pub obstacle: Obstacle,
     /// Distance along the path, m.
     pub distance: f64,
     /// Height of its top above the cloth, m.
@@ -115,7 +115,7 @@ fn balls(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) ->
         let (gap, point) = gaps.min_by(|one, two| one.0.total_cmp(&two.0))?;
         let is_passed = gap < 2.05 * table.radius;
         let top = recording.height(other, point.time) + 2.0 * table.radius;
-        is_passed.then_some(PassedObstacle { what: Obstacle::Ball(other), distance: point.distance, top })
+        is_passed.then_some(PassedObstacle { obstacle: Obstacle::Ball(other), distance: point.distance, top })
     };
     others.filter_map(nearest).collect()
 }
@@ -145,7 +145,7 @@ fn noses(table: &Table, recording: &Recording, jump: &Jump, points: &[Point]) ->
         .filter_map(|(rail, time)| {
             // Rounding may put the last sample just before the end.
             let point = points.iter().find(|point| point.time >= time).or(points.last())?;
-            Some(PassedObstacle { what: Obstacle::Nose(rail), distance: point.distance, top: top(rail) })
+            Some(PassedObstacle { obstacle: Obstacle::Nose(rail), distance: point.distance, top: top(rail) })
         })
         .collect()
 }
@@ -166,7 +166,7 @@ mod tests {
     fn a_jump_over_a_ball_shows_the_ball_below_the_course() {
         let profile = profile("-0.5,0 -0.2,0 0.9,0.5", "0,0,45,0,6").unwrap();
         let [passed] = profile.passed[..] else { panic!("{:?}", profile.passed) };
-        assert_eq!(passed.what, Obstacle::Ball(1));
+        assert_eq!(passed.obstacle, Obstacle::Ball(1));
         assert!((passed.distance - 0.3).abs() < 0.01 && passed.top == 2.0 * Table::default().radius, "{passed:?}");
         let over = profile.points.iter().find(|point| point.distance >= passed.distance).unwrap();
         assert!(over.height > passed.top, "{over:?}");
@@ -179,14 +179,14 @@ mod tests {
     #[test]
     fn a_ball_that_leaves_the_table_passes_the_nose_above_it() {
         let profile = profile("0.9,0 0,0.3 0,-0.3", "0,0,30,0,9").unwrap();
-        let nose = profile.passed.iter().find(|passed| passed.what == Obstacle::Nose(Rail::Right)).unwrap();
+        let nose = profile.passed.iter().find(|passed| passed.obstacle == Obstacle::Nose(Rail::Right)).unwrap();
         assert!((nose.distance - (0.5 * Table::default().length - 0.9)).abs() < 0.05, "{nose:?}");
         let over = profile.points.iter().find(|point| point.distance >= nose.distance).unwrap();
         assert!(over.height > 0.0, "{over:?}");
     }
 
     #[test]
-    fn hops_that_nobody_sees_have_no_side_view() {
+    fn invisible_hops_have_no_side_view() {
         assert_eq!(profile("-1,0 0.9,-0.5 0.9,0.5", "0,0,3,0,4"), None);
     }
 }

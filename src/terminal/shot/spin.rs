@@ -9,12 +9,12 @@ use crate::physics::{BallState, Motion};
 const SPIN_OF_TIP: f64 = 2.5;
 /// Tolerance for a sliding ball's spin, as a fraction of that of a rolling ball: below the negative of it the ball draws, above one plus it
 /// the ball follows.
-const LITTLE: f64 = 0.1;
+const ROLLING_TOLERANCE: f64 = 0.1;
 /// Side spin below which a stationary ball counts as still, rad/s.
 const STILL: f64 = 0.5;
 /// Largest distance of the mark from the centre, in ball radii: slightly beyond the miscue limit. At low speeds no tip contact gives the
 /// spin.
-const FARTHEST: f64 = 0.65;
+const MAX_MARK_DISTANCE: f64 = 0.65;
 
 /// A ball's spin, seen from behind along its direction of motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,14 +36,14 @@ impl Spin {
         let rolling = radius * state.spin.dot(across);
         let side = -state.spin.z;
         let turning = DVec2::new(-radius * side, rolling) / SPIN_OF_TIP;
-        let mark = if turning.length() <= FARTHEST * speed && speed > 0.0 {
+        let mark = if turning.length() <= MAX_MARK_DISTANCE * speed && speed > 0.0 {
             turning / speed
         } else {
-            FARTHEST * turning.normalize_or_zero()
+            MAX_MARK_DISTANCE * turning.normalize_or_zero()
         };
         let word = match motion {
-            Motion::Sliding if rolling < -LITTLE * speed => "draw",
-            Motion::Sliding if rolling > (1.0 + LITTLE) * speed => "follow",
+            Motion::Sliding if rolling < -ROLLING_TOLERANCE * speed => "draw",
+            Motion::Sliding if rolling > (1.0 + ROLLING_TOLERANCE) * speed => "follow",
             Motion::Sliding => "slides",
             Motion::Rolling => "rolls",
             Motion::Resting => "touches",
@@ -73,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn the_mark_begins_where_the_tip_meets_the_ball_whatever_the_direction() {
+    fn the_spin_mark_starts_at_the_tip_contact_in_any_direction() {
         for (cue, a, b, word) in [
             ("0.3,-0.2,0,0,2", 0.3, -0.2, "draw"),
             ("-0.2,0.1,0,140,3", -0.2, 0.1, "slides"),
@@ -96,7 +96,7 @@ mod tests {
     fn a_ball_that_spins_on_the_spot_is_marked_at_its_side() {
         let state = BallState { position: DVec2::ZERO, velocity: DVec2::ZERO, spin: DVec3::new(0.0, 0.0, 20.0) };
         let spin = Spin::of(&state, Motion::Stationary, 0.03);
-        assert_eq!((spin.word, spin.mark), ("spins", DVec2::new(FARTHEST, 0.0)));
+        assert_eq!((spin.word, spin.mark), ("spins", DVec2::new(MAX_MARK_DISTANCE, 0.0)));
         let still = Spin::of(&BallState { spin: DVec3::ZERO, ..state }, Motion::Stationary, 0.03);
         assert_eq!((still.word, still.mark), ("", DVec2::ZERO));
     }

@@ -27,10 +27,10 @@ pub enum StrokeChange {
 }
 
 /// Prompt for a stroke in words.
-pub const SAY: &str = "your stroke, or what changes of it (red 1/2 right, 1.5 left, 2 up, 3 lengths): ";
+pub const STROKE_PROMPT: &str = "your stroke, or what changes of it (red 1/2 right, 1.5 left, 2 up, 3 lengths): ";
 
 /// Longest text of a stroke in words, bytes: the coach's own texts have up to 400.
-pub const LONGEST: usize = 600;
+pub const MAX_TEXT_LENGTH: usize = 600;
 
 /// Error: the tip would slip off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -69,7 +69,7 @@ impl OwnStroke {
         let cue = *self.cue();
         let next = match change {
             StrokeChange::Turn(degrees) => aiming::turned(&cue, degrees),
-            StrokeChange::AimAtBall => aiming::at_ball(&cue, layout, aiming::next_ball(&cue, layout)),
+            StrokeChange::AimAtBall => aiming::aimed_at_ball(&cue, layout, aiming::next_ball(&cue, layout)),
             StrokeChange::Tip(left, up) => aiming::tip_moved(table, &cue, left, up).ok_or(TipSlips)?,
             StrokeChange::Centre => CueInputs { a: 0.0, b: 0.0, ..cue },
             StrokeChange::Raise(degrees) => aiming::raised(&self.raised(table, layout), degrees),
@@ -92,7 +92,7 @@ impl OwnStroke {
     ///
     /// # Errors
     /// The text is not understood, or the stroke cannot be played; the stroke stays as it is.
-    pub fn say(
+    pub fn apply_text(
         &mut self,
         words: &str,
         table: &Table,
@@ -109,28 +109,28 @@ impl OwnStroke {
         if cue != *self.cue() {
             self.strokes.push(cue);
         }
-        self.settle();
+        self.end_undo_step();
     }
 
     /// Makes the next change a separate undo step.
-    pub const fn settle(&mut self) {
+    pub const fn end_undo_step(&mut self) {
         self.changed_by = None;
     }
 
     /// Undoes the last change; `false` if there is none.
     pub fn undo(&mut self) -> bool {
-        self.settle();
+        self.end_undo_step();
         self.strokes.undo()
     }
 
     /// Redoes a change; `false` if none was undone.
     pub fn redo(&mut self) -> bool {
-        self.settle();
+        self.end_undo_step();
         self.strokes.redo()
     }
 
     /// Whether undo and redo are possible.
-    pub const fn can_travel(&self) -> (bool, bool) {
+    pub const fn can_undo_redo(&self) -> (bool, bool) {
         (self.strokes.can_undo(), self.strokes.can_redo())
     }
 }
@@ -191,7 +191,7 @@ mod tests {
     use crate::game::Point;
 
     #[test]
-    fn one_input_changed_several_times_over_is_one_step_back() {
+    fn successive_changes_of_one_input_are_one_undo_step() {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let first = aiming::first_stroke(Point::default(), &layout);
@@ -201,26 +201,26 @@ mod tests {
         }
         let turned = *stroke.cue();
         stroke.change(StrokeChange::Faster(0.1), &table, &layout).unwrap();
-        stroke.settle();
+        stroke.end_undo_step();
         stroke.change(StrokeChange::Faster(0.1), &table, &layout).unwrap();
         assert!(stroke.undo() && stroke.undo());
         assert_eq!(*stroke.cue(), turned);
         assert!(stroke.undo() && !stroke.undo());
         assert_eq!(*stroke.cue(), first);
         assert!(stroke.redo());
-        assert_eq!((*stroke.cue(), stroke.can_travel()), (turned, (true, true)));
+        assert_eq!((*stroke.cue(), stroke.can_undo_redo()), (turned, (true, true)));
         stroke.change(StrokeChange::Faster(0.2), &table, &layout).unwrap();
         assert!(!stroke.redo() && stroke.undo(), "a new change is followed by no other");
         assert_eq!(*stroke.cue(), turned);
     }
 
     #[test]
-    fn a_tip_that_would_slip_off_and_a_change_that_is_none_leave_all_as_it_is() {
+    fn miscues_and_empty_changes_leave_the_stroke() {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let mut stroke = OwnStroke::new(aiming::first_stroke(Point::default(), &layout));
         assert_eq!(stroke.change(StrokeChange::Tip(40.0, 0.0), &table, &layout), Err(TipSlips));
         stroke.change(StrokeChange::Centre, &table, &layout).unwrap();
-        assert_eq!(stroke.can_travel(), (false, false));
+        assert_eq!(stroke.can_undo_redo(), (false, false));
     }
 }

@@ -38,7 +38,7 @@ pub struct WhatIf {
     /// The player's success rate at it, once known.
     pub made: Option<SuccessRate>,
     /// Identifier of the open request for the success rate, if any.
-    question: Option<u64>,
+    request: Option<u64>,
     cancel: Arc<AtomicBool>,
 }
 
@@ -47,17 +47,17 @@ impl WhatIf {
     pub fn new(coach: Arc<Shot>, situation: Situation) -> Self {
         let verdict = Verdict::of(situation.rule, situation.table, situation.layout, &coach.recording);
         let shot = Arc::clone(&coach);
-        let (made, question, cancel) = (None, None, Arc::default());
-        Self { coach: Some(coach), shot, verdict, has_room: true, made, question, cancel }
+        let (made, request, cancel) = (None, None, Arc::default());
+        Self { coach: Some(coach), shot, verdict, has_room: true, made, request, cancel }
     }
 
     /// Starts with a stroke of the player's own. The cue is raised if rails or balls behind it need that.
     ///
     /// # Errors
     /// Any error of the simulator.
-    pub fn alone(cue: &CueInputs, situation: Situation) -> Result<Self, ShotError> {
+    pub fn without_coach(cue: &CueInputs, situation: Situation) -> Result<Self, ShotError> {
         let (shot, verdict, has_room) = struck(cue, situation)?;
-        Ok(Self { coach: None, shot, verdict, has_room, made: None, question: None, cancel: Arc::default() })
+        Ok(Self { coach: None, shot, verdict, has_room, made: None, request: None, cancel: Arc::default() })
     }
 
     /// Replaces the player's own stroke; its success rate is then unknown. The cue is raised if rails or balls behind it need that.
@@ -67,7 +67,7 @@ impl WhatIf {
     pub fn strike(&mut self, cue: &CueInputs, situation: Situation) -> Result<(), ShotError> {
         (self.shot, self.verdict, self.has_room) = struck(cue, situation)?;
         self.made = None;
-        self.stop_asking();
+        self.cancel_request();
         Ok(())
     }
 
@@ -77,29 +77,29 @@ impl WhatIf {
     }
 
     /// Whether the success rate is being computed.
-    pub const fn is_asked(&self) -> bool {
-        self.question.is_some()
+    pub const fn is_rate_pending(&self) -> bool {
+        self.request.is_some()
     }
 
     /// Starts the request `id` for the success rate and cancels an earlier one. The returned flag is set when the answer is no longer
     /// needed.
-    pub fn ask(&mut self, id: u64) -> Arc<AtomicBool> {
-        self.stop_asking();
-        self.question = Some(id);
+    pub fn request_rate(&mut self, id: u64) -> Arc<AtomicBool> {
+        self.cancel_request();
+        self.request = Some(id);
         Arc::clone(&self.cancel)
     }
 
     /// Handles the answer to request `id`; late answers are dropped.
-    pub fn judged(&mut self, id: u64, made: SuccessRate) {
-        if self.question == Some(id) {
-            (self.question, self.made) = (None, Some(made));
+    pub fn set_rate(&mut self, id: u64, made: SuccessRate) {
+        if self.request == Some(id) {
+            (self.request, self.made) = (None, Some(made));
         }
     }
 
-    fn stop_asking(&mut self) {
+    fn cancel_request(&mut self) {
         self.cancel.store(true, Ordering::Relaxed);
         self.cancel = Arc::default();
-        self.question = None;
+        self.request = None;
     }
 
     /// Describes the outcome if the stroke is played exactly. The success rate, which may be shown next to it, is for strokes with errors.
@@ -141,7 +141,7 @@ fn struck(cue: &CueInputs, situation: Situation) -> Result<(Arc<Shot>, Verdict, 
 
 impl Drop for WhatIf {
     fn drop(&mut self) {
-        self.stop_asking();
+        self.cancel_request();
     }
 }
 
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_taken_over_is_the_coachs_and_a_change_leaves_that_as_it_was() {
+    fn changing_a_copied_stroke_keeps_the_coachs_stroke() {
         with(|mut what_if, situation| {
             let units = Units::default();
             assert!(what_if.is_made() && Arc::ptr_eq(what_if.coach.as_ref().unwrap(), &what_if.shot));
@@ -181,18 +181,18 @@ mod tests {
     }
 
     #[test]
-    fn a_late_answer_is_dropped_and_each_change_makes_the_chance_unknown() {
+    fn late_answers_are_dropped_and_each_change_clears_the_rate() {
         with(|mut what_if, situation| {
             let rate = |made| SuccessRate::new(made, 100);
-            let first = what_if.ask(7);
-            what_if.judged(6, rate(1));
-            assert!(what_if.made.is_none() && what_if.is_asked());
+            let first = what_if.request_rate(7);
+            what_if.set_rate(6, rate(1));
+            assert!(what_if.made.is_none() && what_if.is_rate_pending());
             what_if.strike(&CueInputs { speed: 2.6, ..what_if.shot.cue }, situation).unwrap();
-            assert!(first.load(Ordering::Relaxed) && !what_if.is_asked());
-            let second = what_if.ask(8);
-            what_if.judged(7, rate(1));
+            assert!(first.load(Ordering::Relaxed) && !what_if.is_rate_pending());
+            let second = what_if.request_rate(8);
+            what_if.set_rate(7, rate(1));
             assert_eq!(what_if.made, None);
-            what_if.judged(8, rate(90));
+            what_if.set_rate(8, rate(90));
             assert_eq!(what_if.made, Some(rate(90)));
             assert!(!second.load(Ordering::Relaxed));
             drop(what_if);

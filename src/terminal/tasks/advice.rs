@@ -133,7 +133,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn queries_are_equal_where_they_are_asked_the_same() {
+    fn queries_are_equal_if_their_values_are() {
         let query = CoachQuery::default();
         assert_eq!(query, query.clone());
         for other in [

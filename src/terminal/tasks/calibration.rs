@@ -21,9 +21,9 @@ pub enum CalibrationTask {
     /// Edit the entries of a file; the flag says whether the edit undoes an earlier one.
     Edit(PathBuf, Edit, bool),
     /// Set a file of entries aside that cannot be read, so that new entries can be saved.
-    PutAside(PathBuf),
+    BackUpUnreadable(PathBuf),
     /// Evaluate entries: what they say about the table.
-    Judge(Box<Judging>),
+    Evaluate(Box<EvaluationTask>),
     /// Write a table to a file; the flag allows replacing another table.
     Save(PathBuf, Box<Table>, bool),
 }
@@ -31,13 +31,13 @@ pub enum CalibrationTask {
 impl CalibrationTask {
     /// Whether the task has to be done before the program ends.
     pub const fn writes(&self) -> bool {
-        !matches!(self, Self::Judge(_))
+        !matches!(self, Self::Evaluate(_))
     }
 }
 
 /// Entries to be evaluated.
 #[derive(Clone, Debug)]
-pub struct Judging {
+pub struct EvaluationTask {
     /// Identifies the answer to this request.
     pub number: u64,
     /// Name of the resulting table.
@@ -54,7 +54,7 @@ pub struct Judging {
 
 /// What the entries say about a table.
 #[derive(Clone, Debug)]
-pub struct Judged {
+pub struct Evaluation {
     /// The calibration; `None` if there are no entries yet.
     pub found: Option<Calibration>,
     /// All tests, the most informative first.
@@ -65,7 +65,7 @@ pub struct Judged {
 
 /// Content of a file of entries.
 #[derive(Clone, Debug)]
-pub struct KeptEntries {
+pub struct SavedEntries {
     /// All entries.
     pub entries: Entries,
     /// After an edit: the inverse edit, and whether the edit itself was an undo.
@@ -76,11 +76,11 @@ pub struct KeptEntries {
 #[derive(Clone, Debug)]
 pub enum CalibrationReport {
     /// Content of a file.
-    Entries(PathBuf, Result<Box<KeptEntries>, String>),
+    Entries(PathBuf, Result<Box<SavedEntries>, String>),
     /// A file could not be changed.
-    Unkept(PathBuf, String),
-    /// Result of [`CalibrationTask::Judge`]: whether it was a daily check, and its number.
-    Judged(bool, u64, Result<Box<Judged>, String>),
+    SaveFailed(PathBuf, String),
+    /// Result of [`CalibrationTask::Evaluate`]: whether it was a daily check, and its number.
+    Evaluated(bool, u64, Result<Box<Evaluation>, String>),
     /// Result of [`CalibrationTask::Save`]: `true` if saved, `false` if another table has the name.
     Saved(PathBuf, Result<bool, String>),
 }
@@ -90,24 +90,25 @@ impl CalibrationTask {
     pub fn run(self) -> CalibrationReport {
         match self {
             Self::Read(path) => {
-                let kept = load_entries_or_empty(&path).map(|entries| Box::new(KeptEntries { entries, back: None }));
+                let kept = load_entries_or_empty(&path).map(|entries| Box::new(SavedEntries { entries, back: None }));
                 CalibrationReport::Entries(path, kept.map_err(|error| error.to_string()))
             }
-            Self::PutAside(path) => match back_up_unreadable(&path) {
+            Self::BackUpUnreadable(path) => match back_up_unreadable(&path) {
                 Ok(()) => Self::Read(path).run(),
                 Err(error) => CalibrationReport::Entries(path, Err(error.to_string())),
             },
             Self::Edit(path, edit, is_back) => match edit_entries(&path, &edit) {
-                Ok((entries, back)) => {
-                    CalibrationReport::Entries(path, Ok(Box::new(KeptEntries { entries, back: Some((back, is_back)) })))
-                }
-                Err(error) => CalibrationReport::Unkept(path, error.to_string()),
+                Ok((entries, back)) => CalibrationReport::Entries(
+                    path,
+                    Ok(Box::new(SavedEntries { entries, back: Some((back, is_back)) })),
+                ),
+                Err(error) => CalibrationReport::SaveFailed(path, error.to_string()),
             },
-            Self::Judge(judging) => {
+            Self::Evaluate(task) => {
                 let failed = "the program failed on these marks; take the last one out and try again";
-                let judged = catch_unwind(AssertUnwindSafe(|| judging.judge()));
-                let judged = judged.unwrap_or_else(|_| Err(failed.to_owned()));
-                CalibrationReport::Judged(judging.is_daily, judging.number, judged.map(Box::new))
+                let evaluation = catch_unwind(AssertUnwindSafe(|| task.evaluate()));
+                let evaluation = evaluation.unwrap_or_else(|_| Err(failed.to_owned()));
+                CalibrationReport::Evaluated(task.is_daily, task.number, evaluation.map(Box::new))
             }
             Self::Save(path, _, false) if path.exists() => CalibrationReport::Saved(path, Ok(false)),
             Self::Save(path, table, _) => {
@@ -118,15 +119,15 @@ impl CalibrationTask {
     }
 }
 
-impl Judging {
-    fn judge(&self) -> Result<Judged, String> {
+impl EvaluationTask {
+    fn evaluate(&self) -> Result<Evaluation, String> {
         let Self { name, table, doubt, trials, is_daily, .. } = self;
         if trials.is_empty() {
             let next = rank_tests_before_trials(table, doubt).map_err(|error| error.to_string())?;
-            return Ok(Judged { found: None, next, play: None });
+            return Ok(Evaluation { found: None, next, play: None });
         }
         let found = calibrate(name, table, doubt, trials).map_err(|error| error.to_string())?;
         let play = is_daily.then(|| [TablePlay::of(table), TablePlay::of(&found.table)]);
-        Ok(Judged { next: found.next.clone(), found: Some(found), play })
+        Ok(Evaluation { next: found.next.clone(), found: Some(found), play })
     }
 }

@@ -24,7 +24,7 @@ pub enum DrillTask {
     /// Play the next attempt of a session and save it.
     Play(Box<PlayTask>),
     /// Compute the player's success rate at a stroke that is not played.
-    Judge(Box<JudgedStroke>),
+    RateStroke(Box<RateStrokeTask>),
     /// Save a session in which something was noted or undone, together with its attempts before the change.
     Save(Box<Session>, Vec<Attempt>),
     /// Save a position; the flag allows replacing one of the same name.
@@ -34,7 +34,7 @@ pub enum DrillTask {
     /// Estimate the player's skill from these sessions; the number identifies the answer.
     Estimate(u64, Arc<[Session]>),
     /// Save the player's skill.
-    KeepSkill(Skill),
+    SaveSkill(Skill),
     /// Fit the stroke of a filmed shot and simulate it.
     Film(Box<FilmedShot>),
 }
@@ -42,7 +42,7 @@ pub enum DrillTask {
 impl DrillTask {
     /// Whether the task writes to the disk, or is needed for that.
     pub const fn writes(&self) -> bool {
-        !matches!(self, Self::Advise(_) | Self::Judge(_) | Self::Estimate(..) | Self::Film(_))
+        !matches!(self, Self::Advise(_) | Self::RateStroke(_) | Self::Estimate(..) | Self::Film(_))
     }
 }
 
@@ -64,7 +64,7 @@ pub struct AdviceTask {
     /// Whether jumps and massés may be advised.
     pub jumps: bool,
     /// Whether the coach itself will play the stroke.
-    pub is_coachs: bool,
+    pub is_for_coach: bool,
     /// The exercise's own shot, if its layout is on the table; otherwise the coach searches for one.
     pub own: Option<CueInputs>,
     /// Set when the answer is no longer needed.
@@ -77,7 +77,7 @@ pub struct PlayTask {
     /// The session so far.
     pub session: Session,
     /// The stroke that the player intends.
-    pub meant: CueInputs,
+    pub intended: CueInputs,
     /// Whether the player has seen a shot that makes the point.
     pub with_hint: bool,
     /// Identifier of the request for the model shot, see [`AdviceTask::id`].
@@ -86,7 +86,7 @@ pub struct PlayTask {
 
 /// A stroke to be judged without being played.
 #[derive(Clone, Debug)]
-pub struct JudgedStroke {
+pub struct RateStrokeTask {
     /// Identifies the answer to this request.
     pub id: u64,
     /// The table.
@@ -150,9 +150,9 @@ pub enum DrillReport {
     /// Result of [`DrillTask::Play`]: the session's identifier, the outcome, and whether it could be saved.
     Played(String, Result<Box<AttemptOutcome>, String>, Result<(), String>),
     /// The player's success rate at an intended stroke: the session's identifier, the number of the attempt, the rate.
-    Judged(String, usize, f64),
-    /// Result of [`DrillTask::Judge`], with the identifier of the request.
-    StrokeJudged(u64, SuccessRate),
+    AttemptRated(String, usize, f64),
+    /// Result of [`DrillTask::RateStroke`], with the identifier of the request.
+    StrokeRated(u64, SuccessRate),
     /// Result of [`DrillTask::Save`].
     Saved(Box<Session>, Result<(), String>),
     /// Result of [`DrillTask::Play`] or [`DrillTask::Save`] if another program has changed the session: its present state, without the
@@ -165,8 +165,8 @@ pub enum DrillReport {
     /// Result of [`DrillTask::Estimate`], with its number: the skill, unless only a bound is known, and a sentence on how certain it is; or
     /// why nothing is known.
     Estimated(u64, Result<(Option<Skill>, String), String>),
-    /// Result of [`DrillTask::KeepSkill`].
-    SkillKept(Skill, Result<(), String>),
+    /// Result of [`DrillTask::SaveSkill`].
+    SkillSaved(Skill, Result<(), String>),
     /// Result of [`DrillTask::Film`], with the shot's number in the match.
     Filmed(u32, Result<Box<FilmReplay>, String>),
 }

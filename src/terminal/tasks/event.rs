@@ -4,7 +4,7 @@ use crossterm::event::Event as TerminalEvent;
 
 use crate::{
     platform::Signal,
-    terminal::{CalibrationReport, CoachAnswer, DrillReport, Seen, SettingsReport, TrainingReport},
+    terminal::{CalibrationReport, CoachAnswer, DrillReport, FollowedTableState, SettingsReport, TrainingReport},
 };
 
 /// An event that the screen has to handle.
@@ -21,7 +21,7 @@ pub enum Event {
     /// A report from the training page's background tasks.
     Training(TrainingReport),
     /// A change of another player's table.
-    Shown(Seen),
+    FollowedTable(FollowedTableState),
     /// A report from a task of the drill screens.
     Drill(DrillReport),
     /// A report from a task of the settings.

@@ -4,11 +4,11 @@ pub mod advice;
 pub mod calibration;
 pub mod drills;
 pub mod event;
-pub mod onlooker;
 mod polling;
 mod practice;
 pub mod recommender;
 pub mod reel;
+pub mod table_watcher;
 mod trainer;
 pub mod training;
 mod worker;
@@ -35,9 +35,9 @@ use crate::{
     },
     table::Table,
     terminal::{
-        CalibrationTask, CoachJob, CoachWorker, DrillTask, FollowSlot, Keeping, Launch, Reel, SettingsFile,
+        CalibrationTask, CoachJob, CoachWorker, DrillTask, FollowSlot, Launch, Reel, SavePolicyTask, SettingsFile,
         SettingsTask, Subscriptions, TrainerFailure, TrainingReport,
-        tasks::{event::Event, onlooker::Onlooker, polling::Poll, trainer::Trainer, worker::Worker},
+        tasks::{event::Event, polling::Poll, table_watcher::TableWatcher, trainer::Trainer, worker::Worker},
     },
 };
 
@@ -55,7 +55,7 @@ pub struct Tasks {
     subscriptions: Subscriptions,
     list: Option<Poll>,
     followed: [Option<Poll>; 2],
-    shown: Option<Poll>,
+    followed_table: Option<Poll>,
     /// The coach's thread.
     pub coach: Worker<Box<CoachJob>>,
     /// The thread that plays strokes and writes files for the drills.
@@ -100,7 +100,7 @@ impl Tasks {
             subscriptions: Subscriptions::default(),
             list: None,
             followed: [None, None],
-            shown: None,
+            followed_table: None,
             coach,
             practice,
             settings: Worker::start("settings", set)?,
@@ -122,9 +122,11 @@ impl Tasks {
         restart_if_changed(&mut self.list, [&before.runs, &now.runs], |folder| {
             Poll::start("runs", LIST_INTERVAL, to_screen.clone(), list(folder))
         })?;
-        restart_if_changed(&mut self.shown, [&before.shown, &now.shown], |folder| {
-            let mut onlooker = Onlooker::new(folder);
-            Poll::start("onlooker", FOLLOW_INTERVAL, to_screen.clone(), move || onlooker.look().map(Event::Shown))
+        restart_if_changed(&mut self.followed_table, [&before.followed_table, &now.followed_table], |folder| {
+            let mut watcher = TableWatcher::new(folder);
+            Poll::start("onlooker", FOLLOW_INTERVAL, to_screen.clone(), move || {
+                watcher.poll().map(Event::FollowedTable)
+            })
         })?;
         for (n, slot) in FollowSlot::ALL.into_iter().enumerate() {
             restart_if_changed(&mut self.followed[n], [&before.followed[n], &now.followed[n]], |folder| {
@@ -138,7 +140,7 @@ impl Tasks {
     /// Confirms that the screen has handled an event, so that its sender may poll again. Events never pile up if the screen is slow.
     pub fn acknowledge(&self, event: &Event) {
         let poll = match event {
-            Event::Shown(_) => &self.shown,
+            Event::FollowedTable(_) => &self.followed_table,
             Event::Training(TrainingReport::Runs(_)) => &self.list,
             Event::Training(TrainingReport::Followed(FollowSlot::Main, ..)) => &self.followed[0],
             Event::Training(TrainingReport::Followed(FollowSlot::Compared, ..)) => &self.followed[1],
@@ -160,7 +162,7 @@ impl Tasks {
                 thread::Builder::new().name("estimate".into()).spawn(move || practice.work(task, &to_screen))?;
             } else {
                 // A worker that has ended has already sent its last report.
-                self.practice.give(task);
+                self.practice.submit(task);
             }
         }
         Ok(())
@@ -170,7 +172,7 @@ impl Tasks {
     pub fn calibrate(&self, tasks: Vec<CalibrationTask>) {
         for task in tasks {
             let worker = if task.writes() { &self.calibration_writer } else { &self.calibration_evaluator };
-            worker.give(task);
+            worker.submit(task);
         }
     }
 
@@ -216,10 +218,10 @@ impl Tasks {
     ///
     /// # Errors
     /// Like [`Tasks::new`].
-    pub fn keep(&mut self, keeping: Keeping) -> io::Result<()> {
+    pub fn save_policy(&mut self, task: SavePolicyTask) -> io::Result<()> {
         self.write("keep", move || {
-            let outcome = keeping.keep();
-            Some(TrainingReport::Kept(keeping, outcome))
+            let outcome = task.save();
+            Some(TrainingReport::PolicySaved(task, outcome))
         })
     }
 
@@ -318,7 +320,7 @@ fn follow(
             && let Some(table) = table.clone()
             && let Some(examples) = examples.take()
         {
-            recorder.give((examples, table));
+            recorder.submit((examples, table));
         }
         Some(Event::Training(TrainingReport::Followed(slot, folder.clone(), Box::new(update))))
     })
@@ -339,7 +341,7 @@ mod tests {
     use crate::{storage::DataPaths, study::filmed::bundled};
 
     #[test]
-    fn what_a_key_has_just_begun_is_done_before_the_program_ends() {
+    fn writing_tasks_are_done_before_the_program_ends() {
         let (to_screen, events) = channel();
         let mut tasks = Tasks::new(to_screen).unwrap();
         let home = tempfile::tempdir().unwrap();
@@ -349,17 +351,17 @@ mod tests {
     }
 
     #[test]
-    fn what_writes_nothing_does_not_keep_the_program_from_ending() {
+    fn tasks_without_writes_do_not_delay_the_end() {
         let (to_screen, events) = channel();
         let tasks = Tasks::new(to_screen).unwrap();
         let film = || DrillTask::Film(Box::new(bundled().swap_remove(0)));
         let home = tempfile::tempdir().unwrap();
         tasks.practise(vec![DrillTask::Load(Box::new(DataPaths::under(home.path())))]).unwrap();
         tasks.practise((0..40).map(|_| film()).collect()).unwrap();
-        tasks.practise(vec![DrillTask::KeepSkill(crate::coach::Skill::CLUB)]).unwrap();
+        tasks.practise(vec![DrillTask::SaveSkill(crate::coach::Skill::CLUB)]).unwrap();
         tasks.finish();
         let reports: Vec<_> = events.try_iter().collect();
         assert!(reports.len() < 40, "{} of 42 tasks were done", reports.len());
-        assert!(matches!(reports.last(), Some(Event::Drill(drills::DrillReport::SkillKept(_, Ok(()))))));
+        assert!(matches!(reports.last(), Some(Event::Drill(drills::DrillReport::SkillSaved(_, Ok(()))))));
     }
 }

@@ -77,7 +77,7 @@ mod tests {
     use std::sync::mpsc::channel;
 
     #[test]
-    fn news_wait_until_the_last_have_been_taken_and_end_with_the_poll() {
+    fn a_poll_waits_for_acknowledgement_and_ends_when_dropped() {
         let (sender, receiver) = channel();
         let look = || Some(Event::Training(TrainingReport::Runs(Err(String::new()))));
         let poll = Poll::start("test", Duration::from_millis(1), sender, look).unwrap();

@@ -16,8 +16,8 @@ use crate::{
     },
     table::Table,
     terminal::{
-        AdviceTask, AttemptOutcome, DrillReport, DrillTask, FilmReplay, JudgedStroke, LoadedRecords, ModelShot,
-        PlayTask, Shot, tasks::event::Event,
+        AdviceTask, AttemptOutcome, DrillReport, DrillTask, FilmReplay, LoadedRecords, ModelShot, PlayTask,
+        RateStrokeTask, Shot, tasks::event::Event,
     },
 };
 
@@ -58,13 +58,13 @@ impl PracticeWorker {
                     reply(DrillReport::Played(id, Err(failed.to_owned()), Ok(())));
                 }
             }
-            DrillTask::Judge(stroke) => {
-                let JudgedStroke { id, table, layout, rule, shooter, cue, cancel } = &*stroke;
+            DrillTask::RateStroke(stroke) => {
+                let RateStrokeTask { id, table, layout, rule, shooter, cue, cancel } = &*stroke;
                 let judge = || chance(*shooter, *rule, table, layout, cue);
                 if !cancel.load(Ordering::Relaxed)
                     && let Ok(made) = catch_unwind(AssertUnwindSafe(judge))
                 {
-                    reply(DrillReport::StrokeJudged(*id, made));
+                    reply(DrillReport::StrokeRated(*id, made));
                 }
             }
             DrillTask::Save(session, before) => match self.save(&session, &before) {
@@ -84,9 +84,9 @@ impl PracticeWorker {
                 let removed = self.with_store(|store| store.remove_position(&name));
                 reply(DrillReport::PositionRemoved(name, removed));
             }
-            DrillTask::KeepSkill(skill) => {
+            DrillTask::SaveSkill(skill) => {
                 let kept = self.with_store(|store| store.save_skill(skill));
-                reply(DrillReport::SkillKept(skill, kept));
+                reply(DrillReport::SkillSaved(skill, kept));
             }
             DrillTask::Film(filmed) => {
                 let played = catch_unwind(AssertUnwindSafe(|| FilmReplay::new(&filmed)));
@@ -152,7 +152,7 @@ impl PracticeWorker {
                 ..Request::default()
             };
             let coach = self.coach(table);
-            advise(coach, layout, &request, task.is_coachs).map_err(|error| error.to_string())?
+            advise(coach, layout, &request, task.is_for_coach).map_err(|error| error.to_string())?
         };
         self.model_shot = advice.map(|advice| (task.id, advice));
         let model_shot = advice.map(|advice| {
@@ -172,18 +172,18 @@ impl PracticeWorker {
 
     /// Plays a stroke. The attempt is on the disk before its result is reported; its success rate is computed afterwards.
     fn play(&mut self, task: PlayTask, reply: &mut dyn FnMut(DrillReport)) {
-        let PlayTask { mut session, meant, with_hint, advice_id } = task;
+        let PlayTask { mut session, intended, with_hint, advice_id } = task;
         self.add_known_rates(&mut session);
         let place = session.position().ok().flatten();
         let rule = session.exercise().map(|exercise| exercise.rule);
-        let (played, (table, layout), rule) = match (session.play(meant, with_hint), place, rule) {
+        let (played, (table, layout), rule) = match (session.play(intended, with_hint), place, rule) {
             (Ok(played), Some(place), Some(rule)) => (played, place, rule),
             (Err(error), ..) => return reply(DrillReport::Played(session.id, Err(error.to_string()), Ok(()))),
             _ => return,
         };
         let number = session.attempts.len() - 1;
         // With the cue raised if it had to be.
-        let meant = session.attempts[number].intended.unwrap_or(meant);
+        let intended = session.attempts[number].intended.unwrap_or(intended);
         if let Some((_, advice)) = self.model_shot.as_ref().filter(|(id, _)| *id == advice_id) {
             session.attempts[number].advised = Some(advice.cue);
             session.attempts[number].advised_chance = Some(advice.chance.rate);
@@ -198,11 +198,11 @@ impl PracticeWorker {
         let next = session.position().ok().flatten();
         let outcome = Box::new(AttemptOutcome { session: session.clone(), played, shot, next });
         reply(DrillReport::Played(session.id.clone(), Ok(outcome), saved));
-        let share = chance(session.shooter(), rule, &table, &layout, &meant).rate;
+        let share = chance(session.shooter(), rule, &table, &layout, &intended).rate;
         session.attempts[number].chance = Some(share);
         // A disk error was just reported, and a user who has continued the session may do so without the rate.
         let _ = self.save(&session, &session.attempts);
-        reply(DrillReport::Judged(session.id.clone(), number, share));
+        reply(DrillReport::AttemptRated(session.id.clone(), number, share));
         self.last = Some(session);
     }
 

@@ -76,12 +76,12 @@ pub struct CoachAnswer {
     /// Identifier of the query.
     pub id: u64,
     /// Content of the answer.
-    pub news: CoachNews,
+    pub event: CoachEvent,
 }
 
 /// Content of an answer; a query may get several.
 #[derive(Clone, Debug)]
-pub enum CoachNews {
+pub enum CoachEvent {
     /// A better shot than all before; the search continues.
     Better(Proposal),
     /// The result of the search.
@@ -91,9 +91,9 @@ pub enum CoachNews {
     /// Why the recommended shot is best.
     Why(Box<Why>),
     /// The analysis of a shot.
-    Study(Arc<ShotAnalysis>),
+    Analysis(Arc<ShotAnalysis>),
     /// The success rate of the player's own stroke.
-    Judged(SuccessRate),
+    StrokeRated(SuccessRate),
     /// The end of an analysis: the advice for the layout after the shot, if any.
     Next(Option<Advice>),
 }
@@ -108,35 +108,35 @@ pub struct CoachWorker {
 
 impl CoachWorker {
     /// Creates a worker whose answers do not depend on time: each search ends after `simulations` simulations.
-    pub const fn unhurried(simulations: u64) -> Self {
+    pub const fn with_simulation_limit(simulations: u64) -> Self {
         Self { coach: None, simulations: Some(simulations) }
     }
 
-    /// Answers a query on this thread; `tell` receives each part as soon as it is known. A panic becomes an error message.
-    pub fn answer(&mut self, job: &CoachJob, mut tell: impl FnMut(CoachAnswer)) {
-        let mut tell = |news| tell(CoachAnswer { id: job.id, news });
+    /// Answers a query on this thread; `report` receives each part as soon as it is known. A panic becomes an error message.
+    pub fn answer(&mut self, job: &CoachJob, mut report: impl FnMut(CoachAnswer)) {
+        let mut report = |event| report(CoachAnswer { id: job.id, event });
         if let Some((cue, attempts)) = &job.stroke {
             let CoachJob { table, layout, query, seed, .. } = job;
-            let judged = || judge(query.shooter(), query.rule, table, layout, cue, attempts.clone(), *seed);
+            let rate = || judge(query.shooter(), query.rule, table, layout, cue, attempts.clone(), *seed);
             // On failure the rate stays unknown.
-            if let Ok(made) = catch_unwind(AssertUnwindSafe(judged)) {
-                tell(CoachNews::Judged(made));
+            if let Ok(made) = catch_unwind(AssertUnwindSafe(rate)) {
+                report(CoachEvent::StrokeRated(made));
             }
             return;
         }
         if let Some(cue) = job.shot {
-            let study = || self.study(job, &cue, &mut tell);
+            let analysis = || self.analyze(job, &cue, &mut report);
             // The user did not request the analysis, so a failure is silent.
-            let next = catch_unwind(AssertUnwindSafe(study)).unwrap_or(None);
-            return tell(CoachNews::Next(next));
+            let next = catch_unwind(AssertUnwindSafe(analysis)).unwrap_or(None);
+            return report(CoachEvent::Next(next));
         }
-        let found = || self.advice(job, &job.layout, &mut |proposal| tell(CoachNews::Better(proposal)));
+        let found = || self.advice(job, &job.layout, &mut |proposal| report(CoachEvent::Better(proposal)));
         let found = catch_unwind(AssertUnwindSafe(found))
             .unwrap_or_else(|_| Err("the coach failed on this layout; move a ball a little and ask again".to_owned()));
-        tell(found.map_or_else(CoachNews::Refused, CoachNews::Advice));
+        report(found.map_or_else(CoachEvent::Refused, CoachEvent::Advice));
     }
 
-    fn advice(&mut self, job: &CoachJob, layout: &Layout, tell: &mut dyn FnMut(Proposal)) -> Result<Advice, String> {
+    fn advice(&mut self, job: &CoachJob, layout: &Layout, report: &mut dyn FnMut(Proposal)) -> Result<Advice, String> {
         let CoachQuery { rule, skill, doubt, plan, jumps, first, .. } = job.query;
         let request = Request {
             rule,
@@ -153,14 +153,14 @@ impl CoachWorker {
             ..Request::default()
         };
         let (is_hurried, mut last_report) = (self.simulations.is_none(), None);
-        let tell = |better: &Improvement| {
+        let report = |better: &Improvement| {
             if is_hurried && last_report.is_some_and(|last_report: Instant| last_report.elapsed() < REPORT_INTERVAL) {
                 return;
             }
             last_report = Some(Instant::now());
             // A shot that cannot be displayed is not reported; the answer will say why.
             let Ok(shot) = Shot::new(&job.table, layout, better.cue, true, "search") else { return };
-            tell(Proposal {
+            report(Proposal {
                 shot: Arc::new(shot),
                 made: Some(better.make_probability),
                 risk: None,
@@ -169,24 +169,24 @@ impl CoachWorker {
             });
         };
         let found =
-            self.coach(job).recommend_with_progress(layout, &request, tell).map_err(|error| error.to_string())?;
+            self.coach(job).recommend_with_progress(layout, &request, report).map_err(|error| error.to_string())?;
         proposals(job, layout, found)
     }
 
     /// Analyses a shot, then the layout after it.
-    fn study(&mut self, job: &CoachJob, cue: &CueInputs, tell: &mut dyn FnMut(CoachNews)) -> Option<Advice> {
+    fn analyze(&mut self, job: &CoachJob, cue: &CueInputs, report: &mut dyn FnMut(CoachEvent)) -> Option<Advice> {
         if let Some(found) = job.found.as_deref().filter(|_| !job.cancel.load(Ordering::Relaxed)) {
             let CoachJob { table, layout, query, .. } = job;
             let why = why(query.shooter(), query.rule, table, layout, found, job.seed);
             // If no reason is found, it is left out.
             if let Ok(why) = why {
-                tell(CoachNews::Why(Box::new(why)));
+                report(CoachEvent::Why(Box::new(why)));
             }
         }
         let recording = Recording::new(&job.table, &job.layout, cue).ok()?;
-        let study = study(job, cue, &recording)?;
-        let makes_point = study.margins.is_some();
-        tell(CoachNews::Study(Arc::new(study)));
+        let analysis = analyze(job, cue, &recording)?;
+        let makes_point = analysis.margins.is_some();
+        report(CoachEvent::Analysis(Arc::new(analysis)));
         // After a miss it is the opponent's turn.
         if !makes_point {
             return None;
@@ -228,7 +228,7 @@ fn proposals(job: &CoachJob, layout: &Layout, found: Recommendation) -> Result<A
 }
 
 /// Analyses a recorded shot; stops between two parts if the answer is no longer needed.
-fn study(job: &CoachJob, cue: &CueInputs, recording: &Recording) -> Option<ShotAnalysis> {
+fn analyze(job: &CoachJob, cue: &CueInputs, recording: &Recording) -> Option<ShotAnalysis> {
     let CoachJob { table, layout, query, .. } = job;
     let CoachQuery { rule, skill, .. } = query;
     let sensitivity = Sensitivity::new(*rule, table, layout, query.shooter().effective_doubt());

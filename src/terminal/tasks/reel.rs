@@ -35,7 +35,7 @@ impl Reel {
     }
 
     /// Whether `other` contains the same shots.
-    pub fn is_of(&self, other: &Self) -> bool {
+    pub fn has_same_shots(&self, other: &Self) -> bool {
         let [examples, others] = [self, other].map(|reel| reel.shots.iter().map(|shot| &shot.example));
         self.after == other.after && examples.eq(others)
     }

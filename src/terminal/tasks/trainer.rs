@@ -75,7 +75,7 @@ mod tests {
     use std::io::Write;
 
     #[test]
-    fn the_reason_of_a_failure_is_found_however_much_was_said() {
+    fn the_reason_of_a_failure_is_found_after_long_output() {
         let mut file = tempfile::tempfile().unwrap();
         assert_eq!(last_sentence(file.try_clone().unwrap()), None);
         for n in 0..2000 {

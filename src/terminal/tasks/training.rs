@@ -41,7 +41,7 @@ pub struct Subscriptions {
     /// The followed runs, in the order of [`FollowSlot::ALL`].
     pub followed: [Option<PathBuf>; 2],
     /// The folder in which another player shares their table.
-    pub shown: Option<PathBuf>,
+    pub followed_table: Option<PathBuf>,
 }
 
 /// A training process to be started.
@@ -72,7 +72,7 @@ pub struct TrainerFailure {
 
 /// A policy to be saved under a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Keeping {
+pub struct SavePolicyTask {
     /// The policy's file.
     pub from: PathBuf,
     /// Folder of the saved policies.
@@ -83,12 +83,12 @@ pub struct Keeping {
     pub replace: bool,
 }
 
-impl Keeping {
+impl SavePolicyTask {
     /// Saves the policy; `false` if its name is taken.
     ///
     /// # Errors
     /// A message if there is no policy, or the copy cannot be written.
-    pub fn keep(&self) -> Result<bool, String> {
+    pub fn save(&self) -> Result<bool, String> {
         if !self.from.exists() {
             return Err(NO_POLICY.to_owned());
         }
@@ -128,7 +128,7 @@ pub enum TrainingReport {
     /// A request was sent to a run.
     Sent(Request, Result<(), String>),
     /// Result of saving a policy: `true` if saved, `false` if its name is taken.
-    Kept(Keeping, Result<bool, String>),
+    PolicySaved(SavePolicyTask, Result<bool, String>),
     /// The policy of the run in a folder.
     Policy(PathBuf, Result<Arc<Policy>, String>),
 }

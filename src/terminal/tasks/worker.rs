@@ -39,7 +39,7 @@ impl<T: Send + 'static> Worker<T> {
     }
 
     /// Queues a task; returns `false` if the thread has ended.
-    pub fn give(&self, task: T) -> bool {
+    pub fn submit(&self, task: T) -> bool {
         self.queue.send(task).is_ok()
     }
 
@@ -57,7 +57,7 @@ mod tests {
     use std::time::Duration;
 
     #[test]
-    fn of_all_that_comes_during_its_work_only_the_newest_is_worked_on() {
+    fn only_the_newest_task_submitted_during_work_is_done() {
         let ((begun, begins), (go_on, may_go_on)) = (channel(), channel());
         let worker = Worker::newest_only("newest", move |task: u32| {
             begun.send(task).unwrap();
@@ -65,10 +65,10 @@ mod tests {
         })
         .unwrap();
         let next = || begins.recv_timeout(Duration::from_secs(20)).unwrap();
-        worker.give(1);
+        worker.submit(1);
         assert_eq!(next(), 1);
         for task in 2..=50 {
-            worker.give(task);
+            worker.submit(task);
         }
         go_on.send(()).unwrap();
         assert_eq!(next(), 50);
@@ -78,10 +78,10 @@ mod tests {
     }
 
     #[test]
-    fn everything_is_done_before_it_is_finished() {
+    fn all_tasks_are_done_before_the_worker_finishes() {
         let (done, results) = channel();
         let worker = Worker::start("all", move |task: u32| done.send(task).unwrap()).unwrap();
-        assert!((0..50).all(|task| worker.give(task)));
+        assert!((0..50).all(|task| worker.submit(task)));
         worker.finish();
         assert!(results.into_iter().eq(0..50));
     }

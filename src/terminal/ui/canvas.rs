@@ -12,7 +12,7 @@ use crate::terminal::Glyphs;
 /// Half blocks, indexed by the bits of the upper (1) and lower (2) half.
 const HALVES: [char; 4] = [' ', '▀', '▄', '█'];
 /// Most sub-pixels of a cell: those of an octant.
-const MOST: usize = 8;
+const MAX_SUB_PIXELS: usize = 8;
 
 /// Colour of a sub-pixel. If a cell has more than two colours, those with the most weight are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,7 +61,7 @@ impl Canvas {
             for column in 0..self.area.width {
                 let first = usize::from(row * self.grid.1) * stride + usize::from(column * self.grid.0);
                 let Some(cell) = buffer.cell_mut((self.area.x + column, self.area.y + row)) else { continue };
-                let mut inks = [Ink { color: self.ground, weight: 0 }; MOST];
+                let mut inks = [Ink { color: self.ground, weight: 0 }; MAX_SUB_PIXELS];
                 let mut count = 0;
                 for line in 0..usize::from(self.grid.1) {
                     for across in 0..usize::from(self.grid.0) {
@@ -89,7 +89,7 @@ pub const fn sub_pixels(glyphs: Glyphs) -> (u16, u16) {
 /// Returns the block character with its foreground and background colours. If the cell has ground in it, the ground is the background, and
 /// only the heaviest other colour is kept: a ball without its last corner looks better than one with a foreign spot.
 fn two_colours(inks: &[Ink], ground: Color) -> (char, Color, Color) {
-    let mut found = [(ground, 0_u16); MOST];
+    let mut found = [(ground, 0_u16); MAX_SUB_PIXELS];
     let mut kinds = 0;
     for ink in inks.iter().filter(|ink| ink.color != ground) {
         let index = found[..kinds].iter().position(|(color, _)| *color == ink.color).unwrap_or_else(|| {
@@ -131,7 +131,7 @@ mod tests {
     const DOT: Ink = Ink { color: Color::White, weight: 1 };
 
     #[test]
-    fn a_plain_cell_is_a_blank_in_its_colour() {
+    fn a_cell_of_one_colour_is_a_coloured_blank() {
         assert_eq!(two_colours(&[GROUND; 6], GROUND.color), (' ', Color::Blue, Color::Blue));
         assert_eq!(two_colours(&[BALL; 6], GROUND.color), ('█', Color::Red, Color::Blue));
     }
@@ -179,14 +179,14 @@ mod tests {
     }
 
     #[test]
-    fn two_balls_that_fill_a_cell_keep_both_their_colours() {
+    fn two_balls_in_one_cell_keep_both_colours() {
         let other = Ink { color: Color::Yellow, weight: 4 };
         let cell = [BALL, BALL, BALL, BALL, other, other];
         assert_eq!(two_colours(&cell, GROUND.color), (SEXTANTS[0b1111], Color::Red, Color::Yellow));
     }
 
     #[test]
-    fn what_lies_outside_is_not_drawn() {
+    fn pixels_outside_the_canvas_are_ignored() {
         let area = Rect::new(0, 0, 2, 2);
         let mut canvas = Canvas::new(area, Glyphs::Sextant, Color::Blue);
         for (x, y) in [(-1, 0), (4, 0), (0, 6), (i32::MAX, i32::MIN)] {

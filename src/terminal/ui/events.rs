@@ -9,7 +9,7 @@ use crate::{
     },
     simulation::{Event, Recording},
     terminal::{
-        shot::playback::passed,
+        shot::playback::passed_count,
         ui::{Ui, draw_title, list, write_right},
         words::{event_words, fixed},
     },
@@ -46,7 +46,7 @@ pub fn draw_events(
 ) {
     let events = listed.map_or(&[][..], |(_, events)| events);
     // Row 0 is the stroke.
-    let present = time.map_or(0, |time| passed(events, time));
+    let present = time.map_or(0, |time| passed_count(events, time));
     let mut title = vec![Span::styled(name.to_owned(), ui.theme.text())];
     if listed.is_some() {
         title.push(Span::styled(format!(" {present}/{}", events.len()), ui.theme.faint()));

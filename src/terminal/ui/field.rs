@@ -58,7 +58,7 @@ pub fn face_in(inner: Rect) -> Rect {
 
 /// A spot in a picture. It consists of whole sub-pixels, so that its shape is the same everywhere; in letters it is one cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dot {
+pub struct RoundSpot {
     middle: DVec2,
     /// Half the width and height.
     half: DVec2,
@@ -66,7 +66,7 @@ pub struct Dot {
     cells: [DVec2; 2],
 }
 
-impl Dot {
+impl RoundSpot {
     /// Creates a spot of `radius` at `place` in the picture in `area`; both in units of half the picture.
     pub fn new(place: DVec2, radius: f64, area: Rect, caps: Capabilities) -> Self {
         let (across, down) = sub_pixels(caps.glyphs);
@@ -112,7 +112,7 @@ mod tests {
         let area = Rect::new(3, 2, 12, 6);
         let (width, height) = (i32::from(area.width * across), i32::from(area.height * down));
         let caps = Capabilities { depth: Depth::True, glyphs, unicode: true };
-        let dot = Dot::new(place, 0.17, area, caps);
+        let dot = RoundSpot::new(place, 0.17, area, caps);
         let at = |n: i32, size: i32| f64::from(2 * n + 1) / f64::from(size) - 1.0;
         let all = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
         all.filter(|&(x, y)| dot.covers(at(x, width), at(y, height))).collect()

@@ -111,7 +111,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn a_carom_table_is_four_columns_to_a_row() {
+    fn a_carom_table_is_four_times_as_many_columns_as_rows() {
         let mapping = Mapping::fit(&Table::default(), Rect::new(0, 0, 120, 29));
         assert_eq!((mapping.bed.width, mapping.bed.height), (108, 27));
         let mapping = Mapping::fit(&Table::default(), Rect::new(0, 1, 64, 40));
@@ -136,7 +136,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_cell_goes_to_metres_and_back(
+        fn cells_convert_to_metres_and_back(
             width in 10_u16..300, height in 5_u16..100, across in 0.0..1.0_f64, down in 0.0..1.0_f64,
         ) {
             let mapping = Mapping::fit(&Table::default(), Rect::new(5, 7, width, height));

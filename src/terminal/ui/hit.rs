@@ -6,7 +6,7 @@ use ratatui::{layout::Rect, style::Modifier, text::Span};
 use crate::{
     coach::{Hit, words::capitalize},
     terminal::{
-        shot::{Meeting, Spin},
+        shot::{FirstImpact, Spin},
         ui::{Ink, Theme, Ui, draw_field, draw_title, field::Mark, spin::draw_spin},
         words::rail_name,
     },
@@ -19,26 +19,26 @@ const LOW: u16 = 5;
 const BEHIND: char = '#';
 
 /// Draws the cue ball's spin while a shot plays, otherwise its hit on the first object ball.
-pub fn draw_spin_or_hit(spin: Option<Spin>, meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
+pub fn draw_spin_or_hit(spin: Option<Spin>, impact: Option<FirstImpact>, area: Rect, ui: &mut Ui) {
     match spin {
         Some(spin) => draw_spin(&spin, area, ui),
-        None => draw_hit_panel(None, meeting, area, ui),
+        None => draw_hit_panel(None, impact, area, ui),
     }
 }
 
 /// Draws the panel: the hit on the object ball, or what the cue ball meets before it. If two strokes are shown, the title says `whose` it
 /// is.
-pub fn draw_hit_panel(whose: Option<&str>, meeting: Option<Meeting>, area: Rect, ui: &mut Ui) {
+pub fn draw_hit_panel(whose: Option<&str>, impact: Option<FirstImpact>, area: Rect, ui: &mut Ui) {
     let is_low = area.height <= LOW + 1;
     let title = |words: &str| whose.map_or_else(|| capitalize(words), |whose| format!("{whose} {words}"));
-    let title = match meeting.filter(|_| is_low) {
+    let title = match impact.filter(|_| is_low) {
         // A percentage alone could be taken for a success rate.
-        Some(Meeting::Ball(hit)) => Span::styled(title(&format!("{} % full", percent(&hit))), ui.theme.accent()),
+        Some(FirstImpact::Ball(hit)) => Span::styled(title(&format!("{} % full", percent(&hit))), ui.theme.accent()),
         _ => Span::styled(title("hit"), ui.theme.text()),
     };
     let inner = draw_title(title, area, ui);
-    let Some(Meeting::Ball(hit)) = meeting else {
-        return draw_words(&words_without_ball(meeting, ui.theme), inner, ui);
+    let Some(FirstImpact::Ball(hit)) = impact else {
+        return draw_words(&words_without_ball(impact, ui.theme), inner, ui);
     };
     let words = if is_low { 0 } else { WORDS };
     let picture = Rect { height: inner.height.saturating_sub(words), ..inner };
@@ -54,11 +54,11 @@ fn percent(hit: &Hit) -> String {
     format!("{:.0}", 100.0 * hit.fullness)
 }
 
-fn words_without_ball(meeting: Option<Meeting>, theme: &Theme) -> Vec<String> {
-    match meeting {
-        None | Some(Meeting::Ball(_)) => Vec::new(),
-        Some(Meeting::Nothing) => vec!["meets".to_owned(), "nothing".to_owned()],
-        Some(Meeting::Rail(rail, hit)) => {
+fn words_without_ball(impact: Option<FirstImpact>, theme: &Theme) -> Vec<String> {
+    match impact {
+        None | Some(FirstImpact::Ball(_)) => Vec::new(),
+        Some(FirstImpact::Nothing) => vec!["meets".to_owned(), "nothing".to_owned()],
+        Some(FirstImpact::Rail(rail, hit)) => {
             let mut words = vec![rail_name(rail).to_owned(), "first".to_owned()];
             if let Some(hit) = hit {
                 words[1].push_str(", then");
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn as_much_of_the_object_ball_is_covered_as_the_hit_is_full() {
+    fn the_covered_share_of_the_object_ball_is_the_fullness() {
         let (row, covered) = drawn(0.0, true, BEHIND);
         assert_eq!((row, covered), (format!("{}{}", "W".repeat(20), "R".repeat(20)), 0));
         assert_eq!(drawn(1.0, true, 'R').1, 0);

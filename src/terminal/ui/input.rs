@@ -7,7 +7,7 @@ use crossterm::event::{
 use ratatui::{layout::Rect, style::Modifier};
 use unicode_segmentation::UnicodeSegmentation;
 
-use crate::terminal::ui::{Ui, columns, ending};
+use crate::terminal::ui::{Ui, columns, suffix_within};
 
 /// Input to a text field: a key press, or text from the clipboard.
 #[derive(Clone, Copy, Debug)]
@@ -64,7 +64,7 @@ impl TextField {
 
     /// Inserts `text` as a suggestion, which the user can accept, edit or replace by typing.
     #[must_use]
-    pub fn offering(self, text: &str) -> Self {
+    pub fn with_suggestion(self, text: &str) -> Self {
         Self { is_offered: true, ..self.with(text) }
     }
 
@@ -74,7 +74,7 @@ impl TextField {
     }
 
     /// Handles input; returns `false` if the field does not use the key.
-    pub fn take(&mut self, typed: Typed) -> bool {
+    pub fn handle(&mut self, typed: Typed) -> bool {
         let is_text = match typed {
             Typed::Paste(text) => !text.is_empty(),
             Typed::Key(key) => matches!(Edit::of(key), Some(Edit::Insert(_))),
@@ -132,7 +132,7 @@ impl TextField {
         let (before, after) = self.text.split_at(self.cursor);
         // Keep some of the text after the cursor visible.
         let ahead = columns(after).max(1).min(width / 3 + 1);
-        let shown = ending(before, width.saturating_sub(ahead));
+        let shown = suffix_within(before, width.saturating_sub(ahead));
         let hidden = before.len() - shown.len();
         let style = if self.is_offered { ui.theme.faint() } else { ui.theme.text() };
         ui.buffer.set_stringn(area.x, area.y, &self.text[hidden..], width, style);
@@ -198,7 +198,7 @@ mod tests {
     fn after(text: &str, keys: &[(KeyModifiers, KeyCode)]) -> String {
         let mut field = TextField::new(100).with(text);
         for (modifiers, code) in keys {
-            assert!(field.take(Typed::Key(&KeyEvent::new(*code, *modifiers))), "{code}");
+            assert!(field.handle(Typed::Key(&KeyEvent::new(*code, *modifiers))), "{code}");
         }
         let (before, after) = field.text.split_at(field.cursor);
         format!("{before}|{after}")
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn words_are_passed_and_deleted_as_one() {
+    fn word_keys_move_and_delete_whole_words() {
         let text = "draw to the #corner";
         assert_eq!(after(text, &[(CONTROL, Left)]), "draw to the #|corner");
         assert_eq!(after(text, &[(ALT, Left), (ALT, Char('b'))]), "draw to |the #corner");
@@ -237,17 +237,17 @@ mod tests {
     }
 
     #[test]
-    fn a_letter_with_its_accents_is_one() {
+    fn a_letter_with_combining_accents_is_one_character() {
         assert_eq!(after("e\u{301}당", &[(NONE, Left), (NONE, Left)]), "|e\u{301}당");
         assert_eq!(after("ae\u{301}", &[(NONE, Backspace)]), "a|");
     }
 
     #[test]
-    fn the_first_letter_takes_the_place_of_what_is_offered_and_any_other_key_keeps_it() {
+    fn the_first_letter_replaces_the_suggestion_and_other_keys_keep_it() {
         let typed = |keys: &[KeyCode]| {
-            let mut field = TextField::new(12).offering("own");
+            let mut field = TextField::new(12).with_suggestion("own");
             for code in keys {
-                field.take(Typed::Key(&KeyEvent::new(*code, NONE)));
+                field.handle(Typed::Key(&KeyEvent::new(*code, NONE)));
             }
             field.text().to_owned()
         };
@@ -258,40 +258,40 @@ mod tests {
     }
 
     #[test]
-    fn pasted_lines_are_one_line_without_control_characters_and_no_longer_than_the_limit() {
+    fn pasted_text_becomes_one_clean_line_within_the_limit() {
         let mut field = TextField::new(12);
-        field.take(Typed::Paste("a\r\nb\u{1b}\u{7}\tc"));
+        field.handle(Typed::Paste("a\r\nb\u{1b}\u{7}\tc"));
         assert_eq!(field.text(), "a  b c");
-        field.take(Typed::Paste(&"당".repeat(9)));
+        field.handle(Typed::Paste(&"당".repeat(9)));
         assert_eq!(field.text(), "a  b c당당");
     }
 
     #[test]
-    fn keys_of_the_page_are_not_taken() {
+    fn text_field_ignores_keys_of_the_page() {
         let page =
             [(NONE, Up), (NONE, Enter), (NONE, Esc), (NONE, Tab), (NONE, F(1)), (CONTROL, Char('c')), (CONTROL, Up)];
         for (modifiers, code) in page {
             let key = KeyEvent::new(code, modifiers);
-            assert!(!TextField::new(9).take(Typed::Key(&key)) && !is_typed(&key), "{code}");
+            assert!(!TextField::new(9).handle(Typed::Key(&key)) && !is_typed(&key), "{code}");
         }
     }
 
     #[test]
-    fn the_cursor_is_reversed_and_seen_however_long_the_text_is() {
+    fn the_cursor_is_visible_for_any_text_length() {
         let field = TextField::new(100).with("ab");
         assert_eq!(drawn(&field, 6), ("ab    ".to_owned(), vec![2]));
         let mut field = TextField::new(100).with("0123456789abcdef");
         assert_eq!(drawn(&field, 6), ("bcdef ".to_owned(), vec![5]));
-        field.take(Typed::Key(&KeyEvent::from(Home)));
+        field.handle(Typed::Key(&KeyEvent::from(Home)));
         assert_eq!(drawn(&field, 6), ("012345".to_owned(), vec![0]));
         let mut hangul = TextField::new(100).with("당구당구");
-        hangul.take(Typed::Key(&KeyEvent::from(Left)));
+        hangul.handle(Typed::Key(&KeyEvent::from(Left)));
         assert_eq!(drawn(&hangul, 8).1, [6, 7], "both columns of a wide letter");
     }
 
     proptest! {
         #[test]
-        fn no_series_of_keys_breaks_the_text_or_hides_the_cursor(
+        fn any_key_sequence_keeps_the_text_valid_and_the_cursor_visible(
             text in "\\PC{0,20}", keys in prop::collection::vec(0..14_usize, 0..20), width in 2..12_u16,
         ) {
             let all = [
@@ -302,7 +302,7 @@ mod tests {
             let mut field = TextField::new(40).with(&text);
             for key in keys {
                 let (modifiers, code) = all[key];
-                field.take(Typed::Key(&KeyEvent::new(code, modifiers)));
+                field.handle(Typed::Key(&KeyEvent::new(code, modifiers)));
                 prop_assert!(field.text.len() <= 40 && field.text.is_char_boundary(field.cursor));
                 prop_assert!(!drawn(&field, width).1.is_empty());
             }

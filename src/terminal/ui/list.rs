@@ -97,7 +97,7 @@ mod tests {
     use super::in_view;
 
     #[test]
-    fn the_mark_is_always_seen_and_no_row_is_left_free() {
+    fn the_selected_row_is_visible_and_the_list_fills_its_rows() {
         for count in 0..20 {
             for rows in 1..25 {
                 for mark in 0..count {

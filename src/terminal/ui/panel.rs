@@ -13,7 +13,7 @@ use ratatui::{
 
 use crate::terminal::{
     Capabilities,
-    ui::{Theme, Ui, columns, cut, shorten, wrap, write_right},
+    ui::{Theme, Ui, columns, shorten, truncate_lines, wrap, write_right},
 };
 
 /// Draws the first row of a page, to the right of the tabs: its title, details, and a text at the right end. If there is no room, the last
@@ -94,7 +94,7 @@ pub fn write_paragraphs(paragraphs: &[(String, Style)], area: Rect, ui: &mut Ui)
         if room == 0 {
             break;
         }
-        for line in cut(wrap(text, width), room, width, ui.caps) {
+        for line in truncate_lines(wrap(text, width), room, width, ui.caps) {
             ui.buffer.set_stringn(area.x, row, line, width, *style);
             row += 1;
         }
@@ -103,7 +103,7 @@ pub fn write_paragraphs(paragraphs: &[(String, Style)], area: Rect, ui: &mut Ui)
 }
 
 /// Writes in a panel why it is empty: one line per row, after a blank row.
-pub fn draw_nothing(lines: &[&str], inner: Rect, ui: &mut Ui) {
+pub fn draw_placeholder(lines: &[&str], inner: Rect, ui: &mut Ui) {
     for (text, row) in lines.iter().zip(inner.y + 1..inner.bottom()) {
         ui.buffer.set_stringn(inner.x + 1, row, text, usize::from(inner.width.saturating_sub(1)), ui.theme.faint());
     }

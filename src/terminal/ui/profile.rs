@@ -77,7 +77,7 @@ pub fn draw_profile(profile: &Profile, time: Option<f64>, unit: LengthUnit, area
     write_right(ui.buffer, plot.x, plot.right(), ground, &end, ui.theme.faint());
     let mut free = plot.x;
     for passed in &profile.passed {
-        let (words, style) = match passed.what {
+        let (words, style) = match passed.obstacle {
             Obstacle::Ball(ball) => (ui.theme.names()[ball], ui.theme.ball(ball)),
             Obstacle::Nose(_) => ("nose", ui.theme.faint()),
         };
@@ -101,7 +101,7 @@ fn end_of_scale(height: f64) -> f64 {
 }
 
 fn obstacle_color(passed: &PassedObstacle, ui: &Ui) -> Color {
-    match passed.what {
+    match passed.obstacle {
         Obstacle::Ball(ball) => ui.theme.signs[ball],
         Obstacle::Nose(_) => ui.theme.wood,
     }
@@ -109,7 +109,7 @@ fn obstacle_color(passed: &PassedObstacle, ui: &Ui) -> Color {
 
 /// Half the width of an obstacle, m. A ball's top is one diameter high.
 fn half_width(passed: &PassedObstacle) -> f64 {
-    match passed.what {
+    match passed.obstacle {
         Obstacle::Ball(_) => 0.5 * passed.top,
         Obstacle::Nose(_) => 0.0,
     }
@@ -163,7 +163,7 @@ fn in_letters(profile: &Profile, time: Option<f64>, plot: Rect, scale: DVec2, ui
     };
     let theme = ui.theme;
     for passed in &profile.passed {
-        let (sign, color) = match passed.what {
+        let (sign, color) = match passed.obstacle {
             Obstacle::Ball(ball) => (letters[ball].to_ascii_lowercase(), theme.signs[ball]),
             Obstacle::Nose(_) => ('|', theme.text),
         };
@@ -209,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn a_jump_over_a_ball_is_seen_from_the_side_in_letters_and_in_colours() {
+    fn the_side_view_of_a_jump_is_drawn_in_letters_and_colours() {
         let (rows, _) = picture(None, Capabilities::ASCII);
         let text = rows.join("\n");
         assert!(rows[0].starts_with("- Side view - white jumps, ") && rows[0].contains(" mm high, "), "{text}");

@@ -11,11 +11,11 @@ use crate::terminal::{
 const ROUNDED: f64 = 1.1;
 /// The smallest shape in sextants that looks round: anything smaller is a cross or a block. On a table of 60 columns it is almost twice the
 /// size of the ball; the physics uses the true size.
-const LEAST_SEXTANTS: (i32, i32) = (5, 4);
+const MIN_SEXTANTS: (i32, i32) = (5, 4);
 /// The smallest shape in octants, whose sub-pixels are square.
-const LEAST_OCTANTS: (i32, i32) = (5, 5);
+const MIN_OCTANTS: (i32, i32) = (5, 5);
 /// The smallest visible shape in half blocks.
-const LEAST_HALVES: (i32, i32) = (2, 2);
+const MIN_HALVES: (i32, i32) = (2, 2);
 
 /// Sprite of a ball, in sub-pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,9 +30,9 @@ impl Sprite {
         let drawn = mapping.ball_columns() * ROUNDED;
         let (across, down) = sub_pixels(glyphs);
         let least = match glyphs {
-            Glyphs::Octant => LEAST_OCTANTS,
-            Glyphs::Sextant => LEAST_SEXTANTS,
-            Glyphs::Half | Glyphs::Letters => LEAST_HALVES,
+            Glyphs::Octant => MIN_OCTANTS,
+            Glyphs::Sextant => MIN_SEXTANTS,
+            Glyphs::Half | Glyphs::Letters => MIN_HALVES,
         };
         // A row is as high as two columns are wide. The width is derived from the height, because rounding both would turn some balls into
         // ovals.
@@ -79,7 +79,7 @@ impl Sprite {
 
     /// Draws the ball.
     pub fn stamp(self, canvas: &mut Canvas, mapping: &Mapping, place: DVec2, ink: Ink) {
-        self.each(canvas, mapping, place, ink, |_, _| true);
+        self.each_pixel(canvas, mapping, place, ink, |_, _| true);
     }
 
     /// Whether the sprite is large enough for its outline to differ from the full ball.
@@ -93,10 +93,17 @@ impl Sprite {
             return;
         }
         let inside = |x, y| [(1, 0), (-1, 0), (0, 1), (0, -1)].iter().all(|(dx, dy)| self.covers(x + dx, y + dy));
-        self.each(canvas, mapping, place, ink, |x, y| !inside(x, y));
+        self.each_pixel(canvas, mapping, place, ink, |x, y| !inside(x, y));
     }
 
-    fn each(self, canvas: &mut Canvas, mapping: &Mapping, place: DVec2, ink: Ink, keep: impl Fn(i32, i32) -> bool) {
+    fn each_pixel(
+        self,
+        canvas: &mut Canvas,
+        mapping: &Mapping,
+        place: DVec2,
+        ink: Ink,
+        keep: impl Fn(i32, i32) -> bool,
+    ) {
         let (left, top) = self.corner(canvas, mapping, place);
         for y in 0..self.height {
             for x in 0..self.width {

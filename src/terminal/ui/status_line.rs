@@ -5,7 +5,7 @@ use ratatui::{
     widgets::{Clear, Widget},
 };
 
-use crate::terminal::ui::{Message, TextField, Tone, Ui, columns, cut, wrap};
+use crate::terminal::ui::{Message, TextField, Tone, Ui, columns, truncate_lines, wrap};
 
 /// Most rows of a message on the status line, and of a question with the reason why an answer was refused.
 const STATUS_ROWS: u16 = 3;
@@ -31,7 +31,8 @@ fn draw_rows(message: &Message, typed: Option<&TextField>, most: u16, area: Rect
     };
     let width = area.width.saturating_sub(2);
     let most = most.min(area.bottom());
-    let mut lines = cut(wrap(&message.text, usize::from(width)), usize::from(most), usize::from(width), ui.caps);
+    let mut lines =
+        truncate_lines(wrap(&message.text, usize::from(width)), usize::from(most), usize::from(width), ui.caps);
     let end = lines.last().map_or(0, |last| columns(last) as u16 + 1);
     let start = if end + FIELD <= width { end } else { 0 };
     if typed.is_some() && start == 0 {

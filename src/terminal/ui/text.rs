@@ -21,14 +21,14 @@ pub fn grapheme_columns(grapheme: &str) -> usize {
 }
 
 /// The longest start of `text` that fits into `room` columns.
-pub fn beginning(text: &str, room: usize) -> &str {
+pub fn prefix_within(text: &str, room: usize) -> &str {
     let mut fits = filling(room);
     let end = text.grapheme_indices(true).find(|(_, grapheme)| !fits(grapheme));
     &text[..end.map_or(text.len(), |(end, _)| end)]
 }
 
 /// The longest end of `text` that fits into `room` columns.
-pub fn ending(text: &str, room: usize) -> &str {
+pub fn suffix_within(text: &str, room: usize) -> &str {
     let mut fits = filling(room);
     let last_hidden = text.grapheme_indices(true).rev().find(|(_, grapheme)| !fits(grapheme));
     &text[last_hidden.map_or(0, |(start, grapheme)| start + grapheme.len())..]
@@ -44,21 +44,21 @@ fn filling(room: usize) -> impl FnMut(&str) -> bool {
 }
 
 /// Keeps the first `rows` lines; if lines were dropped, the last one ends with an ellipsis.
-pub fn cut(mut lines: Vec<String>, rows: usize, width: usize, caps: Capabilities) -> Vec<String> {
+pub fn truncate_lines(mut lines: Vec<String>, rows: usize, width: usize, caps: Capabilities) -> Vec<String> {
     if lines.len() <= rows {
         return lines;
     }
     lines.truncate(rows);
-    let more = beginning(caps.pick("…", "..."), width);
+    let more = prefix_within(caps.pick("…", "..."), width);
     if let Some(last) = lines.last_mut() {
-        *last = beginning(last, width.saturating_sub(columns(more))).trim_end().to_owned() + more;
+        *last = prefix_within(last, width.saturating_sub(columns(more))).trim_end().to_owned() + more;
     }
     lines
 }
 
 /// Shortens `text` to one line of at most `room` columns, with an ellipsis if words were dropped.
 pub fn shorten(text: &str, room: usize, caps: Capabilities) -> String {
-    cut(wrap(&spell(text, caps), room), 1, room, caps).swap_remove(0)
+    truncate_lines(wrap(&to_displayable(text, caps), room), 1, room, caps).swap_remove(0)
 }
 
 /// Wraps the words of `text` into lines of at most `width` columns. A longer word starts a new line and is broken, after a `/` of a path if
@@ -107,7 +107,7 @@ pub fn wrap_by(text: &str, width: impl Fn(usize) -> usize) -> Vec<String> {
 }
 
 /// Replaces characters that the terminal does not have.
-pub fn spell(text: &str, caps: Capabilities) -> String {
+pub fn to_displayable(text: &str, caps: Capabilities) -> String {
     if caps.unicode {
         return text.to_owned();
     }
@@ -115,12 +115,12 @@ pub fn spell(text: &str, caps: Capabilities) -> String {
 }
 
 /// The end of `text` that fits into `room` columns, after an ellipsis: names often differ only at their ends.
-pub fn end_of(text: &str, room: usize, caps: Capabilities) -> String {
+pub fn shorten_start(text: &str, room: usize, caps: Capabilities) -> String {
     if columns(text) <= room {
         return text.to_owned();
     }
-    let more = beginning(caps.pick("…", "..."), room);
-    format!("{more}{}", ending(text, room - columns(more)))
+    let more = prefix_within(caps.pick("…", "..."), room);
+    format!("{more}{}", suffix_within(text, room - columns(more)))
 }
 
 /// Writes `text` right-aligned before column `end`, but never left of `start`.
@@ -145,11 +145,11 @@ mod tests {
     }
 
     #[test]
-    fn what_is_cut_says_so() {
+    fn truncated_text_ends_with_an_ellipsis() {
         let lines = wrap("one two three four", 7);
-        assert_eq!(cut(lines.clone(), 2, 7, Capabilities::NO_COLOUR), ["one two", "three\u{2026}"]);
-        assert_eq!(cut(lines.clone(), 1, 7, Capabilities::ASCII), ["one..."]);
-        assert_eq!(cut(lines.clone(), 3, 7, Capabilities::NO_COLOUR), lines);
+        assert_eq!(truncate_lines(lines.clone(), 2, 7, Capabilities::NO_COLOUR), ["one two", "three\u{2026}"]);
+        assert_eq!(truncate_lines(lines.clone(), 1, 7, Capabilities::ASCII), ["one..."]);
+        assert_eq!(truncate_lines(lines.clone(), 3, 7, Capabilities::NO_COLOUR), lines);
         assert_eq!(shorten("one two three four", 7, Capabilities::ASCII), "one...");
     }
 
@@ -161,17 +161,17 @@ mod tests {
         }
         assert_eq!(wrap("당구 연습 쿠션", 9), ["당구 연습", "쿠션"]);
         assert_eq!(wrap("당구연습", 5), ["당구", "연습"], "half of a syllable cannot be drawn");
-        assert_eq!(cut(wrap("당구 연습 쿠션", 9), 1, 9, Capabilities::NO_COLOUR), ["당구 연…"]);
-        assert_eq!(end_of("runs/당구연습", 6, Capabilities::NO_COLOUR), "…연습");
-        assert_eq!(end_of("당구연습", 8, Capabilities::NO_COLOUR), "당구연습");
-        assert_eq!(end_of("runs", 2, Capabilities::ASCII), "..");
-        assert_eq!(beginning("e\u{301}e\u{301}", 1), "e\u{301}", "a letter keeps its accent");
+        assert_eq!(truncate_lines(wrap("당구 연습 쿠션", 9), 1, 9, Capabilities::NO_COLOUR), ["당구 연…"]);
+        assert_eq!(shorten_start("runs/당구연습", 6, Capabilities::NO_COLOUR), "…연습");
+        assert_eq!(shorten_start("당구연습", 8, Capabilities::NO_COLOUR), "당구연습");
+        assert_eq!(shorten_start("runs", 2, Capabilities::ASCII), "..");
+        assert_eq!(prefix_within("e\u{301}e\u{301}", 1), "e\u{301}", "a letter keeps its accent");
         assert_eq!(wrap(&family.repeat(2), 3), [family, family]);
     }
 
     proptest! {
         #[test]
-        fn no_line_is_wider_than_asked_and_nothing_is_lost_but_blanks(
+        fn wrapped_lines_fit_the_width_and_lose_only_blanks(
             text in "([a-z ]|[가-힣]|[\u{1f3b1}\u{301}\u{200d}\u{fe0f}\u{ff9e}]|\\PC){0,60}", width in 2..30_usize,
         ) {
             let lines = wrap(&text, width);
@@ -182,8 +182,8 @@ mod tests {
             }
             let letters = |text: &str| text.split_whitespace().collect::<String>();
             prop_assert_eq!(letters(&lines.concat()), letters(&text));
-            prop_assert!(columns(&end_of(&text, width, Capabilities::NO_COLOUR)) <= width);
-            prop_assert!(columns(beginning(&text, width)) <= width && columns(ending(&text, width)) <= width);
+            prop_assert!(columns(&shorten_start(&text, width, Capabilities::NO_COLOUR)) <= width);
+            prop_assert!(columns(prefix_within(&text, width)) <= width && columns(suffix_within(&text, width)) <= width);
             prop_assert!(columns(&shorten(&text, width, Capabilities::NO_COLOUR)) <= widest);
         }
     }

@@ -8,7 +8,7 @@ use crate::{
     physics::CueInputs,
     table::Table,
     terminal::{
-        ui::{Dot, Ink, Ui, draw_field, draw_title, face_in, field::Mark, spot_mark},
+        ui::{Ink, RoundSpot, Ui, draw_field, draw_title, face_in, field::Mark, spot_mark},
         words::fixed,
     },
 };
@@ -54,7 +54,7 @@ pub fn tip_rows(cue: &CueInputs, unit: TipUnit, radius: f64) -> [(&'static str, 
 
 /// Draws a ball's face with a spot at a position in ball radii, right and up; the face is grey beyond `limit`.
 pub fn draw_face(spot: Option<DVec2>, limit: Option<f64>, face: Rect, ui: &mut Ui) {
-    let spot = spot.map(|spot| Dot::new(spot, TIP_RADIUS, face, ui.caps));
+    let spot = spot.map(|spot| RoundSpot::new(spot, TIP_RADIUS, face, ui.caps));
     let ink = |color| Ink { color, weight: FACE_WEIGHT };
     draw_field(face, ui.theme.background, ui, |x, y, cell| {
         let radius = x.hypot(y);

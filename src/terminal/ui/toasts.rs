@@ -5,13 +5,13 @@ use std::collections::VecDeque;
 use crate::storage::without_error_numbers;
 
 /// Most toasts shown at once; a further one replaces the oldest.
-const SHOWN: usize = 3;
+const MAX_SHOWN: usize = 3;
 /// Most messages kept.
-const KEPT: usize = 200;
+const MAX_MESSAGES: usize = 200;
 /// Reading speed, characters per second, of slow readers.
-const READING: f64 = 15.0;
+const READING_SPEED: f64 = 15.0;
 /// Seconds until the user notices the answer to a key, and a toast that appears on its own.
-const LOOKING: (f64, f64) = (3.0, 8.0);
+const NOTICE_TIMES: (f64, f64) = (3.0, 8.0);
 
 /// A message shown for a limited time.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,9 +21,9 @@ pub struct Toast {
     /// Whether it answers a key: such a toast disappears with the next key that does something.
     is_answer: bool,
     /// Whether it is in the list of messages.
-    pub is_kept: bool,
+    pub is_listed: bool,
     /// Seconds until it disappears.
-    left: f64,
+    time_left: f64,
 }
 
 /// The toasts on the screen, and all earlier messages.
@@ -31,8 +31,8 @@ pub struct Toast {
 pub struct Toasts {
     /// Toasts on the screen, the oldest first.
     pub shown: Vec<Toast>,
-    past: VecDeque<String>,
-    unwritten: Vec<String>,
+    messages: VecDeque<String>,
+    unlogged: Vec<String>,
 }
 
 impl Toasts {
@@ -42,7 +42,7 @@ impl Toasts {
         // The list shows the newest first; adding them in reverse keeps their order.
         for text in more.iter().rev() {
             let text = without_error_numbers(text.clone());
-            if !self.past.contains(&text) {
+            if !self.messages.contains(&text) {
                 self.keep(text);
             }
         }
@@ -53,47 +53,47 @@ impl Toasts {
     /// Shows `text`; if it is already visible, restarts its time.
     pub fn push(&mut self, text: String, is_answer: bool) {
         let text = without_error_numbers(text);
-        let (answer, news) = LOOKING;
-        let left = text.chars().count() as f64 / READING + if is_answer { answer } else { news };
+        let (answer, unprompted) = NOTICE_TIMES;
+        let time_left = text.chars().count() as f64 / READING_SPEED + if is_answer { answer } else { unprompted };
         if let Some(known) = self.shown.iter_mut().find(|toast| toast.text == text) {
-            known.left = left;
+            known.time_left = time_left;
             return;
         }
-        if self.shown.len() == SHOWN {
+        if self.shown.len() == MAX_SHOWN {
             self.shown.remove(0);
         }
         self.keep(text.clone());
-        self.shown.push(Toast { text, is_answer, is_kept: true, left });
+        self.shown.push(Toast { text, is_answer, is_listed: true, time_left });
     }
 
     /// Shows an answer to a key without keeping it in the list.
     pub fn push_unlisted(&mut self, text: String) {
-        let left = text.chars().count() as f64 / READING + LOOKING.0;
-        self.shown.push(Toast { text, is_answer: true, is_kept: false, left });
+        let time_left = text.chars().count() as f64 / READING_SPEED + NOTICE_TIMES.0;
+        self.shown.push(Toast { text, is_answer: true, is_listed: false, time_left });
     }
 
     /// Adds a message to the list. Repetitions, as from a key that is held down, are added once.
     fn keep(&mut self, text: String) {
-        if self.past.front() == Some(&text) {
+        if self.messages.front() == Some(&text) {
             return;
         }
-        self.past.push_front(text.clone());
-        self.past.truncate(KEPT);
-        self.unwritten.push(text);
+        self.messages.push_front(text.clone());
+        self.messages.truncate(MAX_MESSAGES);
+        self.unlogged.push(text);
     }
 
     /// All kept messages, the newest first.
-    pub fn past(&self) -> impl ExactSizeIterator<Item = &str> {
-        self.past.iter().map(String::as_str)
+    pub fn messages(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.messages.iter().map(String::as_str)
     }
 
     /// Takes the messages since the last call, for the log.
-    pub fn take_unwritten(&mut self) -> Vec<String> {
-        std::mem::take(&mut self.unwritten)
+    pub fn take_unlogged(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.unlogged)
     }
 
     /// Removes the answers to keys: the user has gone on, so they have been read.
-    pub fn go_on(&mut self) {
+    pub fn dismiss_answers(&mut self) {
         self.shown.retain(|toast| !toast.is_answer);
     }
 
@@ -105,14 +105,14 @@ impl Toasts {
     /// Advances the time by `seconds`.
     pub fn tick(&mut self, seconds: f64) {
         self.shown.retain_mut(|toast| {
-            toast.left -= seconds;
-            toast.left > 0.0
+            toast.time_left -= seconds;
+            toast.time_left > 0.0
         });
     }
 
     /// Seconds until the next toast disappears; `None` if none is shown.
-    pub fn left(&self) -> Option<f64> {
-        self.shown.iter().map(|toast| toast.left).min_by(f64::total_cmp)
+    pub fn time_left(&self) -> Option<f64> {
+        self.shown.iter().map(|toast| toast.time_left).min_by(f64::total_cmp)
     }
 }
 
@@ -125,70 +125,70 @@ mod tests {
     }
 
     #[test]
-    fn what_is_said_again_and_again_is_kept_once() {
+    fn repeated_messages_are_listed_once() {
         let mut toasts = Toasts::default();
         for _ in 0..5 {
             toasts.push("white stops at the rail".to_owned(), true);
-            toasts.go_on();
+            toasts.dismiss_answers();
         }
         toasts.push("white stops at the rail".to_owned(), true);
         assert_eq!(texts(&toasts), ["white stops at the rail"], "it is shown all the same");
-        assert_eq!(toasts.past().len(), 1);
-        assert_eq!(toasts.take_unwritten().len(), 1);
+        assert_eq!(toasts.messages().len(), 1);
+        assert_eq!(toasts.take_unlogged().len(), 1);
     }
 
     #[test]
-    fn long_sentences_stay_longer_and_what_comes_by_itself_longer_than_answers() {
+    fn long_and_unprompted_toasts_stay_longer() {
         let time = |text: &str, is_answer| {
             let mut toasts = Toasts::default();
             toasts.push(text.to_owned(), is_answer);
-            toasts.left().unwrap()
+            toasts.time_left().unwrap()
         };
         assert!(time("no", true) > 3.0 && time("no", true) < time("no", false));
         assert!(time(&"word ".repeat(60), true) > 20.0, "300 letters");
     }
 
     #[test]
-    fn each_goes_in_its_time_and_answers_with_the_next_key() {
+    fn toasts_expire_and_answers_disappear_with_the_next_key() {
         let mut toasts = Toasts::default();
         toasts.push("there is nothing to take back".to_owned(), true);
         toasts.push("the disk is full".to_owned(), false);
-        toasts.tick(toasts.left().unwrap());
+        toasts.tick(toasts.time_left().unwrap());
         assert_eq!(texts(&toasts), ["the disk is full"]);
         toasts.push("there is no shot yet".to_owned(), true);
-        toasts.go_on();
+        toasts.dismiss_answers();
         assert_eq!(texts(&toasts), ["the disk is full"]);
         toasts.tick(60.0);
-        assert_eq!((texts(&toasts), toasts.left()), (Vec::new(), None));
-        assert_eq!(toasts.past().next(), Some("there is no shot yet"), "they can be read again");
+        assert_eq!((texts(&toasts), toasts.time_left()), (Vec::new(), None));
+        assert_eq!(toasts.messages().next(), Some("there is no shot yet"), "they can be read again");
     }
 
     #[test]
-    fn of_several_the_first_is_shown_and_each_is_kept_once() {
+    fn of_several_messages_the_first_is_shown_and_all_are_listed() {
         let mut toasts = Toasts::default();
         let sentences = ["line 1", "line 2", "line 3"].map(str::to_owned);
         for _ in 0..2 {
             toasts.push_first(&sentences);
         }
         assert_eq!(texts(&toasts), ["line 1; and 2 more: F6"]);
-        assert_eq!(toasts.past().collect::<Vec<_>>(), ["line 1; and 2 more: F6", "line 2", "line 3"]);
-        assert_eq!(toasts.take_unwritten().len(), 3);
+        assert_eq!(toasts.messages().collect::<Vec<_>>(), ["line 1; and 2 more: F6", "line 2", "line 3"]);
+        assert_eq!(toasts.take_unlogged().len(), 3);
         toasts.push_first(&sentences[2..]);
         assert_eq!(texts(&toasts)[1], "line 3", "alone there is nothing more");
     }
 
     #[test]
-    fn three_are_shown_the_same_once_and_all_of_them_are_written_down_once() {
+    fn at_most_three_distinct_toasts_are_shown_and_all_are_logged() {
         let mut toasts = Toasts::default();
         for text in ["one", "one", "two", "three", "four"] {
             toasts.push(text.to_owned(), false);
         }
         assert_eq!(texts(&toasts), ["two", "three", "four"]);
-        assert_eq!(toasts.take_unwritten(), ["one", "two", "three", "four"]);
-        assert!(toasts.take_unwritten().is_empty());
+        assert_eq!(toasts.take_unlogged(), ["one", "two", "three", "four"]);
+        assert!(toasts.take_unlogged().is_empty());
         for n in 0..300 {
             toasts.push(n.to_string(), false);
         }
-        assert_eq!(toasts.past().len(), KEPT);
+        assert_eq!(toasts.messages().len(), MAX_MESSAGES);
     }
 }

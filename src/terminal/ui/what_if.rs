@@ -6,7 +6,7 @@ use crate::{
     coach::Units,
     terminal::{
         shot::WhatIf,
-        ui::{Ui, draw_title, spell, write_paragraphs},
+        ui::{Ui, draw_title, to_displayable, write_paragraphs},
         words::percent,
     },
 };
@@ -17,18 +17,18 @@ pub fn draw_what_if(what_if: &WhatIf, advisor: &'static str, made: Option<f64>, 
     let mut title = vec![Span::styled("You", ui.theme.ball(0))];
     let own = match what_if.made {
         Some(rate) => format!(" {} %", percent(rate.rate)),
-        None if what_if.is_asked() => ui.caps.pick(" … %", " ... %").to_owned(),
+        None if what_if.is_rate_pending() => ui.caps.pick(" … %", " ... %").to_owned(),
         None => if what_if.is_made() { " make it" } else { " miss" }.to_owned(),
     };
     title.push(Span::styled(own, ui.theme.text()));
     if what_if.coach.is_some() {
         title.push(ui.dash());
-        title.push(Span::styled(advisor, ui.theme.text().fg(ui.theme.way_sign)));
+        title.push(Span::styled(advisor, ui.theme.text().fg(ui.theme.next_path_sign)));
     }
     title.extend(made.map(|made| Span::styled(format!(" {} %", percent(made)), ui.theme.text())));
     let inner = draw_title(title, area, ui);
     let outcome_style = if what_if.is_made() { ui.theme.good() } else { ui.theme.warning() };
-    let plain = |words: String| spell(&words, ui.caps);
+    let plain = |words: String| to_displayable(&words, ui.caps);
     let paragraphs = [
         (plain(what_if.outcome(cue_ball, units)), outcome_style),
         (plain(what_if.difference(advisor, made, cue_ball, units)), ui.theme.text()),

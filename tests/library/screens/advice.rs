@@ -7,7 +7,7 @@ use carom::{
     coach::{FirstContact, Skill},
     game::Rule,
     physics::CueInputs,
-    terminal::{CoachAnswer, CoachNews, CoachWorker, InfoPanel, Settings},
+    terminal::{CoachAnswer, CoachEvent, CoachWorker, InfoPanel, Settings},
 };
 use ratatui::{buffer::Buffer, style::Color};
 
@@ -48,13 +48,13 @@ fn an_answer_belongs_to_the_player_it_was_requested_for() {
     let mut player = Player::new().press("Enter");
     let job = player.advice_job.take().expect("the coach is asked");
     let so_far = proposal(&job.table, &job.layout, OTHER_SHOTS[0], 893);
-    player.app.receive(CoachAnswer { id: job.id, news: CoachNews::Better(so_far) });
+    player.app.receive(CoachAnswer { id: job.id, event: CoachEvent::Better(so_far) });
     assert!(player.app.coach.shot().is_some());
     let player = player.press("d p Esc");
     assert_eq!(job.query.skill, Skill::EXPERT);
     assert_ne!(player.app.coach.query.skill, Skill::EXPERT);
     assert!(player.app.coach.shot().is_none(), "the best shot so far is an expert's");
-    let player = player.tell(job.id, CoachNews::Advice(advice(&job)));
+    let player = player.tell(job.id, CoachEvent::Advice(advice(&job)));
     assert!(player.analysis_job.is_none() && player.app.coach.shot().is_none());
     player.says("this answer is for expert; Enter asks for");
     // The shot is kept for the player for whom it was found.
@@ -119,7 +119,7 @@ fn an_analysis_is_stored_with_the_shot_it_belongs_to() {
     let study = other.analysis_job.clone().unwrap();
     let now = set(&other);
     other.app.coach.apply_changed_settings(&now, &before).unwrap();
-    let player = other.tell(study.id, CoachNews::Next(None));
+    let player = other.tell(study.id, CoachEvent::Next(None));
     let is_studied = |player: &Player| player.app.coach.current_advice().map(|advised| advised.choice().is_studied);
     assert_eq!(is_studied(&player), Some(false), "the analysis belongs to another answer");
     let mut player = player;
@@ -245,23 +245,23 @@ fn a_failed_analysis_is_reported() {
     let mut player = Player::new().press("Enter").answer().press("v v");
     player.shows(&["being computed"]);
     let id = player.analysis_job.take().unwrap().id;
-    let failed = player.tell(id, CoachNews::Next(None));
+    let failed = player.tell(id, CoachEvent::Next(None));
     failed.shows(&["could not be computed"]).does_not_show("being computed");
     failed.press("v").shows(&["stop could not be computed", "next could not be computed"]);
 }
 
 #[test]
 fn the_real_coach_reports_progress_then_advice_then_next_shot() {
-    let mut worker = CoachWorker::unhurried(30_000);
+    let mut worker = CoachWorker::with_simulation_limit(30_000);
     let mut player = Player::new().press("Enter");
     let job = player.advice_job.clone().unwrap();
     let mut answers = Vec::new();
     worker.answer(&job, |answer| answers.push(answer));
     assert!(
-        answers.len() > 1 && answers[..answers.len() - 1].iter().all(|one| matches!(one.news, CoachNews::Better(_)))
+        answers.len() > 1 && answers[..answers.len() - 1].iter().all(|one| matches!(one.event, CoachEvent::Better(_)))
     );
-    for CoachAnswer { id, news } in answers {
-        player = player.tell(id, news);
+    for CoachAnswer { id, event } in answers {
+        player = player.tell(id, event);
     }
     let best = player.app.coach.proposal().unwrap().clone();
     assert!(best.shot.solved && best.made.is_some_and(|made| made.rate > 0.8) && best.next.is_some());
@@ -269,8 +269,8 @@ fn the_real_coach_reports_progress_then_advice_then_next_shot() {
     let mut answers = Vec::new();
     worker.answer(&job, |answer| answers.push(answer));
     assert_eq!(answers.len(), 3, "why it leads, the closer look, and the next shot");
-    for CoachAnswer { id, news } in answers {
-        player = player.tell(id, news);
+    for CoachAnswer { id, event } in answers {
+        player = player.tell(id, event);
     }
     assert!(player.text(120, 40).contains("Why: shot 2 ("), "{}", player.text(120, 40));
     let player = player.press("n");
@@ -279,16 +279,17 @@ fn the_real_coach_reports_progress_then_advice_then_next_shot() {
     let mut answers = Vec::new();
     job.cancel.store(true, Ordering::Relaxed);
     worker.answer(&job, |answer| answers.push(answer));
-    assert!(matches!(&answers[..], [CoachAnswer { news: CoachNews::Next(None), .. }]));
+    assert!(matches!(&answers[..], [CoachAnswer { event: CoachEvent::Next(None), .. }]));
 }
 
 #[test]
 fn a_perfect_player_gets_the_first_point_found() {
     let player = Player::new().press("S S S S S Enter");
     let mut answers = Vec::new();
-    CoachWorker::unhurried(30_000).answer(&player.advice_job.clone().unwrap(), |answer| answers.push(answer));
-    let [CoachAnswer { news: CoachNews::Advice(advice), .. }] = &answers[..] else { panic!("{answers:?}") };
+    CoachWorker::with_simulation_limit(30_000)
+        .answer(&player.advice_job.clone().unwrap(), |answer| answers.push(answer));
+    let [CoachAnswer { event: CoachEvent::Advice(advice), .. }] = &answers[..] else { panic!("{answers:?}") };
     assert!(advice.effort.unwrap().simulations < 1000 && advice.proposals[0].shot.solved);
-    let player = answers.into_iter().fold(player, |player, CoachAnswer { id, news }| player.tell(id, news));
+    let player = answers.into_iter().fold(player, |player, CoachAnswer { id, event }| player.tell(id, event));
     assert!(player.text(80, 24).contains("makes the point (networks"), "{}", player.text(80, 24));
 }

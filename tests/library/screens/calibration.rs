@@ -146,7 +146,7 @@ fn an_entered_stroke_is_saved_and_updates_the_estimates() {
 fn invalid_marks_are_named_and_remain_editable() {
     let player = new().press("Enter").type_in("9.6").press("Enter").type_in("99").press("Enter");
     player.warns("slow-roll: stop = 99: no ball can be there; accepted is 0 to 8 diamonds");
-    assert_eq!(player.app.place(), KeyContext::Calibration(CalibrationContext::Marks));
+    assert_eq!(player.app.key_context(), KeyContext::Calibration(CalibrationContext::Marks));
     assert!(saved_entries(&player).trials.is_empty());
     let player = player.press("Backspace Backspace").type_in("5.4").press("Enter Enter Enter");
     assert_eq!(saved_entries(&player).trials[0].field_text("stop"), "5.4");
@@ -164,7 +164,7 @@ fn invalid_marks_are_named_and_remain_editable() {
     assert_eq!(saved_entries(&taped).trials[0].field_text("stop"), "5.4 ~ 5 mm");
     let left = new().press("Enter").type_in("9").press("Esc");
     assert_eq!(
-        (left.app.place(), saved_entries(&left)),
+        (left.app.key_context(), saved_entries(&left)),
         (KeyContext::Calibration(CalibrationContext::Tests), Entries::default())
     );
 }
@@ -285,7 +285,7 @@ fn a_table_is_saved_selected_and_checked_daily() {
     let elsewhere = elsewhere.press("F7");
     elsewhere.shows(&["slow-roll"]);
     assert!(elsewhere.app.calibration.draft().is_some_and(|draft| draft.is_daily));
-    assert_eq!(elsewhere.app.place(), KeyContext::Calibration(CalibrationContext::Tests));
+    assert_eq!(elsewhere.app.key_context(), KeyContext::Calibration(CalibrationContext::Tests));
     let player = player.press("F7 C-u Esc");
     let checked = enter(player, &["4.6", "7.4", "3.2", ""]).press("Tab");
     checked.says("today a lag rolls");
@@ -325,7 +325,7 @@ fn a_stroke_can_be_entered_before_the_file_was_read() {
     player.app.handle(&key("F7"));
     player.app.handle(&key("Enter"));
     player.warns_nothing();
-    assert_eq!(player.app.place(), KeyContext::Calibration(CalibrationContext::Marks));
+    assert_eq!(player.app.key_context(), KeyContext::Calibration(CalibrationContext::Marks));
     let player = ROLL.iter().fold(player, |player, mark| player.type_in(mark).press("Enter"));
     assert_eq!(saved_entries(&player).trials.len(), 1);
 }
@@ -358,7 +358,7 @@ fn partly_typed_strokes_are_restored_at_the_next_start() {
     later.warns_nothing();
     let next = next.press("F7");
     assert!(!next.text(80, 24).contains("typed in part"), "the notice would cover the form");
-    assert_eq!(next.app.place(), KeyContext::Calibration(CalibrationContext::Marks));
+    assert_eq!(next.app.key_context(), KeyContext::Calibration(CalibrationContext::Marks));
     assert_eq!(next.app.calibration.draft(), draft);
     let next = next.type_in(".4").press("Enter").type_in("725 mm").press("Enter Enter");
     assert_eq!(saved_entries(&next), saved_entries(&enter(new(), &ROLL)), "as if it had been typed at once");

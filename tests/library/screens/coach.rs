@@ -13,7 +13,7 @@ use carom::{
     coach::{Difference, Kiss, Skill, Why},
     physics::CueInputs,
     table::CueBall,
-    terminal::{Advice, CoachNews, Effect, Effort, PageId, Proposal, Shot},
+    terminal::{Advice, CoachEvent, Effect, Effort, PageId, Proposal, Shot},
 };
 use glam::DVec2;
 use proptest::prelude::*;
@@ -129,7 +129,7 @@ fn long_cue_ball_courses_are_complete_at_80_columns() {
             let (words, units) = (shot.shot.words.clone(), player.app.coach.units);
             assert!(words.between.len() >= 5, "{cue}: {words:?}");
             let advice = Advice { proposals: vec![shot], seed: 1, effort: None, found: None };
-            let text = player.tell(job.id, CoachNews::Advice(advice)).text(80, 24);
+            let text = player.tell(job.id, CoachEvent::Advice(advice)).text(80, 24);
             let rows: Vec<&str> = text.lines().map(|row| row.trim_matches(['"', ' '])).collect();
             let way = words.short_course(CueBall::White, units);
             assert!(rows.join(" ").contains(way.trim_end_matches('.')), "{way}\n{text}");
@@ -157,7 +157,7 @@ fn reasons_are_shown_and_the_likely_kiss_is_marked() {
     for caps in [TRUE_COLOUR, NO_COLOUR, ASCII] {
         let mut player = Player::with(caps).press("Enter").answer();
         let job = player.analysis_job.take().unwrap();
-        let player = player.tell(job.id, CoachNews::Why(Box::new(why.clone())));
+        let player = player.tell(job.id, CoachEvent::Why(Box::new(why.clone())));
         let text = player.text(120, 40);
         // Its lines may break anywhere; the last words are present.
         assert!(text.contains("Why: shot 2 (") && text.contains("80 %."), "{text}");
@@ -229,7 +229,7 @@ fn a_recommended_miss_is_labelled_as_best_attempt() {
     let attempt = Proposal { shot: Arc::new(shot), made: None, risk: None, next: None, is_early: false };
     let effort = Some(Effort { simulations: 4321, elapsed: Duration::from_secs(2) });
     let player =
-        player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![attempt], seed: 1, effort, found: None }));
+        player.tell(job.id, CoachEvent::Advice(Advice { proposals: vec![attempt], seed: 1, effort, found: None }));
     assert!(player.text(120, 40).contains("Contacts 0/"));
     assert!(player.text(80, 24).contains("no point found in 4321 simulations; this is the best attempt"));
 }
@@ -238,7 +238,7 @@ fn a_recommended_miss_is_labelled_as_best_attempt() {
 fn a_refusal_of_the_coach_is_shown_verbatim() {
     let mut player = Player::new().press("Enter");
     let job = player.advice_job.take().unwrap();
-    let player = player.tell(job.id, CoachNews::Refused("the weights file is corrupt".to_owned()));
+    let player = player.tell(job.id, CoachEvent::Refused("the weights file is corrupt".to_owned()));
     player.warns("the weights file is corrupt");
 }
 
@@ -405,7 +405,7 @@ proptest! {
                 player = player.answer();
             }
             if let Some(job) = player.analysis_job.take_if(|_| key % 5 == 0) {
-                player = player.tell(job.id, CoachNews::Next(Some(advice(&job))));
+                player = player.tell(job.id, CoachEvent::Next(Some(advice(&job))));
             }
         }
         prop_assert!(player.app.coach.layout().validate(player.app.coach.table()).is_ok());
@@ -470,7 +470,7 @@ fn a_pending_analysis_restarts_when_the_page_is_reopened() {
     let skill = player.app.coach.query.skill;
     player.app.coach.set_skill(Skill::CLUB);
     // Meanwhile, news from the coach arrives and ends the analysis of a shot that is not shown.
-    let mut player = player.tell(0, CoachNews::Refused(String::new()));
+    let mut player = player.tell(0, CoachEvent::Refused(String::new()));
     player.app.coach.set_skill(skill);
     player.analysis_job = None;
     assert!(player.press("F5 F2").analysis_job.is_some());

@@ -33,14 +33,14 @@ fn a_left_match_can_be_resumed_at_the_next_start() {
     let left = Player::practising(TRUE_COLOUR).press("o o o Left Enter Enter Esc");
     left.says("the match is kept; Enter on the exercise goes on with it, c on the coach's page at the next start");
     let left = left.press("Esc");
-    assert_eq!(left.app.place(), KeyContext::Coach);
+    assert_eq!(left.app.key_context(), KeyContext::Coach);
     let last = left.app.saved_session().unwrap();
     assert!(last.practice.as_ref().is_some_and(|practice| practice.is_match() && practice.attempts.len() == 1));
     let mut next = Player::new();
     next.app = next.app.with_saved_session(Some(last));
     next.says("c goes on with the match of the last session");
     let on = next.press("c");
-    assert_eq!(on.app.place(), KeyContext::Drill(DrillContext::Exercise));
+    assert_eq!(on.app.key_context(), KeyContext::Drill(DrillContext::Exercise));
     assert_eq!(on.app.drills.turn.as_ref().unwrap().session.attempts.len(), 1);
     // An exercise that is open meanwhile does not replace it.
     let other = Player::practising(TRUE_COLOUR).press("o o o Left Enter Enter Esc 0 Home Enter F2");
@@ -73,9 +73,9 @@ fn an_empty_search_offers_other_categories() {
     assert!(elsewhere > 1, "{elsewhere}");
     found.shows(&[": \"natural\"", "Esc end search"]);
     let all = found.press("Esc");
-    assert_eq!(all.app.place(), KeyContext::Drill(DrillContext::Library));
+    assert_eq!(all.app.key_context(), KeyContext::Drill(DrillContext::Library));
     all.says("All ").does_not_show("\"natural\"");
-    assert_eq!(all.press("Esc").app.place(), KeyContext::Coach);
+    assert_eq!(all.press("Esc").app.key_context(), KeyContext::Coach);
 }
 
 #[test]

@@ -63,7 +63,7 @@ fn every_bundled_exercise_is_listed_and_can_be_opened() {
         let ends = [&exercise.point, "world-class", "you: not tried yet"];
         assert!(ends.into_iter().all(|words| beside.contains(words)), "{}: {beside}", exercise.name);
         player = player.press("Enter");
-        assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Exercise), "{}", exercise.name);
+        assert_eq!(player.app.key_context(), KeyContext::Drill(DrillContext::Exercise), "{}", exercise.name);
         player.says("set the stroke and play it");
         player = player.press("Esc Down");
     }
@@ -74,7 +74,7 @@ fn the_search_filters_while_typing() {
     let player = Player::at_library(TRUE_COLOUR, &many_positions(), &[]).press("Left /").type_in("number 17");
     check("search", &player);
     let found = player.press("Enter");
-    assert_eq!(found.app.place(), KeyContext::Drill(DrillContext::Library));
+    assert_eq!(found.app.key_context(), KeyContext::Drill(DrillContext::Library));
     found.says("Position number 17").does_not_show("Position number 18");
     let none = found.press("/").type_in("zzz");
     none.says("No exercise matches. 0 lists all.");
@@ -268,14 +268,14 @@ fn an_exam_has_twenty_exercises_and_a_grade() {
         row.find(" of 20").map(|at| row[..at].chars().count())
     });
     assert!(ends.iter().all(|end| *end == ends[0]), "{ends:?}\n{text}");
-    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Result));
+    assert_eq!(player.app.key_context(), KeyContext::Drill(DrillContext::Result));
     assert_eq!(player.store().sessions().items[0].attempts.len(), 20);
     let left = player.press("Enter e Enter Space Space Enter Enter Esc");
     left.says("leave the exam after 1 of 20 exercises?");
     let stays = left.press("n c");
-    assert_eq!(stays.app.place(), KeyContext::Drill(DrillContext::Exercise), "the coach would give the answer");
+    assert_eq!(stays.app.key_context(), KeyContext::Drill(DrillContext::Exercise), "the coach would give the answer");
     stays.says("an exam is under way");
-    assert_eq!(stays.press("Esc y").app.place(), KeyContext::Drill(DrillContext::Library));
+    assert_eq!(stays.press("Esc y").app.key_context(), KeyContext::Drill(DrillContext::Library));
 }
 
 #[test]
@@ -334,7 +334,7 @@ fn a_truncated_code_is_refused_and_remains_editable() {
     player.app.paste(&code[..code.len() - 3]);
     let refused = player.press("Enter");
     refused.shows(&["paste or type the code of a position:", "to its end", "Enter take it"]);
-    assert_eq!(refused.app.place(), KeyContext::Question { is_typed: true });
+    assert_eq!(refused.app.key_context(), KeyContext::Question { is_typed: true });
     let mended = refused.type_in(&code[code.len() - 3..]).press("Enter");
     mended.says("saved as opening");
 }
@@ -387,9 +387,9 @@ fn an_exercise_can_be_opened_at_the_coach() {
     let player = Player::practising(TRUE_COLOUR).press("x Space Space Enter Enter");
     let layout = player.app.drills.turn.as_ref().unwrap().layout;
     let coach = player.press("c");
-    assert_eq!((coach.app.place(), *coach.app.coach.layout()), (KeyContext::Coach, layout));
+    assert_eq!((coach.app.key_context(), *coach.app.coach.layout()), (KeyContext::Coach, layout));
     // The exercise is still open.
-    assert_eq!(coach.press("d").app.place(), KeyContext::Drill(DrillContext::Exercise));
+    assert_eq!(coach.press("d").app.key_context(), KeyContext::Drill(DrillContext::Exercise));
     let from_list = Player::at_library(TRUE_COLOUR, &[exercise("opening", "x")], &[]).press("Left c");
     assert_eq!(*from_list.app.coach.layout(), exercise("opening", "x").layout);
     assert_eq!(Player::practising(TRUE_COLOUR).press("p").app.drills.player.skill, Skill::WORLD_CLASS);
@@ -489,7 +489,7 @@ fn advice_requests_have_unique_ids_and_the_current_skill() {
         });
         asked.expect("the coach is asked")
     };
-    let other = position(player.app.receive_drill(DrillReport::SkillKept(Skill::BEGINNER, Ok(()))));
+    let other = position(player.app.receive_drill(DrillReport::SkillSaved(Skill::BEGINNER, Ok(()))));
     assert_eq!(other.1, Skill::BEGINNER);
     let mut player = player.press("Esc");
     let again = position(requested_tasks(&mut player, "Enter"));

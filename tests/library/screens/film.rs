@@ -33,7 +33,7 @@ fn white_distance_cm(player: &Player) -> f64 {
 #[test]
 fn the_list_of_filmed_shots() {
     let player = list(TRUE_COLOUR);
-    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films));
+    assert_eq!(player.app.key_context(), KeyContext::Drill(DrillContext::Films));
     check("film_list", &player);
     let end = list(ASCII).press("End");
     end.is_plain().shows(&["> shot 180  point    3.2    13.8", "Shot 180, point", "91 shots of a match, 21 points"]);
@@ -44,7 +44,7 @@ fn the_list_of_filmed_shots() {
 #[test]
 fn a_filmed_shot_and_its_simulation_move_together() {
     let player = watching(TRUE_COLOUR);
-    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Film));
+    assert_eq!(player.app.key_context(), KeyContext::Drill(DrillContext::Film));
     assert!(player.app.frame_interval().is_some(), "it plays at once");
     let early = player.wait(1.5);
     early.says("within the fitted 2 s");
@@ -82,7 +82,7 @@ fn shots_are_stepped_through_and_a_late_fit_is_dropped() {
     player.says("filmed shot 0").says("this is the first filmed shot");
     list(TRUE_COLOUR).press("End Enter ]").says("filmed shot 180").says("this is the last filmed shot");
     let mut player = player.press("Esc");
-    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films));
+    assert_eq!(player.app.key_context(), KeyContext::Drill(DrillContext::Films));
     // Two requests are made before the first one is answered.
     let ask = |player: &mut Player, word: &str| match player.app.handle(&key(word)) {
         Some(Effect::Drill(tasks)) => tasks,
@@ -121,10 +121,14 @@ fn film_playback_has_event_steps_and_esc_leads_back() {
     let player = player.press("+ Space").wait(0.1).press("Esc");
     assert_eq!(player.app.frame_interval(), None, "nobody watches");
     let player = player.press("Esc");
-    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Library));
+    assert_eq!(player.app.key_context(), KeyContext::Drill(DrillContext::Library));
     let player = player.press("F2 f");
-    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films), "from the coach's table as well");
+    assert_eq!(player.app.key_context(), KeyContext::Drill(DrillContext::Films), "from the coach's table as well");
     let player = player.press("Enter F2 f");
-    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Films), "the page is not opened on top of itself");
+    assert_eq!(
+        player.app.key_context(),
+        KeyContext::Drill(DrillContext::Films),
+        "the page is not opened on top of itself"
+    );
     player.press("Esc").says("choose an exercise");
 }

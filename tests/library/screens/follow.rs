@@ -3,7 +3,7 @@
 use carom::{
     storage::{Lock, Player as Name},
     table::{Layout, Table},
-    terminal::{App, Doing, Effect, KeyContext, Onlooker, Seat, Seen, ShownTable},
+    terminal::{Activity, App, Effect, FollowedTableState, KeyContext, Seat, SharedTable, TableWatcher},
 };
 use ratatui::{Terminal, backend::TestBackend};
 
@@ -17,16 +17,16 @@ fn anna() -> Player {
     let mut player = Player::new();
     let app = App::new(Table::default(), Layout::opening(&Table::default()), TRUE_COLOUR, 7).unwrap();
     let name: Name = "anna".parse().unwrap();
-    player.app = app.with_seat(&Seat { player: Some(name), places: places("/anna".as_ref()), is_guest: false });
+    player.app = app.with_seat(&Seat { player: Some(name), paths: places("/anna".as_ref()), is_guest: false });
     player
 }
 
 /// Returns what a spectator sees.
-fn seen(shown: &ShownTable) -> Seen {
+fn seen(shown: &SharedTable) -> FollowedTableState {
     let folder = tempfile::tempdir().unwrap();
     let _lock = Lock::try_acquire(folder.path()).unwrap();
     shown.write(folder.path()).unwrap();
-    Onlooker::new(folder.path().to_owned()).look().unwrap()
+    TableWatcher::new(folder.path().to_owned()).poll().unwrap()
 }
 
 fn following(caps: carom::terminal::Capabilities) -> App {
@@ -45,22 +45,22 @@ fn picture(app: &mut App, (width, height): (u16, u16)) -> String {
 #[test]
 fn a_table_is_shown_only_on_request_with_a_notice() {
     let player = anna().press("Right Enter").answer();
-    assert!(player.app.shown_table().is_none());
+    assert!(player.app.shared_table().is_none());
     let player = player.press("F");
     player.says("shown to others: carom follow anna shows this table");
     let player = player.press("Esc Right");
     player.says("shown to others: white at x");
-    assert_eq!(player.app.shown_table().unwrap().doing, Doing::Placing);
+    assert_eq!(player.app.shared_table().unwrap().doing, Activity::Placing);
     let player = player.press("Enter");
-    assert_eq!(player.app.shown_table().unwrap().doing, Doing::Thinking);
+    assert_eq!(player.app.shared_table().unwrap().doing, Activity::Thinking);
     let player = player.answer().press("w l");
-    assert!(player.app.shown_table().unwrap().shot.is_some());
+    assert!(player.app.shared_table().unwrap().shot.is_some());
     let player = player.press("F3");
-    assert_eq!(player.app.shown_table().unwrap().doing, Doing::Elsewhere);
+    assert_eq!(player.app.shared_table().unwrap().doing, Activity::Elsewhere);
     let player = player.press("F2 F");
-    assert!(player.app.shown_table().is_none());
+    assert!(player.app.shared_table().is_none());
     let nameless = Player::new().press("F");
-    assert!(nameless.app.shown_table().is_none());
+    assert!(nameless.app.shared_table().is_none());
     assert!(nameless.app.toasts.shown[0].text.contains("carom --player NAME"));
 }
 
@@ -71,10 +71,10 @@ fn a_spectator_sees_the_same_table_and_cannot_change_it() {
         let mut app = following(caps);
         let before = picture(&mut app, (80, 24));
         assert!(before.contains("anna shows no table at the moment") && before.contains("q ends it"), "{before}");
-        let shown = player.app.shown_table().unwrap();
+        let shown = player.app.shared_table().unwrap();
         app.coach.receive_shared(seen(&shown));
         assert_eq!(
-            (app.place(), app.coach.layout(), app.saved_session()),
+            (app.key_context(), app.coach.layout(), app.saved_session()),
             (KeyContext::Follow, player.app.coach.layout(), None)
         );
         for size in SIZES {
@@ -91,13 +91,13 @@ fn a_spectator_sees_the_same_table_and_cannot_change_it() {
             assert!(effect.is_none(), "{pressed}: {effect:?}");
         }
         app.paste("-0.5,0 0,0 0.5,0.03");
-        assert_eq!((app.place(), app.coach.layout()), (KeyContext::Follow, player.app.coach.layout()));
-        assert!(!app.coach.playback.playing && app.shown_table().is_none());
+        assert_eq!((app.key_context(), app.coach.layout()), (KeyContext::Follow, player.app.coach.layout()));
+        assert!(!app.coach.playback.playing && app.shared_table().is_none());
     }
     insta::assert_snapshot!(picture(
         &mut {
             let mut app = following(TRUE_COLOUR);
-            app.coach.receive_shared(seen(&player.app.shown_table().unwrap()));
+            app.coach.receive_shared(seen(&player.app.shared_table().unwrap()));
             app
         },
         (80, 24)
@@ -108,17 +108,17 @@ fn a_spectator_sees_the_same_table_and_cannot_change_it() {
 fn a_followed_shot_plays_and_disappears_with_the_table() {
     let player = anna().press("F Enter").answer().press("Space");
     let mut app = following(TRUE_COLOUR);
-    app.coach.receive_shared(seen(&player.app.shown_table().unwrap()));
+    app.coach.receive_shared(seen(&player.app.shared_table().unwrap()));
     assert!(app.coach.playback.playing && app.frame_interval().is_some());
     app.tick(0.5);
     assert!(app.coach.playback.time >= 0.5);
     let player = player.press("End");
-    app.coach.receive_shared(seen(&player.app.shown_table().unwrap()));
+    app.coach.receive_shared(seen(&player.app.shared_table().unwrap()));
     let there = picture(&mut app, (80, 24));
     assert!(!app.coach.playback.playing && there.contains("oint"), "{there}");
-    app.coach.receive_shared(Seen::Nothing);
+    app.coach.receive_shared(FollowedTableState::Nothing);
     assert!(picture(&mut app, (80, 24)).contains("anna shows no table at the moment"));
-    app.coach.receive_shared(Seen::Damaged);
+    app.coach.receive_shared(FollowedTableState::Damaged);
     let there = picture(&mut app, (80, 24));
     assert!(there.contains("cannot be read") && app.frame_interval().is_none(), "{there}");
     assert!(app.handle(&key("q")).is_some_and(|effect| matches!(effect, Effect::Quit)));

@@ -66,9 +66,9 @@ fn in_what_if_mode_the_wheel_changes_speed_and_dragging_leaves() {
     let (before, start) = (player.app.coach.playback.speed(), *player.app.coach.layout());
     let cell = mapping().to_cell(start.balls[0]);
     let player = player.send_mouse(MouseEventKind::ScrollUp, cell);
-    assert!(player.app.coach.playback.speed() > before && player.app.place() == KeyContext::OwnStroke);
+    assert!(player.app.coach.playback.speed() > before && player.app.key_context() == KeyContext::OwnStroke);
     let player = player.send_mouse(PRESS, cell);
-    assert_eq!((player.app.place(), *player.app.coach.layout()), (KeyContext::Coach, start));
+    assert_eq!((player.app.key_context(), *player.app.coach.layout()), (KeyContext::Coach, start));
     let player = player.send_mouse(DRAG, (cell.0 + 8, cell.1)).send_mouse(RELEASE, (cell.0 + 8, cell.1));
     assert!(player.app.coach.layout().balls[0].x > start.balls[0].x + 0.1);
     assert_eq!(*player.press("u").app.coach.layout(), start);

@@ -17,7 +17,7 @@ use carom::{
     storage::DataPaths,
     table::{Layout, Table},
     terminal::{
-        Advice, AdviceTask, App, Capabilities, CoachAnswer, CoachJob, CoachNews, CoachWorker, DrillReport, DrillTask,
+        Advice, AdviceTask, App, Capabilities, CoachAnswer, CoachEvent, CoachJob, CoachWorker, DrillReport, DrillTask,
         Effect, FollowSlot, ModelShot, PracticeWorker, Proposal, Reel, Settings, SettingsFile, Shot, TrainingReport,
     },
 };
@@ -107,7 +107,7 @@ impl Player {
         let app = App::new(table.clone(), Layout::opening(table), caps, 7).unwrap();
         let told = DataPaths { settings: "/home/player/.config/carom/config.toml".into(), ..places(folder.path()) };
         Self {
-            app: app.with_places(told).with_settings(&settings).with_complaints(&file, &complaints),
+            app: app.with_paths(told).with_settings(&settings).with_complaints(&file, &complaints),
             advice_job: None,
             analysis_job: None,
             success_rate_job: None,
@@ -219,13 +219,13 @@ impl Player {
 impl Player {
     fn run_effect(&mut self, effect: Effect) {
         match effect {
-            Effect::Ask(job) if job.stroke.is_some() => self.success_rate_job = Some(job),
-            Effect::Ask(job) if job.shot.is_some() => self.analysis_job = Some(job),
-            Effect::Ask(job) => self.advice_job = Some(job),
+            Effect::AskCoach(job) if job.stroke.is_some() => self.success_rate_job = Some(job),
+            Effect::AskCoach(job) if job.shot.is_some() => self.analysis_job = Some(job),
+            Effect::AskCoach(job) => self.advice_job = Some(job),
             Effect::Copy(text) => self.copied.push(text),
             Effect::Drill(tasks) => self.run(tasks),
             Effect::Settings(mut task) => {
-                task.places.settings = self.path("config.toml");
+                task.paths.settings = self.path("config.toml");
                 let report = self.settings.run(&task);
                 if let Some(effect) = self.app.receive_settings(report) {
                     self.run_effect(effect);
@@ -260,8 +260,8 @@ impl Player {
         }
     }
 
-    pub fn tell(mut self, id: u64, news: CoachNews) -> Self {
-        if let Some(effect) = self.app.receive(CoachAnswer { id, news }) {
+    pub fn tell(mut self, id: u64, event: CoachEvent) -> Self {
+        if let Some(effect) = self.app.receive(CoachAnswer { id, event }) {
             self.run_effect(effect);
         }
         self
@@ -271,14 +271,14 @@ impl Player {
     pub fn answer(mut self) -> Self {
         let job = self.advice_job.take().expect("the coach was asked");
         let advice = advice(&job);
-        self.tell(job.id, CoachNews::Advice(advice))
+        self.tell(job.id, CoachEvent::Advice(advice))
     }
 
     /// Lets the coach report this shot as the best so far, with `made` of 1000 attempts.
     pub fn report_better(self, cue: &str, made: usize) -> Self {
         let job = self.advice_job.clone().expect("the coach was asked");
         let so_far = proposal(&job.table, &job.layout, cue, made);
-        self.tell(job.id, CoachNews::Better(Proposal { is_early: true, ..so_far }))
+        self.tell(job.id, CoachEvent::Better(Proposal { is_early: true, ..so_far }))
     }
 
     /// Runs the analysis of the displayed shot with the real coach, except for the next shot, which is [`NEXT_SHOT`].
@@ -286,15 +286,15 @@ impl Player {
         // Even if the result is no longer awaited.
         let job = CoachJob { cancel: Arc::default(), ..*self.analysis_job.take().expect("a closer look is wanted") };
         let mut study = None;
-        CoachWorker::unhurried(1).answer(&job, |answer| {
-            if let CoachNews::Study(found) = answer.news {
+        CoachWorker::with_simulation_limit(1).answer(&job, |answer| {
+            if let CoachEvent::Analysis(found) = answer.event {
                 study = Some(found);
             }
         });
         let end = self.app.coach.shot().unwrap().recording.final_layout();
         let next = proposal(&job.table, &end, NEXT_SHOT, 1000);
-        self.tell(job.id, CoachNews::Study(study.unwrap()))
-            .tell(job.id, CoachNews::Next(Some(Advice { proposals: vec![next], seed: 1, effort: None, found: None })))
+        self.tell(job.id, CoachEvent::Analysis(study.unwrap()))
+            .tell(job.id, CoachEvent::Next(Some(Advice { proposals: vec![next], seed: 1, effort: None, found: None })))
     }
 
     pub fn report(mut self, report: TrainingReport) -> Self {

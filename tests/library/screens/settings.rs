@@ -104,7 +104,7 @@ fn user_tables_are_selected_by_key_or_name() {
 fn a_typed_value_is_checked_and_remains_editable() {
     let player = new().press("Down Down Down Down Down Down Down Down Down Enter").type_in("5");
     player.shows(&["think_ms = 5", "Accepted: 10 to 60000.", "Enter take it"]);
-    assert_eq!(player.app.place(), KeyContext::Question { is_typed: true });
+    assert_eq!(player.app.key_context(), KeyContext::Question { is_typed: true });
     let player = player.press("Enter");
     player.says("think_ms = 5; accepted is 10 to 60000");
     check("refused", &player);
@@ -222,7 +222,7 @@ fn session_themes_and_glyphs_are_shown() {
 fn every_error_in_the_file_is_listed_in_the_messages() {
     let player = with(TRUE_COLOUR, "speed = 9.5\nskill = 3\ntempo = 1\n");
     assert!(player.has_toast("speed = 9.5") && player.has_toast("; and 2 more: F6"));
-    let past: Vec<&str> = player.app.toasts.past().collect();
+    let past: Vec<&str> = player.app.toasts.messages().collect();
     assert_eq!(past.len(), 3, "{past:?}");
     assert!(past[1].contains("skill = 3") && past[2].contains("tempo"), "{past:?}");
 }
@@ -252,7 +252,7 @@ fn a_key_is_remapped_and_reset() {
     let plain = with(ASCII, own).press("Tab Right Right");
     plain.is_plain().shows(&["Keys < "]);
     let asked = player.press("Enter");
-    assert_eq!(asked.app.place(), KeyContext::Settings(SettingsContext::Pressing));
+    assert_eq!(asked.app.key_context(), KeyContext::Settings(SettingsContext::Pressing));
     asked.says("press the key that should do this: move the ball left by one step");
     let refused = asked.press("Enter");
     refused.says("Enter cannot be changed");
@@ -352,7 +352,7 @@ proptest! {
         let mut player = with(TRUE_COLOUR, "# mine\nodd = 1\nplan = false # behind\n[keys]\n\"Hyper-x\" = \"q\"\n");
         for index in keys {
             // The key that ends the program is excluded.
-            if KEYS[index] != "q" || player.app.place() == KeyContext::Settings(SettingsContext::Pressing) {
+            if KEYS[index] != "q" || player.app.key_context() == KeyContext::Settings(SettingsContext::Pressing) {
                 player.event(&key(KEYS[index]));
             }
             // Another key may have been bound to that action.

@@ -2,7 +2,7 @@
 
 use carom::{
     drills::Library,
-    terminal::{Advice, CoachNews},
+    terminal::{Advice, CoachEvent},
 };
 
 use super::player::{ASCII, Player, proposal};
@@ -16,7 +16,7 @@ fn advised(player: Player, balls: &str, words: &str) -> Player {
     let job = player.advice_job.take().expect("the coach was asked");
     let best = proposal(&job.table, &job.layout, words, 900);
     player
-        .tell(job.id, CoachNews::Advice(Advice { proposals: vec![best], seed: 1, effort: None, found: None }))
+        .tell(job.id, CoachEvent::Advice(Advice { proposals: vec![best], seed: 1, effort: None, found: None }))
         .finish_analysis()
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use carom::{
     physics::CueInputs,
-    terminal::{Advice, Capabilities, CoachNews, Glyphs, Proposal, Shot},
+    terminal::{Advice, Capabilities, CoachEvent, Glyphs, Proposal, Shot},
 };
 use ratatui::{buffer::Buffer, style::Color};
 
@@ -18,7 +18,7 @@ fn advised(caps: Capabilities, cue: &str) -> Player {
     let job = player.advice_job.take().unwrap();
     let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(cue).unwrap(), true, "policy").unwrap();
     let proposal = Proposal { shot: Arc::new(shot), made: None, risk: None, next: None, is_early: false };
-    player.tell(job.id, CoachNews::Advice(Advice { proposals: vec![proposal], seed: 1, effort: None, found: None }))
+    player.tell(job.id, CoachEvent::Advice(Advice { proposals: vec![proposal], seed: 1, effort: None, found: None }))
 }
 
 /// Counts the cells of the table with this foreground colour.

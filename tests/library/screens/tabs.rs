@@ -66,7 +66,7 @@ fn a_shot_pauses_only_when_the_screen_changes() {
     let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter Esc y F2");
     let playing = left.press("Enter").answer().press("Space").wait(0.5);
     let resumed = playing.press("c");
-    assert_eq!(resumed.app.place(), KeyContext::Drill(DrillContext::Exercise));
+    assert_eq!(resumed.app.key_context(), KeyContext::Drill(DrillContext::Exercise));
     assert!(!resumed.app.coach.playback.playing, "nothing plays unseen");
     let playing = Player::new().press("Enter").answer().press("Space").wait(0.5).press("F2");
     assert!(playing.app.coach.playback.playing);
@@ -80,7 +80,7 @@ fn exercises_exams_and_typed_text_survive_switching_screens() {
     let time = |player: &Player| player.app.drills.turn.as_ref().unwrap().watched().unwrap().playback.time;
     let before = time(&player);
     let player = player.press("F2 F5 F3");
-    assert_eq!((player.app.place(), time(&player)), (KeyContext::Drill(DrillContext::Exercise), before));
+    assert_eq!((player.app.key_context(), time(&player)), (KeyContext::Drill(DrillContext::Exercise), before));
     player.wait(60.0).says("your hand: ");
     let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter F2 s");
     exam.says("save the balls as");
@@ -91,14 +91,14 @@ fn exercises_exams_and_typed_text_survive_switching_screens() {
     let typing = typing.press("F5 F3");
     typing.says("carom:half");
     let form = Player::at_runs(TRUE_COLOUR).press("n Down Down Down 7 F2 t");
-    assert_eq!(form.app.place(), KeyContext::Training(TrainingContext::Form));
+    assert_eq!(form.app.key_context(), KeyContext::Training(TrainingContext::Form));
     form.says("--steps 7 --seed 1");
 }
 
 #[test]
 fn a_match_against_the_coach_starts_or_resumes_from_anywhere() {
     let player = Player::new().press("F9");
-    assert_eq!(player.app.place(), KeyContext::Drill(DrillContext::Exercise));
+    assert_eq!(player.app.key_context(), KeyContext::Drill(DrillContext::Exercise));
     let session = |player: &Player| player.app.drills.turn.as_ref().unwrap().session.clone();
     let begun = session(&player);
     assert!(matches!(begun.goal, Goal::Match { against_coach: true, .. }), "{begun:?}");

@@ -6,7 +6,7 @@ use super::{
     player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, check, check_at},
     runs::{RUN, RUNS},
 };
-use carom::terminal::{CoachNews, TrainerFailure, TrainingReport};
+use carom::terminal::{CoachEvent, TrainerFailure, TrainingReport};
 use ratatui::style::Color;
 
 /// Returns a player whose coach has refused with sentences of these numbers of words.
@@ -15,7 +15,7 @@ pub fn with_refusals(mut player: Player, words: &[usize]) -> Player {
         player = player.press("Enter");
         let id = player.advice_job.take().unwrap().id;
         let sentence = format!("the weights are damaged{}", ", and so is all else".repeat(*count));
-        player = player.tell(id, CoachNews::Refused(sentence));
+        player = player.tell(id, CoachEvent::Refused(sentence));
     }
     player
 }
@@ -40,10 +40,10 @@ fn toasts_expire_and_answers_vanish_with_the_next_key() {
     let player = Player::new().press("u");
     player.warns("there is nothing to take back");
     assert_eq!(player.app.frame_interval(), None, "nothing moves while it is read");
-    let time = player.app.toasts.left().unwrap();
+    let time = player.app.toasts.time_left().unwrap();
     assert!((4.0..8.0).contains(&time), "{time}");
     let gone = player.wait(time);
-    assert_eq!((gone.app.toasts.left(), gone.app.toasts.shown.len()), (None, 0));
+    assert_eq!((gone.app.toasts.time_left(), gone.app.toasts.shown.len()), (None, 0));
     assert_eq!(gone.picture(80, 24), Player::new().picture(80, 24), "nothing is left of it");
     let player = with_refusals(gone.press("u"), &[0]).press("Left");
     assert!(!player.has_toast("there is nothing to take back"));
@@ -57,8 +57,8 @@ fn background_failures_are_shown_and_stay_in_the_messages() {
     let failure = TrainerFailure { process: None, sentence: "the disk is full".to_owned() };
     player.app.receive_training(TrainingReport::TrainerFailed(Path::new(RUNS).join(RUN), failure));
     player.warns("the disk is full");
-    assert_eq!(player.app.toasts.take_unwritten().len(), 1, "the failure is logged once");
-    assert!(player.app.toasts.take_unwritten().is_empty());
+    assert_eq!(player.app.toasts.take_unlogged().len(), 1, "the failure is logged once");
+    assert!(player.app.toasts.take_unlogged().is_empty());
     let player = player.wait(60.0).press("F6");
     let text = player.text(120, 40);
     assert!(text.contains("the disk is full") && text.contains("carom.log"), "{text}");
@@ -86,7 +86,7 @@ fn refusals_over_the_messages_page_are_not_recorded() {
         assert!(text.contains("close this first: Esc") && text.contains("No messages so far"), "{text}");
     }
     let closed = refused.press("F6");
-    assert_eq!((closed.app.overlay, closed.app.toasts.past().len()), (None, 0));
+    assert_eq!((closed.app.overlay, closed.app.toasts.messages().len()), (None, 0));
     closed.warns_nothing();
 }
 

@@ -240,7 +240,7 @@ fn a_question_closes_when_it_no_longer_applies() {
         [("A", Condition::InPhase(Phase::Stopped)), ("S", Condition::Died), ("k", Condition::Removed)]
     {
         let player = Player::watching(TRUE_COLOUR).press(keys).condition(condition, None);
-        assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Watch), "{keys}");
+        assert_eq!(player.app.key_context(), KeyContext::Training(TrainingContext::Watch), "{keys}");
         let player = player.press("y Enter");
         assert!(player.effects.is_empty(), "{keys}: {:?}", player.effects);
     }
@@ -291,7 +291,7 @@ fn missing_weights_are_not_offered() {
     assert!(!hints.contains("w use") && !hints.contains("k keeps them under a name"), "{hints}");
     for key in ["w", "k"] {
         let player = finished().has_policy(false).press(key);
-        assert!(player.effects.is_empty() && player.app.place() == KeyContext::Training(TrainingContext::Watch));
+        assert!(player.effects.is_empty() && player.app.key_context() == KeyContext::Training(TrainingContext::Watch));
         player.says("the run has no networks for the coach");
     }
 }
@@ -327,7 +327,7 @@ fn a_run_with_unreadable_configuration_is_shown() {
         assert!(player.effects.is_empty());
         player.says("config.json of the run cannot be read");
     }
-    assert_eq!(broken().press("c").app.place(), KeyContext::Training(TrainingContext::Compare));
+    assert_eq!(broken().press("c").app.key_context(), KeyContext::Training(TrainingContext::Compare));
 }
 
 #[test]
@@ -360,10 +360,10 @@ fn only_success_rewards_are_called_success() {
 fn abandoning_needs_confirmation_and_states_the_loss() {
     let player = Player::watching(TRUE_COLOUR).press("A");
     player.shows(&["delete its folder?", "1,200,000 shots are lost", "held-out reward of 0.874", "y yes   n no"]);
-    assert_eq!(player.app.place(), KeyContext::Question { is_typed: false });
+    assert_eq!(player.app.key_context(), KeyContext::Question { is_typed: false });
     let player = player.press("x q");
     assert!(player.effects.is_empty(), "q answers no and does not leave the page");
-    assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Watch));
+    assert_eq!(player.app.key_context(), KeyContext::Training(TrainingContext::Watch));
 }
 
 #[test]
@@ -379,22 +379,23 @@ fn a_policy_is_saved_under_a_name() {
     let player = player.press("a / q Enter");
     player.says("\"a/q\" is no name for a policy");
     let mut player = player.press("Backspace Backspace q Enter");
-    let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
-    assert_eq!((keeping.folder.as_path(), keeping.name.as_str()), (Path::new("/policies"), "aq"));
-    assert_eq!(keeping.from, Path::new(RUNS).join(RUN).join("policy.safetensors"));
-    let player = player.report(TrainingReport::Kept(*keeping, Ok(false)));
+    let Some(Effect::SavePolicy(task)) = player.effects.pop() else { panic!("nothing is kept") };
+    assert_eq!((task.folder.as_path(), task.name.as_str()), (Path::new("/policies"), "aq"));
+    assert_eq!(task.from, Path::new(RUNS).join(RUN).join("policy.safetensors"));
+    let player = player.report(TrainingReport::PolicySaved(*task, Ok(false)));
     player.says("there are networks called aq already; replace them?");
     let mut player = player.press("y");
-    let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
-    assert!(keeping.replace);
-    player.report(TrainingReport::Kept(*keeping, Ok(true))).says("kept; use them with: carom recommend --policy aq");
+    let Some(Effect::SavePolicy(task)) = player.effects.pop() else { panic!("nothing is kept") };
+    assert!(task.replace);
+    let player = player.report(TrainingReport::PolicySaved(*task, Ok(true)));
+    player.says("kept; use them with: carom recommend --policy aq");
 }
 
 #[test]
 fn a_taken_name_is_reported_over_another_question() {
     let mut player = Player::watching(TRUE_COLOUR).press("k Enter S");
-    let Some(Effect::Keep(keeping)) = player.effects.pop() else { panic!("nothing is kept") };
-    let player = player.report(TrainingReport::Kept(*keeping, Ok(false)));
+    let Some(Effect::SavePolicy(task)) = player.effects.pop() else { panic!("nothing is kept") };
+    let player = player.report(TrainingReport::PolicySaved(*task, Ok(false)));
     player.warns("is not saved: there is another of this name");
     player.says("measure it, save it and end it?");
 }
@@ -412,27 +413,27 @@ fn a_policy_is_used_in_the_coach_with_its_rule() {
     none.says("the run has no policy");
     let policy = Policy::bundled(&thesis, Rule::ThreeCushion).unwrap().unwrap();
     let mut player = none.report(TrainingReport::Policy(folder, Ok(Arc::new(policy))));
-    assert_eq!((player.app.place(), player.app.coach.table()), (KeyContext::Coach, &thesis));
+    assert_eq!((player.app.key_context(), player.app.coach.table()), (KeyContext::Coach, &thesis));
     player.shows(&["no shot yet", "Enter ask", "b bundled", RUN]);
     player = player.press("Enter");
     let job = player.advice_job.take().expect("the coach is asked");
     assert_eq!(job.query.rule, Rule::ThreeCushion);
-    CoachWorker::unhurried(20_000).answer(&job, |answer| drop(player.app.receive(answer)));
+    CoachWorker::with_simulation_limit(20_000).answer(&job, |answer| drop(player.app.receive(answer)));
     assert!(player.app.coach.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
 }
 
 #[test]
 fn escape_goes_back_page_by_page() {
     let player = Player::watching(TRUE_COLOUR).press("c Esc Esc n Esc");
-    assert_eq!(player.app.place(), KeyContext::Training(TrainingContext::Runs));
+    assert_eq!(player.app.key_context(), KeyContext::Training(TrainingContext::Runs));
     assert_eq!(player.app.subscriptions().followed, [None, None], "nobody watches any more");
     let player = player.press("Esc");
-    assert_eq!((player.app.place(), player.app.subscriptions().runs), (KeyContext::Coach, None));
+    assert_eq!((player.app.key_context(), player.app.subscriptions().runs), (KeyContext::Coach, None));
     let mut alone = App::watching(TRUE_COLOUR, Some(Path::new(RUNS).join(RUN)), None).unwrap();
-    assert_eq!(alone.place(), KeyContext::Training(TrainingContext::Watch));
+    assert_eq!(alone.key_context(), KeyContext::Training(TrainingContext::Watch));
     let escape = KeyEvent::from(KeyCode::Esc);
     assert!(alone.handle(&escape).is_none());
-    assert_eq!(alone.place(), KeyContext::Training(TrainingContext::Runs));
+    assert_eq!(alone.key_context(), KeyContext::Training(TrainingContext::Runs));
     assert!(matches!(alone.handle(&escape), Some(Effect::Quit)));
 }
 

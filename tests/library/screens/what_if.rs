@@ -4,7 +4,7 @@ use super::player::{ASCII, NO_COLOUR, OTHER_SHOTS, Player, SHOT, TRUE_COLOUR};
 use carom::{
     physics::CueInputs,
     statistics::SuccessRate,
-    terminal::{Capabilities, CoachNews, CoachWorker, KeyContext},
+    terminal::{Capabilities, CoachEvent, CoachWorker, KeyContext},
 };
 
 /// Returns a player at the coach who has taken over the coach's shot.
@@ -15,13 +15,13 @@ fn in_what_if_mode(caps: Capabilities) -> Player {
 /// Reports how often the last stroke that was asked about succeeds.
 fn report_success_rate(mut player: Player, made: usize) -> Player {
     let job = player.success_rate_job.take().expect("it is asked how often the stroke is made");
-    player.tell(job.id, CoachNews::Judged(SuccessRate::new(made, 1000)))
+    player.tell(job.id, CoachEvent::StrokeRated(SuccessRate::new(made, 1000)))
 }
 
 #[test]
 fn the_coachs_shot_is_copied_changed_and_played() {
     let player = in_what_if_mode(TRUE_COLOUR);
-    assert_eq!(player.app.place(), KeyContext::OwnStroke);
+    assert_eq!(player.app.key_context(), KeyContext::OwnStroke);
     player.shows(&["You … % · coach 94 %", "You: as the coach", "Esc leave"]);
     assert_eq!(
         player.success_rate_job.as_ref().unwrap().stroke.as_ref().map(|(cue, _)| *cue),
@@ -46,7 +46,7 @@ fn the_coachs_shot_is_copied_changed_and_played() {
     assert!(!player.app.coach.playback.playing, "a change goes back to the stroke");
     player.shows(&["You: as the coach"]);
     let player = player.press("U Esc");
-    assert_eq!(player.app.place(), KeyContext::Coach);
+    assert_eq!(player.app.key_context(), KeyContext::Coach);
     assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap());
     player.does_not_show("You 2").does_not_show("You: ");
     assert!(player.analysis_job.is_some(), "the closer look at the coach's shot goes on");
@@ -61,16 +61,16 @@ fn the_coachs_shot_is_copied_changed_and_played() {
 #[test]
 fn without_advice_a_stroke_starts_full_at_a_ball() {
     let player = Player::with(TRUE_COLOUR).press("w");
-    assert_eq!(player.app.place(), KeyContext::OwnStroke);
+    assert_eq!(player.app.key_context(), KeyContext::OwnStroke);
     player.shows(&["You … %", "if played exactly: ", "Yellow, full;"]).does_not_show("coach 9");
     let player = report_success_rate(player.press("Right"), 40);
     player.shows(&["You 4 %"]);
     let end = player.app.coach.shot().unwrap().recording.final_layout();
     let on = player.press("Space n");
-    assert_eq!((on.app.place(), *on.app.coach.layout()), (KeyContext::OwnStroke, end));
+    assert_eq!((on.app.key_context(), *on.app.coach.layout()), (KeyContext::OwnStroke, end));
     assert!(on.success_rate_job.is_some(), "the next stroke is there to be set");
     let back = on.press("Esc");
-    assert!(back.app.place() == KeyContext::Coach && back.app.coach.shot().is_none());
+    assert!(back.app.key_context() == KeyContext::Coach && back.app.coach.shot().is_none());
     let before = back.app.coach.layout().balls[0].x;
     let back = back.press("h");
     assert!(back.app.coach.layout().balls[0].x < before, "balls are placed again");
@@ -79,7 +79,7 @@ fn without_advice_a_stroke_starts_full_at_a_ball() {
     assert_ne!(*undone.app.coach.layout(), placed);
     let undone = undone.press("z u");
     assert_eq!(
-        (undone.app.place(), *undone.app.coach.layout()),
+        (undone.app.key_context(), *undone.app.coach.layout()),
         (KeyContext::OwnStroke, placed),
         "nothing more to undo"
     );
@@ -147,12 +147,12 @@ fn the_success_rate_of_a_stroke_comes_from_the_coach() {
     let mut player = in_what_if_mode(TRUE_COLOUR);
     let job = player.success_rate_job.take().unwrap();
     let mut answers = Vec::new();
-    CoachWorker::unhurried(1).answer(&job, |answer| answers.push(answer));
+    CoachWorker::with_simulation_limit(1).answer(&job, |answer| answers.push(answer));
     let [answer] = &answers[..] else { panic!("{answers:?}") };
-    let CoachNews::Judged(made) = answer.news else { panic!("{answer:?}") };
+    let CoachEvent::StrokeRated(made) = answer.event else { panic!("{answer:?}") };
     assert!(answer.id == job.id && (0.2..0.8).contains(&made.rate), "{made:?}");
     // The answer to a stroke that has changed since is dropped.
-    let player = player.press("Up").tell(job.id, CoachNews::Judged(made));
+    let player = player.press("Up").tell(job.id, CoachEvent::StrokeRated(made));
     player.shows(&["You … % · coach 94 %"]);
     let perfect = Player::new().press("S S S S S Enter").answer().press("w");
     assert!(perfect.success_rate_job.is_none(), "no rate is needed without errors");

@@ -30,7 +30,7 @@ const COUNTS: u16 = 13;
 pub fn draw(app: &App, command_palette: &CommandPalette, area: Rect, ui: &mut Ui) -> u16 {
     let all = app.commands();
     let count = all.len();
-    let found = command_palette.found(all);
+    let matching = command_palette.matching(all);
     // The height does not depend on the input: a box that jumps is hard to read.
     let height = (count as u16 + FRAME).min(HEIGHT).min(area.height - BELOW - 1);
     let width = WIDTH.min(area.width - 2 * BESIDE);
@@ -46,16 +46,16 @@ pub fn draw(app: &App, command_palette: &CommandPalette, area: Rect, ui: &mut Ui
     ui.buffer.set_string(inner.x, inner.y, " : ", ui.theme.accent());
     let prompt = inner.x + 3;
     command_palette.words.draw(Rect { x: prompt, width: inner.right() - prompt - COUNTS, height: 1, ..inner }, ui);
-    let of = format!("{} of {count} ", found.len());
+    let of = format!("{} of {count} ", matching.len());
     write_right(ui.buffer, inner.x, inner.right(), inner.y, &of, ui.theme.faint());
 
     let rows = Rect { y: inner.y + 1, height: inner.height - 1, ..inner };
-    let mark = command_palette.mark(found.len());
-    for (n, y) in list::shown(mark, found.len(), rows) {
-        draw_command(app, &found[n], n == mark, Rect { y, height: 1, ..rows }, ui);
+    let mark = command_palette.mark(matching.len());
+    for (n, y) in list::shown(mark, matching.len(), rows) {
+        draw_command(app, &matching[n], n == mark, Rect { y, height: 1, ..rows }, ui);
     }
     let status = Rect::new(area.x, area.bottom() - 2, area.width, 1);
-    draw_status(&status_line(app, found.get(mark)), status, ui)
+    draw_status(&status_line(app, matching.get(mark)), status, ui)
 }
 
 /// Draws one command: its keys, its description, and the reason if it is disabled.

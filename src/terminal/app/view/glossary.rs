@@ -4,7 +4,7 @@ use ratatui::text::{Line, Span};
 
 use crate::terminal::{
     App,
-    ui::{spell, wrap},
+    ui::{to_displayable, wrap},
 };
 
 /// The glossary in the documentation, the only place where the terms are explained.
@@ -23,7 +23,7 @@ pub fn lines(app: &App, width: usize) -> Vec<Line<'static>> {
     let (theme, caps) = (app.theme(), app.caps);
     let mut lines = Vec::new();
     for (kind, text) in paragraphs(GLOSSARY) {
-        let text = spell(&text, caps);
+        let text = to_displayable(&text, caps);
         if kind == Kind::Heading {
             lines.extend([Line::default(), Line::styled(text, theme.good())]);
             continue;
@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_are_read_without_their_signs_and_tables_row_by_row() {
+    fn glossary_text_loses_markup_and_tables_are_read_by_rows() {
         let read = paragraphs("# T\n\nOne\ntwo.\n\n## H\n\n- **A**: `a`\n  b.\n\n| x | y |\n|---|---|\n| c | d |\n");
         let wanted = [(Kind::Text, "One two."), (Kind::Heading, "H"), (Kind::Item, "A: a b."), (Kind::Item, "c: d")];
         assert_eq!(read, wanted.map(|(kind, text)| (kind, text.to_owned())));

@@ -147,10 +147,10 @@ fn lines(app: &App, what: Overlay, area: Rect) -> Vec<Line<'static>> {
 fn messages(app: &App, width: usize) -> Vec<Line<'static>> {
     let (theme, caps) = (app.theme(), app.caps);
     let mut lines = vec![Line::styled("Messages, the newest first", theme.good()), Line::default()];
-    if app.toasts.past().len() == 0 {
+    if app.toasts.messages().len() == 0 {
         lines.push(Line::styled("No messages so far.", theme.text()));
     }
-    for text in app.toasts.past() {
+    for text in app.toasts.messages() {
         for (n, line) in wrap(text, width.saturating_sub(2)).into_iter().enumerate() {
             let mark = if n == 0 { caps.pick("•", "-") } else { " " };
             lines.push(Line::from(vec![
@@ -167,7 +167,7 @@ fn messages(app: &App, width: usize) -> Vec<Line<'static>> {
 
 fn help(app: &App, width: usize) -> Vec<Line<'static>> {
     let (theme, caps) = (app.theme(), app.caps);
-    let (mut lines, all) = (Vec::new(), listed(app.place()).collect::<Vec<_>>());
+    let (mut lines, all) = (Vec::new(), listed(app.key_context()).collect::<Vec<_>>());
     for (section, title) in Section::ALL {
         let own: Vec<_> = all.iter().filter(|binding| binding.section == section).collect();
         if own.is_empty() {
@@ -189,7 +189,7 @@ fn help(app: &App, width: usize) -> Vec<Line<'static>> {
         lines.push(Line::default());
     }
     lines.push(Line::styled("What is drawn", theme.good()));
-    let notes = notes(app.place()).into_iter().flat_map(|note| wrap(&note, width.saturating_sub(2)));
+    let notes = notes(app.key_context()).into_iter().flat_map(|note| wrap(&note, width.saturating_sub(2)));
     lines.extend(notes.map(|note| Line::styled(format!("  {note}"), theme.text())));
     lines
 }

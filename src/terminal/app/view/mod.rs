@@ -24,11 +24,11 @@ pub use self::{
 };
 
 /// Smallest screen, columns and rows, with room for the table and its panels.
-pub const SMALLEST: (u16, u16) = (80, 24);
+pub const MIN_SIZE: (u16, u16) = (80, 24);
 
 /// Whether the screen is too small for every page.
 pub const fn is_too_small(area: Rect) -> bool {
-    area.width < SMALLEST.0 || area.height < SMALLEST.1
+    area.width < MIN_SIZE.0 || area.height < MIN_SIZE.1
 }
 
 /// The areas of the screen that belong to the open page.
@@ -65,8 +65,8 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
         foot = command_palette::draw(app, command_palette, area, ui);
     }
     // The list of messages starts with the kept toasts, so they are not drawn over it as well.
-    let is_told = |toast: &&Toast| !toast.is_kept || app.overlay != Some((Overlay::Messages, 0));
+    let is_drawn = |toast: &&Toast| !toast.is_listed || app.overlay != Some((Overlay::Messages, 0));
     // The first row belongs to the header.
     let room = Rect::new(area.x, area.y + 1, area.width, foot.saturating_sub(area.y + 1));
-    draw_toasts(app.toasts.shown.iter().filter(is_told), room, ui);
+    draw_toasts(app.toasts.shown.iter().filter(is_drawn), room, ui);
 }

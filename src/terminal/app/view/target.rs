@@ -23,7 +23,7 @@ pub fn pointed_at(app: &App, area: Rect, at: Position) -> Option<Pointed> {
     if let Some((screen, ..)) = tabs(app, header).into_iter().find(|(_, place, _)| place.contains(at)) {
         return Some(Pointed::Tab(screen));
     }
-    let is_asked = matches!(app.place(), KeyContext::Question { .. });
-    let target = (!is_asked).then(|| app.page().target(&page_area(app, area), at));
+    let is_question = matches!(app.key_context(), KeyContext::Question { .. });
+    let target = (!is_question).then(|| app.page().target(&page_area(app, area), at));
     target.flatten().map(Pointed::Page)
 }

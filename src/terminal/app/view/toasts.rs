@@ -8,7 +8,7 @@ use ratatui::{
 
 use crate::terminal::{
     Toast,
-    ui::{Ui, columns, cut, frame, wrap},
+    ui::{Ui, columns, frame, truncate_lines, wrap},
 };
 
 /// Largest width of a box: in columns, and in per cent of the screen's width.
@@ -24,7 +24,7 @@ pub fn draw_toasts<'a>(toasts: impl DoubleEndedIterator<Item = &'a Toast>, area:
         let room = usize::from(most.saturating_sub(4));
         let all = wrap(&toast.text, room);
         let is_cut = all.len() > LINES;
-        let lines = cut(all, LINES, room, ui.caps);
+        let lines = truncate_lines(all, LINES, room, ui.caps);
         let width = lines.iter().map(|line| columns(line)).max().unwrap_or(0) as u16 + 4;
         let height = lines.len() as u16 + 2;
         if bottom < area.y + area.height / 2 + height && bottom < area.bottom() || bottom < area.y + height {

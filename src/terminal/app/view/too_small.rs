@@ -6,7 +6,7 @@ use ratatui::{
     widgets::{Paragraph, Widget, Wrap},
 };
 
-use super::SMALLEST;
+use super::MIN_SIZE;
 
 use crate::terminal::ui::Ui;
 
@@ -15,7 +15,7 @@ const WIDTH: u16 = 46;
 
 /// Draws the page, as much of it as fits even in a tiny window.
 pub fn draw(area: Rect, ui: &mut Ui) {
-    let (width, height) = SMALLEST;
+    let (width, height) = MIN_SIZE;
     let times = ui.caps.pick("×", "x");
     // Both sizes come first, since the end may be cut off. Ctrl-C quits even if the user has bound it to something else.
     let sizes =

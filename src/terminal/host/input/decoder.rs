@@ -16,7 +16,7 @@ const ESCAPE_TIMEOUT: Duration = Duration::from_millis(30);
 /// Silence after which the rest of a sequence no longer counts as coming.
 const SEQUENCE_TIMEOUT: Duration = Duration::from_millis(100);
 /// Longest meaningful parameters, bytes.
-const LONGEST: usize = 64;
+const MAX_SEQUENCE_BYTES: usize = 64;
 
 const ESCAPE: u8 = 0x1b;
 
@@ -167,7 +167,7 @@ fn in_csi(mut parameters: Vec<u8>, byte: u8, events: &mut Vec<Event>) -> State {
     match byte {
         0x20..=0x3f => {
             // Keep one byte more than is meaningful, so that overlong parameters are recognized.
-            if parameters.len() <= LONGEST {
+            if parameters.len() <= MAX_SEQUENCE_BYTES {
                 parameters.push(byte);
             }
             State::Csi(parameters)
@@ -176,7 +176,7 @@ fn in_csi(mut parameters: Vec<u8>, byte: u8, events: &mut Vec<Event>) -> State {
         b'M' if parameters.is_empty() => State::Mouse(Vec::new()),
         b'~' if parameters == b"200" => State::Paste(Paste::default()),
         0x40..=0x7e => {
-            events.extend(csi::event(&parameters, byte).filter(|_| parameters.len() <= LONGEST));
+            events.extend(csi::event(&parameters, byte).filter(|_| parameters.len() <= MAX_SEQUENCE_BYTES));
             State::Ground
         }
         _ => abandon(byte, events),

@@ -13,7 +13,7 @@ const END_TIMEOUT: Duration = Duration::from_secs(1);
 /// Silence after which a Ctrl-C at the end counts as typed: in pasted text more would follow, at least the end marker.
 const CTRL_C_TIMEOUT: Duration = Duration::from_millis(100);
 /// Longest text kept, bytes; every field accepts less.
-const LONGEST: usize = 1 << 20;
+const MAX_PASTE_BYTES: usize = 1 << 20;
 
 const CTRL_C: u8 = 0x03;
 
@@ -46,7 +46,7 @@ impl Paste {
     }
 
     fn keep(&mut self, bytes: &[u8]) {
-        let room = LONGEST.saturating_sub(self.text.len());
+        let room = MAX_PASTE_BYTES.saturating_sub(self.text.len());
         self.text.extend_from_slice(&bytes[..bytes.len().min(room)]);
     }
 

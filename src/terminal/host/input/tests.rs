@@ -24,7 +24,7 @@ fn ctrl_c() -> Event {
 }
 
 #[test]
-fn keys_are_what_terminals_send() {
+fn key_sequences_of_terminals_are_decoded() {
     use KeyModifiers as M;
     for (bytes, code, modifiers) in [
         (&b"a"[..], KeyCode::Char('a'), M::NONE),
@@ -59,7 +59,7 @@ fn keys_are_what_terminals_send() {
 }
 
 #[test]
-fn the_mouse_is_read_in_both_its_forms() {
+fn both_mouse_protocols_are_decoded() {
     use MouseEventKind as K;
     let at = |kind, column, row| Event::Mouse(MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE });
     assert_eq!(decode(b"\x1b[<0;34;16M"), [at(K::Down(MouseButton::Left), 33, 15)]);
@@ -73,7 +73,7 @@ fn the_mouse_is_read_in_both_its_forms() {
 }
 
 #[test]
-fn answers_to_somebody_else_are_no_keys() {
+fn terminal_replies_are_not_decoded_as_keys() {
     for reply in [
         &b"\x1b]11;rgb:1e1e/1e1e/2e2e\x07"[..],
         b"\x1b]11;rgb:1e1e/1e1e/2e2e\x1b\\",
@@ -94,7 +94,7 @@ fn answers_to_somebody_else_are_no_keys() {
 }
 
 #[test]
-fn a_paste_is_text_whatever_comes_before_and_within() {
+fn a_paste_is_text_whatever_it_contains_or_follows() {
     let paste = |text: &str| Event::Paste(text.to_owned());
     let escape = key(KeyCode::Esc, KeyModifiers::NONE);
     assert_eq!(decode(b"\x1b[200~qqq\x1b[201~"), [paste("qqq")]);
@@ -104,7 +104,7 @@ fn a_paste_is_text_whatever_comes_before_and_within() {
 }
 
 #[test]
-fn a_paste_that_lost_its_end_is_heard_and_its_rest_is_no_row_of_keys() {
+fn a_paste_without_end_is_delivered_and_produces_no_keys() {
     let (mut decoder, mut events) = (Decoder::default(), Vec::new());
     decoder.feed(b"\x1b[200~one", &mut events);
     decoder.on_timeout(&mut events);
@@ -149,7 +149,7 @@ fn pieces() -> impl Strategy<Value = Vec<u8>> {
 
 proptest! {
     #[test]
-    fn whatever_was_begun_ctrl_c_is_heard(bytes in pieces()) {
+    fn ctrl_c_is_decoded_after_any_incomplete_sequence(bytes in pieces()) {
         let (mut decoder, mut events) = (Decoder::default(), Vec::new());
         decoder.feed(&bytes, &mut events);
         // The decoder may wait at most 0.1 s here; the program promises 0.2 s, which a person would hardly notice.
@@ -164,7 +164,7 @@ proptest! {
     }
 
     #[test]
-    fn it_does_not_matter_how_bytes_are_cut_into_reads(bytes in pieces()) {
+    fn decoding_does_not_depend_on_read_boundaries(bytes in pieces()) {
         let (mut decoder, mut events) = (Decoder::default(), Vec::new());
         for byte in &bytes {
             decoder.feed(&[*byte], &mut events);
@@ -176,7 +176,7 @@ proptest! {
     }
 
     #[test]
-    fn whatever_bytes_come_it_ends(bytes in prop::collection::vec(any::<u8>(), 0..2000)) {
+    fn any_bytes_are_decoded_without_hanging(bytes in prop::collection::vec(any::<u8>(), 0..2000)) {
         decode(&bytes);
     }
 }

@@ -112,7 +112,7 @@ impl CalibrationPage {
                 let today = if self.is_daily { " today" } else { "" };
                 let name = saved
                     .map_or_else(|| self.sheet().name(&self.table) + today, |name| name.to_string_lossy().into_owned());
-                self.question = Some(Question::Name(TextField::new(MAX_TEXT_LENGTH).offering(&name)));
+                self.question = Some(Question::Name(TextField::new(MAX_TEXT_LENGTH).with_suggestion(&name)));
             }
             Action::UseTable => self.table_to_use.clone_from(&self.saved),
             Action::StartOver => self.question = Some(Question::StartOver),
@@ -164,7 +164,7 @@ impl CalibrationPage {
             Question::StartOver if self.sheet().trouble.is_some() => {
                 let text = format!("the file that cannot be read is kept as {}", self.backup_file().display());
                 self.message = Some(Message::plain(text));
-                Some(Effect::Calibrate(vec![CalibrationTask::PutAside(self.sheet().path.clone())]))
+                Some(Effect::Calibrate(vec![CalibrationTask::BackUpUnreadable(self.sheet().path.clone())]))
             }
             Question::StartOver => {
                 let count = self.sheet().entries.as_ref().map_or(0, |entries| entries.trials.len());

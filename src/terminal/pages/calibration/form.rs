@@ -51,7 +51,7 @@ impl Form {
             far_end: self.far_end,
             amends: self.amends.clone(),
             is_daily,
-            is_told: false,
+            is_announced: false,
         }
     }
 

@@ -18,10 +18,10 @@ use crate::{
     storage::DataPaths,
     table::Table,
     terminal::{
-        CalibrationContext, CalibrationReport, CalibrationTask, Effect, KeptEntries, StrokeDraft,
+        CalibrationContext, CalibrationReport, CalibrationTask, Effect, SavedEntries, StrokeDraft,
         pages::Page,
         ui::{Message, TextField},
-        words::taken_words,
+        words::name_taken_message,
     },
 };
 
@@ -178,7 +178,7 @@ impl CalibrationPage {
         let table = self.table.clone();
         self.sheet_mut()
             .request_evaluation(&table)
-            .map(|judging| CalibrationTask::Judge(Box::new(judging)))
+            .map(|judging| CalibrationTask::Evaluate(Box::new(judging)))
             .into_iter()
             .collect()
     }
@@ -188,7 +188,7 @@ impl CalibrationPage {
         match report {
             CalibrationReport::Entries(path, outcome) if path == self.sheet().path => match outcome {
                 Ok(kept) => {
-                    let KeptEntries { entries, back } = *kept;
+                    let SavedEntries { entries, back } = *kept;
                     if back.is_some() && matches!(self.question, Some(Question::Marks(_))) {
                         self.question = None;
                     }
@@ -202,7 +202,7 @@ impl CalibrationPage {
                     self.message = Some(Message::warning(sentence));
                 }
             },
-            CalibrationReport::Unkept(path, sentence) => {
+            CalibrationReport::SaveFailed(path, sentence) => {
                 if let Some(Question::Marks(form)) = &mut self.question {
                     // A stroke that could not be saved stays in the form.
                     form.is_sent = false;
@@ -212,7 +212,7 @@ impl CalibrationPage {
                 return vec![CalibrationTask::Read(path)];
             }
             CalibrationReport::Entries(..) => {}
-            CalibrationReport::Judged(is_daily, number, outcome) => {
+            CalibrationReport::Evaluated(is_daily, number, outcome) => {
                 let sheet = if is_daily { &mut self.daily } else { &mut self.all };
                 sheet.on_evaluated(number, outcome);
             }
@@ -229,7 +229,7 @@ impl CalibrationPage {
             CalibrationReport::Saved(path, Ok(false)) => {
                 let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
                 if self.question.is_some() {
-                    self.message = Some(Message::warning(taken_words(&name)));
+                    self.message = Some(Message::warning(name_taken_message(&name)));
                 } else {
                     self.question = Some(Question::Replace(name));
                 }

@@ -8,7 +8,7 @@ use crate::{
         Calibration, DAILY_TESTS, Edit, Entries, Entry, EntryProblem, NextTest, PROTOCOL, Test, next_day_doubt, prior,
     },
     table::{Table, TableDoubt},
-    terminal::{Judged, Judging},
+    terminal::{Evaluation, EvaluationTask},
 };
 
 /// Default name of a table that the user did not name.
@@ -35,7 +35,7 @@ pub struct Sheet {
     /// The reason why the file cannot be read.
     pub trouble: Option<String>,
     /// The latest evaluation of the entries; `None` until there is one.
-    pub judged: Option<Box<Judged>>,
+    pub judged: Option<Box<Evaluation>>,
     /// The reason why the entries could not be evaluated.
     pub evaluation_error: Option<String>,
     /// Index of the marked test.
@@ -218,13 +218,13 @@ impl Sheet {
     }
 
     /// Creates a request to evaluate the entries for `table`; `None` if no entries have been read.
-    pub fn request_evaluation(&mut self, table: &Table) -> Option<Judging> {
+    pub fn request_evaluation(&mut self, table: &Table) -> Option<EvaluationTask> {
         let (base, doubt) = self.prior_table(table);
         let (mut trials, _) = self.entries.as_ref()?.trials(&base);
         trials.retain(|(_, trial)| !self.is_left_out(trial.test));
         self.asked += 1;
         let (name, is_daily) = (self.name(table), self.is_daily);
-        Some(Judging { number: self.asked, name, table: base, doubt, trials, is_daily })
+        Some(EvaluationTask { number: self.asked, name, table: base, doubt, trials, is_daily })
     }
 
     /// The name of the table: that in the entries, that of a calibrated table, or the default name.
@@ -235,7 +235,7 @@ impl Sheet {
     }
 
     /// Handles the answer to request `number`. Late answers to earlier requests are dropped.
-    pub fn on_evaluated(&mut self, number: u64, judged: Result<Box<Judged>, String>) {
+    pub fn on_evaluated(&mut self, number: u64, judged: Result<Box<Evaluation>, String>) {
         if number != self.asked {
             return;
         }

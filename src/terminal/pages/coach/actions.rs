@@ -182,7 +182,7 @@ impl CoachPage {
         let Some(shot) = self.shot().cloned() else { return };
         self.leave_example();
         self.mode = Mode::Watching;
-        self.playback.act(key, &self.events(&shot), shot.recording.duration());
+        self.playback.apply(key, &self.events(&shot), shot.recording.duration());
     }
 
     fn select(&mut self, ball: usize) {
@@ -224,7 +224,7 @@ impl CoachPage {
 
     fn move_ball(&mut self, direction: DVec2, scale: f64) {
         let step = if self.quarters {
-            placing::quarters(self.table(), self.layout().balls[self.selected], direction * scale)
+            placing::quarter_diamonds(self.table(), self.layout().balls[self.selected], direction * scale)
         } else {
             direction * (0.001 * self.step_mm() * scale)
         };
@@ -233,7 +233,7 @@ impl CoachPage {
             self.place(slide.layout);
         }
         let names = self.cue_ball().names();
-        if let Some(place) = slide.stop_words(self.selected, names) {
+        if let Some(place) = slide.stop_message(self.selected, names) {
             self.message = Some(Message::warning(format!("{} stops {place}", names[self.selected])));
         }
     }
@@ -287,7 +287,7 @@ impl CoachPage {
     /// Resets mode and playback after the displayed shot has changed or disappeared.
     pub(super) fn reset_playback(&mut self) {
         self.mode = Mode::Placing;
-        self.playback.jump(0.0);
+        self.playback.seek(0.0);
         self.refresh();
     }
 

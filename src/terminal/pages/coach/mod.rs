@@ -214,7 +214,7 @@ impl CoachPage {
         let is_elsewhere = |last: &SavedSession| {
             last.layout != *self.layout() || last.table != *self.table() || last.practice.is_some()
         };
-        let mut before = last.map_or_else(Vec::new, SavedSession::with_former);
+        let mut before = last.map_or_else(Vec::new, SavedSession::into_sessions);
         before.retain(is_elsewhere);
         self.earlier_sessions = before;
         let words = match self.earlier_sessions.first() {
@@ -240,13 +240,13 @@ impl CoachPage {
         let ended = |practice: Option<&Session>| {
             let (table, terms) = (self.table().clone(), self.query.terms());
             SavedSession::new(table, *self.layout(), self.cue_ball(), terms, practice.cloned())
-                .under(self.settings_terms)
+                .with_settings(self.settings_terms)
         };
         // A saved session holds one practice session. Each further unfinished exam or game is saved as an earlier session of its own.
         let others = self.unfinished_exams.iter().rev().chain(game);
         let others = others.filter(|other| practice.is_none_or(|practice| practice.id != other.id));
         let former = others.map(|other| ended(Some(other))).chain(self.earlier_sessions.iter().cloned());
-        Some(ended(practice).followed_by(former.collect()))
+        Some(ended(practice).with_former_sessions(former.collect()))
     }
 
     /// Whether the user has changed anything since the start.

@@ -12,7 +12,7 @@ use crate::{
             Page,
             coach::{CoachPage, question::Question},
         },
-        shot::{OwnStroke, StrokeChange, WhatIf, aiming, stroke::LONGEST, what_if::Situation},
+        shot::{OwnStroke, StrokeChange, WhatIf, aiming, stroke::MAX_TEXT_LENGTH, what_if::Situation},
         ui::TextField,
     },
 };
@@ -47,7 +47,7 @@ impl CoachPage {
 
     /// Whether a change of the stroke can be undone, and whether one can be redone.
     pub(super) fn can_undo_redo_stroke(&self) -> (bool, bool) {
-        self.own_stroke.as_ref().map_or((false, false), |own| own.stroke.can_travel())
+        self.own_stroke.as_ref().map_or((false, false), |own| own.stroke.can_undo_redo())
     }
 
     /// Starts the player's own stroke from the coach's shot, or aimed full at a ball if there is none.
@@ -59,7 +59,7 @@ impl CoachPage {
         } else {
             let first =
                 aiming::first_stroke(Point::of(situation.rule, situation.table, situation.layout), situation.layout);
-            (first, WhatIf::alone(&first, situation))
+            (first, WhatIf::without_coach(&first, situation))
         };
         match what_if {
             Ok(what_if) => {
@@ -120,7 +120,7 @@ impl CoachPage {
     /// Asks for the player's own stroke in words.
     pub(super) fn ask_stroke(&mut self) {
         self.playback.pause();
-        self.question = Some(Question::Stroke(TextField::new(LONGEST)));
+        self.question = Some(Question::Stroke(TextField::new(MAX_TEXT_LENGTH)));
     }
 
     /// Sets the player's own stroke from its description in words.
@@ -131,7 +131,7 @@ impl CoachPage {
         let (table, layout, cue_ball) = (Arc::clone(&self.history.present().table), *self.layout(), self.cue_ball());
         let Some(own) = &self.own_stroke else { return Ok(None) };
         let mut stroke = own.stroke.clone();
-        stroke.say(words, &table, &layout, cue_ball).map_err(|error| error.to_string())?;
+        stroke.apply_text(words, &table, &layout, cue_ball).map_err(|error| error.to_string())?;
         Ok(self.simulate_stroke(stroke))
     }
 
@@ -169,8 +169,8 @@ impl CoachPage {
         let advised = self.current_advice().map(|advised| (advised.seed, advised.judged_from()));
         let job = self.job(None);
         let (seed, from) = advised.unwrap_or((job.seed, 0));
-        let cancel = self.own_stroke.as_mut()?.what_if.ask(job.id);
-        Some(Effect::Ask(Box::new(CoachJob { stroke: Some((cue, from..from + attempts)), seed, cancel, ..job })))
+        let cancel = self.own_stroke.as_mut()?.what_if.request_rate(job.id);
+        Some(Effect::AskCoach(Box::new(CoachJob { stroke: Some((cue, from..from + attempts)), seed, cancel, ..job })))
     }
 
     fn situation(&self) -> Situation<'_> {
@@ -185,7 +185,7 @@ mod tests {
         physics::CueInputs,
         statistics::SuccessRate,
         table::{Layout, Table},
-        terminal::{Advice, CoachAction as Action, CoachAnswer, CoachNews, Proposal, Shot, shot::PlaybackKey},
+        terminal::{Advice, CoachAction as Action, CoachAnswer, CoachEvent, Proposal, Shot, shot::PlaybackKey},
     };
     use std::sync::atomic::Ordering;
 
@@ -194,20 +194,20 @@ mod tests {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let mut page = CoachPage::new(table.clone(), layout, 1).unwrap();
-        let Some(Effect::Ask(job)) = page.update(Action::Recommend) else { panic!("the coach is asked") };
+        let Some(Effect::AskCoach(job)) = page.update(Action::Recommend) else { panic!("the coach is asked") };
         let cue = CueInputs::parse("0.2,0.3,6,-72,2.5").unwrap();
         let shot = Arc::new(Shot::new(&table, &layout, cue, true, "search").unwrap());
         let made = Some(SuccessRate::new(890, 1000));
         let best = Proposal { shot, made, risk: None, next: None, is_early: false };
         let advice = Advice { proposals: vec![best], seed: 1, effort: None, found: None };
-        assert!(page.receive(CoachAnswer { id: job.id, news: CoachNews::Advice(advice) }).is_some(), "it is studied");
+        assert!(page.receive(CoachAnswer { id: job.id, event: CoachEvent::Advice(advice) }).is_some(), "it is studied");
         page
     }
 
     /// Performs an action and returns the job about the own stroke that it requests.
     fn own_stroke_job(page: &mut CoachPage, action: Action) -> Box<CoachJob> {
         match page.update(action) {
-            Some(Effect::Ask(job)) if job.stroke.is_some() => job,
+            Some(Effect::AskCoach(job)) if job.stroke.is_some() => job,
             other => panic!("{action:?}: {other:?}"),
         }
     }
@@ -224,7 +224,9 @@ mod tests {
         assert!(first.cancel.load(Ordering::Relaxed) && !second.cancel.load(Ordering::Relaxed));
         assert!((second.stroke.as_ref().unwrap().0.speed - 2.6).abs() < 1e-9);
         let tell = |page: &mut CoachPage, id: u64, made| {
-            assert!(page.receive(CoachAnswer { id, news: CoachNews::Judged(SuccessRate::new(made, 100)) }).is_none());
+            assert!(
+                page.receive(CoachAnswer { id, event: CoachEvent::StrokeRated(SuccessRate::new(made, 100)) }).is_none()
+            );
             page.what_if().unwrap().made.map(|rate| rate.rate)
         };
         assert_eq!(tell(&mut page, first.id, 10), None);
@@ -244,7 +246,7 @@ mod tests {
         assert_eq!(page.shot().unwrap().cue, coach.cue, "one input changed twice is one step back");
         assert_eq!(page.can_undo_redo_stroke(), (false, true));
         own_stroke_job(&mut page, Action::RedoStroke);
-        let Some(Effect::Ask(study)) = page.update(Action::LeaveStroke) else { panic!("the study goes on") };
+        let Some(Effect::AskCoach(study)) = page.update(Action::LeaveStroke) else { panic!("the study goes on") };
         assert_eq!((study.shot, study.stroke), (Some(coach.cue), None));
         assert!(page.what_if().is_none() && Arc::ptr_eq(page.shot().unwrap(), &coach));
     }

@@ -25,7 +25,7 @@ impl Page for CoachPage {
         if self.followed().is_some() {
             return false;
         }
-        let taken = self.field_mut().is_some_and(|field| field.take(typed));
+        let taken = self.field_mut().is_some_and(|field| field.handle(typed));
         if let (Typed::Paste(text), false) = (typed, self.question.is_some()) {
             // Text that is pasted while no question is open contains ball positions.
             self.paste(text);

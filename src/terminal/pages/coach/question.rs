@@ -8,7 +8,7 @@ use crate::{
             Page,
             coach::{CoachPage, saving::named},
         },
-        shot::stroke::SAY,
+        shot::stroke::STROKE_PROMPT,
         ui::TextField,
     },
 };
@@ -38,7 +38,7 @@ impl Question {
                      or a share code: "
                 )
             }
-            Self::Stroke(_) => SAY.to_owned(),
+            Self::Stroke(_) => STROKE_PROMPT.to_owned(),
             Self::Title(..) => "save the balls as (a title, and #tags if you like): ".to_owned(),
             Self::Replace(exercise) => {
                 format!("there is a position called {} already; replace it?", exercise.name)

@@ -10,7 +10,8 @@ use crate::{
     physics::CueInputs,
     table::BALLS,
     terminal::{
-        Advice, AdviceState, CoachAnswer, CoachJob, CoachNews, CoachQuery, Effect, Effort, Mode, Proposal, Shot, Terms,
+        Advice, AdviceState, CoachAnswer, CoachEvent, CoachJob, CoachQuery, Effect, Effort, Mode, Proposal, Shot,
+        Terms,
         pages::{
             Page,
             coach::{Choice, CoachPage, Snapshot},
@@ -49,7 +50,7 @@ impl CoachPage {
         let job = CoachJob { former, ..self.job(None) };
         let (cancel, query) = (Arc::clone(&job.cancel), job.query.clone());
         self.pending = Some(PendingRequest { id: job.id, cancel, query, elapsed: 0.0, best_so_far: None });
-        Effect::Ask(Box::new(job))
+        Effect::AskCoach(Box::new(job))
     }
 
     pub(super) fn job(&mut self, shot: Option<CueInputs>) -> CoachJob {
@@ -88,14 +89,14 @@ impl CoachPage {
         let names = self.cue_ball().names();
         let awaited = self.pending.as_mut().filter(|pending| pending.id == answer.id);
         let is_study = self.running_analysis.as_ref().is_some_and(|running_analysis| running_analysis.id == answer.id);
-        match (answer.news, awaited) {
-            (CoachNews::Better(proposal), Some(pending)) => {
+        match (answer.event, awaited) {
+            (CoachEvent::Better(proposal), Some(pending)) => {
                 pending.best_so_far = Some(proposal);
                 if pending.query == self.query {
                     self.watch_from_start();
                 }
             }
-            (CoachNews::Advice(advice), Some(pending)) => {
+            (CoachEvent::Advice(advice), Some(pending)) => {
                 let query = pending.query.clone();
                 self.pending = None;
                 self.message = if query == self.query {
@@ -106,26 +107,26 @@ impl CoachPage {
                 };
                 self.show(query, advice);
             }
-            (CoachNews::Refused(sentence), Some(_)) => {
+            (CoachEvent::Refused(sentence), Some(_)) => {
                 self.cancel();
                 self.message = Some(Message::warning(sentence));
             }
-            (CoachNews::Why(why), _) if is_study => {
+            (CoachEvent::Why(why), _) if is_study => {
                 if let Some((reason, _)) = self.studied() {
                     *reason = Some(*why);
                 }
             }
-            (CoachNews::Study(study), _) if is_study => {
+            (CoachEvent::Analysis(study), _) if is_study => {
                 if let Some((_, choice)) = self.studied() {
                     choice.study = Some(study);
                 }
             }
-            (CoachNews::Judged(made), _) => {
+            (CoachEvent::StrokeRated(made), _) => {
                 if let Some(own) = &mut self.own_stroke {
-                    own.what_if.judged(answer.id, made);
+                    own.what_if.set_rate(answer.id, made);
                 }
             }
-            (CoachNews::Next(next), _) if is_study => {
+            (CoachEvent::Next(next), _) if is_study => {
                 if let Some((_, choice)) = self.studied() {
                     (choice.next, choice.is_studied) = (next, true);
                 }
@@ -165,7 +166,7 @@ impl CoachPage {
     }
 
     pub(super) fn watch_from_start(&mut self) {
-        self.playback.jump(0.0);
+        self.playback.seek(0.0);
         self.mode = Mode::Watching;
     }
 
@@ -187,7 +188,7 @@ impl CoachPage {
         let found = self.current_advice().and_then(AdviceState::unexplained_search).cloned();
         let job = CoachJob { found, ..self.job(Some(shot.cue)) };
         self.running_analysis = Some(RunningAnalysis { id: job.id, cancel: Arc::clone(&job.cancel), shot });
-        Some(Effect::Ask(Box::new(job)))
+        Some(Effect::AskCoach(Box::new(job)))
     }
 
     pub(super) fn choose(&mut self, choose: impl FnOnce(&mut AdviceState)) {
@@ -239,7 +240,7 @@ impl CoachPage {
     /// Reports how the query terms differ from `before`, if they do. Shows the shot for the new terms if it is known; otherwise the
     /// message says how to get one.
     pub(super) fn report_terms(&mut self, before: Terms, had_shot: bool) {
-        let words = self.query.terms().news_since(before, self.cue_ball().names());
+        let words = self.query.terms().changes_since(before, self.cue_ball().names());
         if words.is_empty() {
             return;
         }

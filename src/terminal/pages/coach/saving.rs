@@ -8,7 +8,7 @@ use crate::{
         DrillTask, Effect,
         pages::coach::{CoachPage, question::Question},
         ui::{Message, TextField},
-        words::taken_words,
+        words::name_taken_message,
     },
 };
 
@@ -61,7 +61,7 @@ impl CoachPage {
                 let table = if other { format!(" for the table {}", exercise.table) } else { String::new() };
                 self.message = Some(Message::good(format!("saved as {name}{table}; the drills list it under {list}")));
             }
-            Ok(false) if self.question.is_some() => self.message = Some(Message::warning(taken_words(name))),
+            Ok(false) if self.question.is_some() => self.message = Some(Message::warning(name_taken_message(name))),
             Ok(false) => self.question = Some(Question::Replace(exercise)),
             Err(sentence) => self.message = Some(Message::warning(format!("{name} is not saved: {sentence}"))),
         }

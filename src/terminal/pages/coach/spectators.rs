@@ -7,9 +7,9 @@ use crate::{
     terminal::{
         Advice, AdviceState, CoachQuery, Mode, Proposal,
         pages::coach::{CoachPage, Snapshot},
+        shared_table::{Activity, Author, SharedShot, SharedTable},
         shot::History,
-        shown::{Author, Doing, ShownShot, ShownTable},
-        tasks::onlooker::{Seen, SeenTable, damage_words},
+        tasks::table_watcher::{FollowedTable, FollowedTableState, damage_message},
         ui::Message,
     },
 };
@@ -36,36 +36,36 @@ pub struct FollowedPlayer {
     /// The folder in which the other player's program writes the shared table.
     pub folder: PathBuf,
     /// The latest state of the shared table.
-    seen: Seen,
+    seen: FollowedTableState,
 }
 
 impl FollowedPlayer {
     /// Creates the state before the shared table has been read.
     pub const fn new(name: String, folder: PathBuf) -> Self {
-        Self { name, folder, seen: Seen::Nothing }
+        Self { name, folder, seen: FollowedTableState::Nothing }
     }
 
     /// The reason why there is no table to show; `None` if there is one.
     pub fn empty_reason(&self) -> Option<String> {
         let name = &self.name;
         match &self.seen {
-            Seen::Nothing => {
+            FollowedTableState::Nothing => {
                 Some(format!("{name} shows no table at the moment. It appears here once they show it again."))
             }
-            Seen::Damaged => Some(damage_words(name)),
-            Seen::Table(_) => None,
+            FollowedTableState::Damaged => Some(damage_message(name)),
+            FollowedTableState::Table(_) => None,
         }
     }
 
     /// A sentence on what the other player is doing; `None` if the displayed shot makes that clear.
     pub fn activity_words(&self) -> Option<String> {
-        let Seen::Table(seen) = &self.seen else { return None };
+        let FollowedTableState::Table(seen) = &self.seen else { return None };
         let name = &self.name;
         match seen.shown.doing {
-            Doing::Placing => Some(format!("{name} places the balls")),
-            Doing::Thinking => Some(format!("the coach thinks for {name}")),
-            Doing::Elsewhere => Some(format!("{name} is at another screen; this is the table as they have left it")),
-            Doing::Watching => seen.shot.is_none().then(|| format!("the shot of {name} cannot be shown here")),
+            Activity::Placing => Some(format!("{name} places the balls")),
+            Activity::Thinking => Some(format!("the coach thinks for {name}")),
+            Activity::Elsewhere => Some(format!("{name} is at another screen; this is the table as they have left it")),
+            Activity::Watching => seen.shot.is_none().then(|| format!("the shot of {name} cannot be shown here")),
         }
     }
 }
@@ -102,29 +102,29 @@ impl CoachPage {
 
     /// The state that spectators see; `None` if the table is not shared. `is_open` tells whether this page is the open one; otherwise
     /// spectators see the table as the player has left it.
-    pub fn shared_table(&self, is_open: bool) -> Option<ShownTable> {
+    pub fn shared_table(&self, is_open: bool) -> Option<SharedTable> {
         if !self.is_shared() {
             return None;
         }
         let doing = match self.mode {
-            _ if !is_open => Doing::Elsewhere,
-            _ if self.pending.is_some() => Doing::Thinking,
-            Mode::Placing => Doing::Placing,
-            Mode::Watching => Doing::Watching,
+            _ if !is_open => Activity::Elsewhere,
+            _ if self.pending.is_some() => Activity::Thinking,
+            Mode::Placing => Activity::Placing,
+            Mode::Watching => Activity::Watching,
         };
         let CoachQuery { rule, skill, .. } = self.query;
-        let shown = ShownTable::new(doing, self.table().clone(), *self.layout(), rule, skill);
-        Some(ShownTable { cue_ball: self.cue_ball(), selected: self.selected, shot: self.shared_shot(), ..shown })
+        let shown = SharedTable::new(doing, self.table().clone(), *self.layout(), rule, skill);
+        Some(SharedTable { cue_ball: self.cue_ball(), selected: self.selected, shot: self.shared_shot(), ..shown })
     }
 
-    fn shared_shot(&self) -> Option<ShownShot> {
+    fn shared_shot(&self) -> Option<SharedShot> {
         let (shot, made, author) = if let Some(own) = self.what_if() {
             (&own.shot, own.made, Author::Player)
         } else {
             let Proposal { shot, made, is_early, .. } = self.proposal()?;
             (shot, *made, if *is_early { Author::Search } else { Author::Coach })
         };
-        Some(ShownShot {
+        Some(SharedShot {
             cue: shot.cue,
             author,
             solved: shot.solved,
@@ -147,25 +147,25 @@ impl CoachPage {
     }
 
     /// Handles a new state of the followed table.
-    pub fn receive_shared(&mut self, seen: Seen) {
+    pub fn receive_shared(&mut self, seen: FollowedTableState) {
         let Sharing::Following(followed) = &mut self.sharing else { return };
         followed.seen = seen.clone();
         self.playback.pause();
-        if let Seen::Table(seen) = seen {
+        if let FollowedTableState::Table(seen) = seen {
             self.show_shared_table(*seen);
         }
     }
 
-    fn show_shared_table(&mut self, seen: SeenTable) {
-        let SeenTable { shown, age, shot } = seen;
+    fn show_shared_table(&mut self, seen: FollowedTable) {
+        let FollowedTable { shown, age, shot } = seen;
         self.query = CoachQuery { rule: shown.rule, skill: shown.skill, ..self.query.clone() };
         self.selected = shown.selected;
         let table = Arc::new(shown.table);
         let mut snapshot = Snapshot { cue_ball: shown.cue_ball, ..Snapshot::new(table, shown.layout) };
         self.mode = Mode::Placing;
-        self.playback.jump(0.0);
+        self.playback.seek(0.0);
         if let Some((shot, shared_shot)) = shot.zip(shown.shot) {
-            if shown.doing != Doing::Placing {
+            if shown.doing != Activity::Placing {
                 self.mode = Mode::Watching;
             }
             self.playback.set_speed(shared_shot.speed);

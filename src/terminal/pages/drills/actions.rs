@@ -74,7 +74,7 @@ impl DrillsPage {
             Action::OpenRecord => return Some(self.open_records()),
             Action::ToggleRecordScope => self.records.toggle_scope(),
             Action::SaveSkill => {
-                return self.records.skill().map(|skill| Effect::Drill(vec![DrillTask::KeepSkill(skill)]));
+                return self.records.skill().map(|skill| Effect::Drill(vec![DrillTask::SaveSkill(skill)]));
             }
             Action::Share => return self.share(),
             Action::AddByCode => self.question = Some(Question::Code(TextField::new(MAX_TEXT_LENGTH))),

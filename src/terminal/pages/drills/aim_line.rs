@@ -7,7 +7,7 @@ use crate::{
     physics::CueInputs,
     simulation::{EventKind, Recording},
     table::{Layout, Table},
-    terminal::shot::Meeting,
+    terminal::shot::FirstImpact,
 };
 
 /// Time between two points of the path, s: at 6 m/s a ball moves 12 mm in that time.
@@ -19,7 +19,7 @@ pub struct AimLine {
     /// Positions of its centre, m, from the start to the first contact or to rest.
     pub points: Vec<DVec2>,
     /// The first contact. If it is a cushion, the ball after it is not included.
-    pub meeting: Meeting,
+    pub meeting: FirstImpact,
     /// The contact point on the cushion; `None` if the first contact is not a cushion.
     pub cushion: Option<RailPoint>,
 }
@@ -29,8 +29,8 @@ impl AimLine {
     /// simulated.
     pub fn of(table: &Table, layout: &Layout, cue: &CueInputs) -> Option<Self> {
         let recording = Recording::new(table, layout, cue).ok()?;
-        let meeting = match Meeting::of(&recording, first_hit(table, &recording)) {
-            Meeting::Rail(rail, _) => Meeting::Rail(rail, None),
+        let meeting = match FirstImpact::of(&recording, first_hit(table, &recording)) {
+            FirstImpact::Rail(rail, _) => FirstImpact::Rail(rail, None),
             meeting => meeting,
         };
         let is_first =
@@ -41,7 +41,7 @@ impl AimLine {
         let steps = (end / STEP).ceil() as u32;
         let times = (0..steps).map(|step| STEP * f64::from(step)).chain([end]);
         let cushion = match meeting {
-            Meeting::Rail(rail, _) => Some(RailPoint::on(table, rail, place(end))),
+            FirstImpact::Rail(rail, _) => Some(RailPoint::on(table, rail, place(end))),
             _ => None,
         };
         Some(Self { points: times.map(place).collect(), meeting, cushion })
@@ -86,8 +86,8 @@ mod tests {
             let cue = CueInputs { a: side, b: 0.1, theta, phi, speed: 3.0 };
             let line = AimLine::of(&table, &layout, &cue).unwrap();
             let shot = Shot::new(&table, &layout, cue, false, "yours").unwrap();
-            match (line.meeting, shot.meeting()) {
-                (Meeting::Rail(one, None), Meeting::Rail(other, _)) => {
+            match (line.meeting, shot.first_impact()) {
+                (FirstImpact::Rail(one, None), FirstImpact::Rail(other, _)) => {
                     let cushion = shot.words.before.first().or(shot.words.between.first()).unwrap();
                     let mark = line.cushion.unwrap();
                     prop_assert_eq!((one, mark.rail), (other, cushion.rail));
@@ -105,7 +105,7 @@ mod tests {
         let fullness = |a: f64| {
             let cue = CueInputs { a, b: 0.0, theta: 0.0, phi: 0.0, speed: 3.0 };
             match AimLine::of(&table, &layout, &cue).unwrap().meeting {
-                Meeting::Ball(hit) if hit.ball == 1 && hit.left => hit.fullness,
+                FirstImpact::Ball(hit) if hit.ball == 1 && hit.left => hit.fullness,
                 met => panic!("{met:?}"),
             }
         };
@@ -127,6 +127,6 @@ mod tests {
         assert_eq!(dots.len(), ((way - 0.05) / 0.04) as usize);
         assert!(dots.windows(2).all(|pair| (pair[0].distance(pair[1]) - 0.04).abs() < 1e-6));
         let soft = AimLine::of(&table, &layout, &CueInputs { speed: 0.1, ..cue }).unwrap();
-        assert!(soft.meeting == Meeting::Nothing && soft.cushion.is_none() && soft.length() > 0.01);
+        assert!(soft.meeting == FirstImpact::Nothing && soft.cushion.is_none() && soft.length() > 0.01);
     }
 }

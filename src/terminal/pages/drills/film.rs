@@ -6,7 +6,7 @@ use crate::{
         FilmReplay,
         shot::{
             Playback, PlaybackKey,
-            film::{Listed, listed},
+            film::{ListedShot, listed},
         },
     },
 };
@@ -24,7 +24,7 @@ pub struct FilmsScreen {
 
 impl FilmsScreen {
     /// The marked shot, which is also the watched one.
-    pub fn marked(&self) -> Option<&'static Listed> {
+    pub fn marked(&self) -> Option<&'static ListedShot> {
         listed().get(self.mark)
     }
 
@@ -42,7 +42,7 @@ impl FilmsScreen {
             return None;
         }
         self.played = None;
-        self.playback.jump(0.0);
+        self.playback.seek(0.0);
         self.marked().map(|listed| listed.filmed.clone())
     }
 
@@ -71,7 +71,7 @@ impl FilmsScreen {
     /// Applies a playback key to the watched shot.
     pub fn apply_playback_key(&mut self, key: PlaybackKey) {
         if let Some(Ok(played)) = &self.played {
-            self.playback.act(key, played.shot.recording.events(), played.replay.duration());
+            self.playback.apply(key, played.shot.recording.events(), played.replay.duration());
         }
     }
 

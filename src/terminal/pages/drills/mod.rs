@@ -327,7 +327,7 @@ impl Page for DrillsPage {
     }
 
     fn input(&mut self, typed: Typed) -> bool {
-        let taken = self.field_mut().is_some_and(|field| field.take(typed));
+        let taken = self.field_mut().is_some_and(|field| field.handle(typed));
         if taken {
             self.message = None;
             self.search();

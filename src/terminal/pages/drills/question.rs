@@ -2,7 +2,7 @@
 
 use crate::{
     drills::Exercise,
-    terminal::{DrillAction, shot::stroke::SAY, ui::TextField},
+    terminal::{DrillAction, shot::stroke::STROKE_PROMPT, ui::TextField},
 };
 
 /// Maximum length of a typed or pasted text, bytes. A share code that a chat program has wrapped into many lines fits.
@@ -41,7 +41,7 @@ impl Question {
         match self {
             Self::Search { .. } => "find: ".to_owned(),
             Self::Code(_) => "paste or type the code of a position: ".to_owned(),
-            Self::Stroke(_) => SAY.to_owned(),
+            Self::Stroke(_) => STROKE_PROMPT.to_owned(),
             Self::Replace(exercise) => {
                 format!("there is a position called {} already; replace it?", exercise.name)
             }

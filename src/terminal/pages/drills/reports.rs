@@ -10,7 +10,7 @@ use crate::{
             drills::{Book, DrillsPage, Estimate, Question, Stage},
         },
         ui::Message,
-        words::taken_words,
+        words::name_taken_message,
     },
 };
 
@@ -49,14 +49,14 @@ impl DrillsPage {
                 }
                 self.warn_unsaved(saved, "the attempt counts here, but it is not saved");
             }
-            DrillReport::Judged(id, number, chance) => {
+            DrillReport::AttemptRated(id, number, chance) => {
                 if let Some(turn) = &mut self.turn {
                     turn.on_judged(&id, number, chance);
                 }
             }
-            DrillReport::StrokeJudged(id, made) => {
+            DrillReport::StrokeRated(id, made) => {
                 if let Some(what_if) = self.turn.as_mut().and_then(|turn| turn.what_if.as_mut()) {
-                    what_if.judged(id, made);
+                    what_if.set_rate(id, made);
                 }
             }
             DrillReport::Saved(session, saved) => return self.on_saved(&session, saved),
@@ -71,7 +71,7 @@ impl DrillsPage {
             DrillReport::PositionSaved(exercise, outcome) => match outcome {
                 Ok(true) => self.on_position_saved(&exercise),
                 Ok(false) if self.question.is_some() => {
-                    self.message = Some(Message::warning(taken_words(&exercise.name)));
+                    self.message = Some(Message::warning(name_taken_message(&exercise.name)));
                 }
                 Ok(false) => self.question = Some(Question::Replace(exercise)),
                 Err(sentence) => {
@@ -96,7 +96,7 @@ impl DrillsPage {
                     self.message = Some(Message::warning(sentence));
                 }
             }
-            DrillReport::SkillKept(skill, kept) => {
+            DrillReport::SkillSaved(skill, kept) => {
                 self.player.own = Some(skill);
                 self.player.choose(skill);
                 self.message = Some(Message::good("this is your skill now: you are the player \"me by my notes\""));

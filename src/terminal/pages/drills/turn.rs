@@ -140,7 +140,7 @@ impl Turn {
 
     /// Sets the stroke from its description in words.
     pub(super) fn set_stroke_in_words(&mut self, words: &str) -> Result<Vec<DrillTask>, StrokeTextError> {
-        self.stroke.say(words, &self.table, &self.layout, self.cue_ball)?;
+        self.stroke.apply_text(words, &self.table, &self.layout, self.cue_ball)?;
         Ok(self.compare())
     }
 
@@ -152,7 +152,7 @@ impl Turn {
 
     /// Whether to warn that the player has not changed the initial stroke. Returns `true` only once.
     pub(super) fn should_warn_unchanged(&mut self) -> bool {
-        let warns = self.is_aiming() && !self.is_coachs_turn() && !self.stroke.can_travel().0;
+        let warns = self.is_aiming() && !self.is_coachs_turn() && !self.stroke.can_undo_redo().0;
         warns && !std::mem::replace(&mut self.is_warned, true)
     }
 
@@ -294,7 +294,7 @@ impl Turn {
             shooter: self.session.shooter(),
             plan: self.session.is_game(),
             jumps: self.jumps,
-            is_coachs: self.session.is_coachs_turn(),
+            is_for_coach: self.session.is_coachs_turn(),
             own: self.session.model_shot_of(&self.exercise).filter(|_| is_exact && !self.session.is_game()),
             cancel: Arc::clone(&self.cancel),
         }))]
@@ -319,14 +319,14 @@ impl Turn {
 
     /// Returns the task that plays the stroke.
     pub(super) fn play(&mut self) -> DrillTask {
-        self.stroke.settle();
+        self.stroke.end_undo_step();
         self.text_page = 0;
         self.stage = Stage::Waiting;
         self.with_hint |= self.shows_hint;
         self.shows_hint = false;
         DrillTask::Play(Box::new(PlayTask {
             session: self.session.clone(),
-            meant: *self.stroke(),
+            intended: *self.stroke(),
             with_hint: self.with_hint,
             advice_id: self.advice_id,
         }))

@@ -97,13 +97,13 @@ impl Turn {
                 .or_else(|| self.disabled_reason(Condition::NotComparing)),
             (_, Condition::Comparing) => refuse(self.what_if().is_none(), "the model shot is not next to your stroke"),
             (Stage::Aiming, Condition::StrokeUndoable) => {
-                refuse(!self.stroke.can_travel().0, "the stroke is unchanged")
+                refuse(!self.stroke.can_undo_redo().0, "the stroke is unchanged")
             }
             (Stage::Aiming, Condition::StrokeSet) => {
-                refuse(!self.stroke.can_travel().0, "the stroke is unchanged; Space twice plays it anyway")
+                refuse(!self.stroke.can_undo_redo().0, "the stroke is unchanged; Space twice plays it anyway")
             }
             (Stage::Aiming, Condition::StrokeRedoable) => {
-                refuse(!self.stroke.can_travel().1, "no change of the stroke was taken back")
+                refuse(!self.stroke.can_undo_redo().1, "no change of the stroke was taken back")
             }
             (_, Condition::StrokeUndoable | Condition::StrokeSet | Condition::StrokeRedoable) => {
                 self.disabled_reason(Condition::Aiming)
@@ -159,7 +159,7 @@ impl DrillsPage {
                 Ok(tasks) => return tasks_effect(tasks),
                 Err(error) => self.message = Some(Message::warning(error.to_string())),
             },
-            Action::TypeStroke => self.question = Some(Question::Stroke(TextField::new(stroke::LONGEST))),
+            Action::TypeStroke => self.question = Some(Question::Stroke(TextField::new(stroke::MAX_TEXT_LENGTH))),
             Action::UndoStroke => return tasks_effect(turn.step_history(OwnStroke::undo)),
             Action::RedoStroke => return tasks_effect(turn.step_history(OwnStroke::redo)),
             Action::WhatIf => return tasks_effect(turn.copy_model_shot()),
@@ -277,7 +277,7 @@ impl DrillsPage {
     fn apply_playback_key(&mut self, key: PlaybackKey) {
         let Some(watched) = self.turn.as_mut().and_then(Turn::watched_mut) else { return };
         let Some(shot) = watched.outcome.shot.clone() else { return };
-        watched.playback.act(key, shot.recording.events(), shot.recording.duration());
+        watched.playback.apply(key, shot.recording.events(), shot.recording.duration());
         watched.settle();
     }
 

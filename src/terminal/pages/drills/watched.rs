@@ -38,7 +38,7 @@ impl Watched {
 
     /// Jumps to the end, where the result is shown.
     pub(super) fn finish(&mut self) {
-        self.playback.jump(self.duration());
+        self.playback.seek(self.duration());
         self.settle();
     }
 }

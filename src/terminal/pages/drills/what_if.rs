@@ -3,7 +3,7 @@
 use std::sync::{Arc, atomic::Ordering};
 
 use crate::terminal::{
-    DrillTask, JudgedStroke,
+    DrillTask, RateStrokeTask,
     pages::drills::{ModelShotState, Turn, turn::NEXT_REQUEST},
     shot::{WhatIf, what_if},
 };
@@ -41,8 +41,8 @@ impl Turn {
         let shooter = self.session.shooter();
         let Some(what_if) = &mut self.what_if else { return Vec::new() };
         let id = NEXT_REQUEST.fetch_add(1, Ordering::Relaxed);
-        let (cue, cancel) = (what_if.shot.cue, what_if.ask(id));
-        vec![DrillTask::Judge(Box::new(JudgedStroke { id, table, layout, rule, shooter, cue, cancel }))]
+        let (cue, cancel) = (what_if.shot.cue, what_if.request_rate(id));
+        vec![DrillTask::RateStroke(Box::new(RateStrokeTask { id, table, layout, rule, shooter, cue, cancel }))]
     }
 
     const fn situation(&self) -> what_if::Situation<'_> {

@@ -138,7 +138,7 @@ impl SettingsPage {
 
     fn task(&mut self, change: Option<Change>) -> Effect {
         self.sent += 1;
-        Effect::Settings(Box::new(SettingsTask { number: self.sent, places: self.places.clone(), change }))
+        Effect::Settings(Box::new(SettingsTask { number: self.sent, paths: self.places.clone(), change }))
     }
 
     /// Handles the result of a task. Returns messages on problems with the file.

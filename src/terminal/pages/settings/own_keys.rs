@@ -70,7 +70,7 @@ impl OwnKeys {
     /// The commands of the key `pressed` that it would lose as a new key of the marked command.
     pub fn other_commands(&self, pressed: Chord, keys: &Keys) -> Vec<(&'static str, &'static str)> {
         let own = self.commands();
-        let commands = commands_of(&self.pages, keys.meant_by(pressed).unwrap_or(pressed));
+        let commands = commands_of(&self.pages, keys.target_of(pressed).unwrap_or(pressed));
         commands.into_iter().filter(|command| !own.contains(command)).collect()
     }
 
@@ -94,7 +94,7 @@ impl OwnKeys {
         }
         let chords = self.chords();
         let Some(first) = chords.first() else { return Err("nothing is marked".to_owned()) };
-        let does_it = keys.meant_by(pressed).map_or(chords.contains(&pressed), |meant| meant == *first);
+        let does_it = keys.target_of(pressed).map_or(chords.contains(&pressed), |meant| meant == *first);
         if does_it { Err(format!("{written} does this already")) } else { Ok(pressed) }
     }
 

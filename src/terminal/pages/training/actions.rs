@@ -9,7 +9,7 @@ use crate::{
     },
     storage::is_name,
     terminal::{
-        Effect, Keeping, Launch, TrainingAction as Action, TrainingCondition as Condition, TrainingContext,
+        Effect, Launch, SavePolicyTask, TrainingAction as Action, TrainingCondition as Condition, TrainingContext,
         pages::{
             Page,
             training::{Form, NamedRun, Question, TrainingPage, Watch, name_in},
@@ -218,6 +218,6 @@ impl TrainingPage {
     fn save_policy(&self, name: String, replace: bool) -> Effect {
         let from = self.watch.as_ref().map(|watch| watch.folder().join(POLICY)).unwrap_or_default();
         let folder = self.places.policies.clone();
-        Effect::Keep(Box::new(Keeping { from, folder, name, replace }))
+        Effect::SavePolicy(Box::new(SavePolicyTask { from, folder, name, replace }))
     }
 }

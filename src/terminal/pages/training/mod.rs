@@ -31,10 +31,10 @@ use crate::{
     storage::DataPaths,
     table::Table,
     terminal::{
-        CoachQuery, FollowSlot, Keeping, Subscriptions, TrainerFailure, TrainingContext, TrainingReport,
+        CoachQuery, FollowSlot, SavePolicyTask, Subscriptions, TrainerFailure, TrainingContext, TrainingReport,
         pages::Page,
         ui::{Message, TextField, Typed},
-        words::taken_words,
+        words::name_taken_message,
     },
 };
 
@@ -144,7 +144,7 @@ impl TrainingPage {
                 self.watch.as_ref().map(|watch| folder(&watch.own)),
                 self.watch.as_ref().and_then(|watch| watch.other.as_ref()).map(folder),
             ],
-            shown: None,
+            followed_table: None,
         }
     }
 
@@ -182,7 +182,7 @@ impl TrainingPage {
             TrainingReport::Sent(_, Err(sentence)) => {
                 self.message = Some(Message::warning(format!("the run cannot be asked: {sentence}")));
             }
-            TrainingReport::Kept(keeping, outcome) => self.on_policy_saved(keeping, outcome),
+            TrainingReport::PolicySaved(keeping, outcome) => self.on_policy_saved(keeping, outcome),
             TrainingReport::Policy(folder, policy) => return self.on_policy(&folder, policy),
         }
         None
@@ -232,7 +232,7 @@ impl TrainingPage {
         }
     }
 
-    fn on_policy_saved(&mut self, keeping: Keeping, outcome: Result<bool, String>) {
+    fn on_policy_saved(&mut self, keeping: SavePolicyTask, outcome: Result<bool, String>) {
         let name = keeping.name;
         match outcome {
             Ok(true) => {
@@ -243,7 +243,7 @@ impl TrainingPage {
             Ok(false) if self.page() == TrainingContext::Watch && self.question.is_none() => {
                 self.question = Some(Question::Replace(name));
             }
-            Ok(false) => self.message = Some(Message::warning(taken_words(&name))),
+            Ok(false) => self.message = Some(Message::warning(name_taken_message(&name))),
             Err(sentence) => self.message = Some(Message::warning(format!("{name} is not kept: {sentence}"))),
         }
     }
@@ -276,7 +276,7 @@ impl Page for TrainingPage {
     fn input(&mut self, typed: Typed) -> bool {
         let is_form = self.page() == TrainingContext::Form && self.question.is_none();
         let taken = match self.field_mut() {
-            Some(name) => name.take(typed),
+            Some(name) => name.handle(typed),
             None if is_form => match self.form.type_digits(&typed.letters()) {
                 Ok(taken) => taken,
                 Err(sentence) => {

@@ -65,7 +65,7 @@ impl Question {
 
     /// Creates the question for a name of the policy of the run `run`.
     pub fn name(run: &str) -> Self {
-        Self::Name(TextField::new(MAX_NAME_BYTES).offering(&proposed_name(run)))
+        Self::Name(TextField::new(MAX_NAME_BYTES).with_suggestion(&proposed_name(run)))
     }
 
     /// The text field of the answer; `None` if the answer is yes or no.

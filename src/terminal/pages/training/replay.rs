@@ -45,7 +45,7 @@ impl Replay {
     /// So is that set itself, which is read again when the user returns to the run.
     pub fn queue(&mut self, reel: Reel) {
         let newest = self.waiting.as_ref().or(self.reel.as_ref());
-        let is_old = |newest: &Reel| newest.after >= reel.after && !self.is_outdated || newest.is_of(&reel);
+        let is_old = |newest: &Reel| newest.after >= reel.after && !self.is_outdated || newest.has_same_shots(&reel);
         if reel.shots.is_empty() || newest.is_some_and(is_old) {
             return;
         }
@@ -66,7 +66,7 @@ impl Replay {
     /// Shows the shot with this index, before its stroke.
     fn show(&mut self, index: usize) {
         self.index = index;
-        self.playback.jump(0.0);
+        self.playback.seek(0.0);
     }
 
     /// The current shot.

@@ -220,7 +220,7 @@ mod tests {
     use crate::terminal::{Depth, ui::drawn};
 
     #[test]
-    fn of_two_curves_in_a_cell_the_upper_one_is_shown_alone() {
+    fn only_the_upper_layer_of_two_curves_in_a_cell_is_drawn() {
         let caps = Capabilities::TRUE_COLOUR;
         let (theme, area) = (Theme::new(Depth::True), Rect::new(0, 0, 2, 1));
         let mut grid = Grid::new(area, caps, &theme);

@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn a_number_on_its_own_is_short_and_never_minus_zero() {
+    fn a_single_number_is_short_and_never_minus_zero() {
         let words = [
             0.012_34, -0.0, 0.0, -0.25, 9.999_99, 12.345, 123.45, 999.96, 1234.0, 9999.7, 12_345.0, 999_600.0, 1.234e6,
             5e-7, 1e30, -1.5e-30,

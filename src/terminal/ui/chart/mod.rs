@@ -30,7 +30,7 @@ use crate::{
 /// Columns left of the plot for labels and axis; constant, so that the plot never moves.
 const LEFT: u16 = LABEL_WIDTH as u16 + 1;
 /// Smallest plot width with labels, columns.
-const LEAST_PLOT: u16 = 6;
+const MIN_PLOT_WIDTH: u16 = 6;
 
 /// Which run a curve belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -152,7 +152,7 @@ pub fn draw_chart(chart: &Chart, area: Rect, ui: &mut Ui) {
     let chart = &Chart { shots: sound(chart.shots), ..*chart };
     title::draw_chart_title(chart, area, ui);
     let below = below_title(area);
-    let labelled = below.width >= LEFT + LEAST_PLOT;
+    let labelled = below.width >= LEFT + MIN_PLOT_WIDTH;
     let left = if labelled { LEFT } else { 0 };
     let with_shots = chart.with_shots && labelled && below.height > 1;
     let plot =

@@ -5,9 +5,9 @@ use crate::terminal::ui::chart::{label::Unit, step::Step};
 /// Columns of the labels; a range whose labels do not fit is widened until they do.
 pub const LABEL_WIDTH: usize = 6;
 /// Largest magnitude that is drawn, so that no range overflows.
-const LARGEST: f64 = 1e300;
+const MAX_VALUE: f64 = 1e300;
 /// Smaller magnitudes are treated as zero.
-const SMALLEST: f64 = 1e-300;
+const MIN_VALUE: f64 = 1e-300;
 /// Smallest distance between two labels, rows, and largest number of labels on an axis.
 const LABEL_SPACING: f64 = 1.9;
 const MAX_LABELS: f64 = 12.0;
@@ -38,7 +38,7 @@ impl Scale {
     /// Creates a linear scale for values from `min` to `max`, both finite. The ends are multiples of a step of 1, 2 or 5 times a power of
     /// ten, and the range is two to five steps long. Growing data change the range seven times per decade.
     pub fn linear(min: f64, max: f64) -> Self {
-        let round = |value: f64| if value.abs() < SMALLEST { 0.0 } else { value.clamp(-LARGEST, LARGEST) };
+        let round = |value: f64| if value.abs() < MIN_VALUE { 0.0 } else { value.clamp(-MAX_VALUE, MAX_VALUE) };
         let (mut low, mut high) = (round(min), round(max));
         if high - low <= high.abs().max(low.abs()) * 1e-6 {
             let size = if low == 0.0 { 1.0 } else { low.abs() / 2.0 };
@@ -66,7 +66,7 @@ impl Scale {
     /// Creates a logarithmic scale for values from `min` to `max`, both positive. It ends at whole decades, or at 1, 2 or 5 times a power
     /// of ten if the range is short.
     pub fn logarithmic(min: f64, max: f64) -> Self {
-        let round = |value: f64| value.clamp(SMALLEST, LARGEST);
+        let round = |value: f64| value.clamp(MIN_VALUE, MAX_VALUE);
         let (mut low, mut high) = (Step::at_most(round(min)), Step::at_least(round(max)));
         if low == high {
             (low, high) = (low.previous(), high.next());
@@ -79,7 +79,7 @@ impl Scale {
     }
 
     /// Position of `value`: 0 is the bottom, 1 the top; `None` if a logarithmic scale cannot show it.
-    pub fn place(&self, value: f64) -> Option<f64> {
+    pub fn fraction(&self, value: f64) -> Option<f64> {
         if self.step.is_some() {
             // Halves, because the difference of the ends may overflow.
             Some((value / 2.0 - self.low / 2.0) / (self.high / 2.0 - self.low / 2.0))
@@ -146,14 +146,14 @@ impl Scale {
 
     fn ends(&self) -> Vec<Tick> {
         let largest = self.high.abs().max(self.low.abs());
-        let own = |value: f64| Unit::new(value, Step::at_most(value.abs().max(SMALLEST)));
+        let own = |value: f64| Unit::new(value, Step::at_most(value.abs().max(MIN_VALUE)));
         let unit = |value: f64| self.step.map_or_else(|| own(value), |step| Unit::new(largest, step));
         [self.low, self.high].into_iter().filter_map(|value| self.tick(value, unit(value))).collect()
     }
 
     fn tick(&self, value: f64, unit: Unit) -> Option<Tick> {
         let label = Some(unit.label(value)).filter(|label| label.len() <= LABEL_WIDTH).unwrap_or_default();
-        Some(Tick { at: self.place(value)?, label })
+        Some(Tick { at: self.fraction(value)?, label })
     }
 }
 
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn ranges_end_at_round_numbers_and_include_a_zero_that_is_near() {
+    fn ranges_end_at_round_numbers_and_include_a_near_zero() {
         let cases: [(f64, f64); 14] = [
             (0.1, 0.38),
             (0.81, 0.93),
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn growing_values_change_the_range_seven_times_a_decade() {
+    fn growing_values_change_the_range_seven_times_per_decade() {
         let mut tops = Vec::new();
         for max in (1..=10_000).map(|n| 1e-3 * f64::from(n)) {
             let top = Scale::linear(0.0, max).high;
@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn labels_of_shots_are_apart_and_of_one_unit() {
+    fn shot_labels_do_not_overlap_and_share_a_unit() {
         let words = |shots, width| words(&shot_ticks(shots, width));
         assert_eq!(words((0.0, 1e6), 53), "0 0.2M 0.4M 0.6M 0.8M 1.0M");
         assert_eq!(words((0.0, 5e5), 53), "0 100k 200k 300k 400k 500k");
@@ -270,7 +270,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn every_value_has_its_place_and_every_label_fits(
+        fn every_value_lies_in_the_range_and_every_label_fits(
             one in proptest::num::f64::NORMAL | proptest::num::f64::ZERO,
             other in proptest::num::f64::NORMAL,
             near in -3.0..3.0,
@@ -284,7 +284,7 @@ mod tests {
             let scale = if log { Scale::logarithmic(min, max) } else { Scale::linear(min, max) };
             let sound = |value: f64| value.abs() < 1e300 && (value == 0.0 || value.abs() > 1e-300);
             for value in [min, max] {
-                let place = scale.place(value).unwrap();
+                let place = scale.fraction(value).unwrap();
                 prop_assert!(place.is_finite());
                 prop_assert!(!sound(value) || (-1e-6..=1.0 + 1e-6).contains(&place), "{} in {:?}", place, scale);
             }

@@ -31,7 +31,7 @@ mod tests {
     use crate::terminal::ui::chart::tests::line;
 
     #[test]
-    fn a_constant_stays_itself_from_its_first_point_on() {
+    fn smoothing_keeps_a_constant_from_its_first_point() {
         let points: Vec<_> = (1..50).map(|n| line(100 * n * n, 0.25)).collect();
         for value in smooth(&points, 3000.0) {
             assert!((value.unwrap() - 0.25).abs() < 1e-12);
@@ -39,7 +39,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_has_gone_63_percent_of_its_way_after_the_length() {
+    fn smoothing_reaches_63_percent_of_a_step_after_the_length() {
         let points: Vec<_> = (1..=4000).map(|n| line(n, if n <= 3000 { 1.0 } else { 3.0 })).collect();
         let smoothed = smooth(&points, 500.0);
         let wanted = 1.0 + 2.0 * (1.0 - (-1.0_f64).exp());
@@ -47,7 +47,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_drawn_stays_when_more_comes_and_gaps_stay_gaps() {
+    fn smoothing_is_causal_and_keeps_gaps() {
         let mut points: Vec<_> = (1..100).map(|n| line(10 * n, (n as f64).sin())).collect();
         points[40] = line(410, f64::NAN);
         let all = smooth(&points, 100.0);
@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn a_thinned_stretch_weighs_as_much_as_its_lines() {
+    fn a_thinned_stretch_weighs_as_much_as_its_records() {
         let value = |n: u64| if n < 800 { 0.0 } else { 1.0 };
         let exact: Vec<_> = (1..=1000).map(|n| line(n, value(n))).collect();
         let mut thinned: Vec<_> = (0..40).map(|n| line(20 * n + 20, 0.0)).collect();

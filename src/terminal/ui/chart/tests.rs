@@ -184,7 +184,7 @@ fn rows_in(buffer: &Buffer, column: u16) -> Vec<u16> {
 }
 
 #[test]
-fn a_peak_of_one_line_in_millions_is_seen_from_top_to_bottom_at_every_look() {
+fn a_peak_of_one_record_in_millions_stays_visible() {
     let values = |n: u64| if n == 1234 { vec![0.0, 1.0] } else { vec![0.0, 0.01] };
     let points: Vec<_> = (0..2000).map(|n| stretch((n * 1000, n * 1000 + 900), &values(n))).collect();
     let curves = [curve(&points, SeriesId::Own)];
@@ -214,7 +214,7 @@ fn neighbours_are_joined_however_far_apart() {
 }
 
 #[test]
-fn a_part_of_a_curve_is_the_same_curve_cut_off() {
+fn a_range_of_a_curve_is_drawn_like_the_whole_curve() {
     let all: Vec<_> = (0..400).map(|n| line(25 * n, (n as f64 / 30.0).sin())).collect();
     let frame = |points: &[Point]| {
         let curves = [curve(points, SeriesId::Own)];

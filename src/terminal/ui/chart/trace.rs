@@ -64,7 +64,7 @@ impl Frame {
     }
 
     fn row(&self, value: f64, grid: &Grid) -> Option<f64> {
-        self.scale.place(value).map(|share| Self::row_at(share, grid))
+        self.scale.fraction(value).map(|share| Self::row_at(share, grid))
     }
 }
 

@@ -36,7 +36,7 @@ pub fn draw_counts(table: &Table, mapping: &Mapping, ui: &mut Ui) {
 }
 
 /// Offsets along the rail, in cells, tried for a number whose cell is taken, nearest first: one for each number.
-const WAYS: [i16; NUMBERED] = [0, 1, -1, 2, -2, 3, -3, 4, -4];
+const OFFSETS: [i16; NUMBERED] = [0, 1, -1, 2, -2, 3, -3, 4, -4];
 
 /// The cells of the numbers, all different: a number whose cell is taken moves along its rail.
 fn cells<'a>(cushions: impl Iterator<Item = &'a Cushion>, table: &Table, mapping: &Mapping) -> Vec<(u16, u16)> {
@@ -54,7 +54,7 @@ fn cells<'a>(cushions: impl Iterator<Item = &'a Cushion>, table: &Table, mapping
             Rail::Left => (bed.x - 1, y(way)),
             Rail::Right => (bed.right(), y(way)),
         };
-        taken.push(WAYS.map(at).into_iter().find(|cell| !taken.contains(cell)).unwrap_or_else(|| at(0)));
+        taken.push(OFFSETS.map(at).into_iter().find(|cell| !taken.contains(cell)).unwrap_or_else(|| at(0)));
     }
     taken
 }
@@ -65,7 +65,7 @@ mod tests {
     use ratatui::layout::Rect;
 
     #[test]
-    fn numbers_stand_on_their_rails_beside_the_cloth_and_never_on_each_other() {
+    fn cushion_numbers_lie_on_their_rails_without_overlap() {
         let table = Table::default();
         let mapping = Mapping::fit(&table, Rect::new(0, 0, 80, 20));
         let bed = mapping.bed;

@@ -13,7 +13,7 @@ use crate::terminal::{
 /// Distance of the two paths from which on they are labelled, m: two balls.
 const LABEL_DISTANCE: f64 = 0.12;
 /// Largest distance from a ball's centre of a mark for a position that the ball hides, and the distance between two tries, m.
-const FARTHEST: f64 = 0.3;
+const MAX_DISTANCE: f64 = 0.3;
 const STEP: f64 = 0.005;
 
 /// Writes the words, each in free cells.
@@ -29,15 +29,15 @@ fn label_paths(picture: &TablePicture, ui: &mut Ui) {
         return;
     }
     let [own, other] = [&own.paths[0], &other.paths[0]];
-    let mut taken: Cells = own.iter().chain(other).map(|dot| picture.mapping.to_cell(dot.place)).collect();
+    let mut taken: Cells = own.iter().chain(other).map(|dot| picture.mapping.to_cell(dot.position)).collect();
     taken.extend(ball_cells(picture));
     let theme = ui.theme;
     for (text, way, from, color) in
-        [("you", own, other, theme.paths[0]), (picture.view.other_name, other, own, theme.way)]
+        [("you", own, other, theme.paths[0]), (picture.view.other_name, other, own, theme.next_path)]
     {
         let width = columns(text) as u16;
-        let is_apart = |place: DVec2| from.iter().all(|dot| dot.place.distance(place) > LABEL_DISTANCE);
-        let apart = way.iter().filter(|dot| is_apart(dot.place)).map(|dot| picture.mapping.to_cell(dot.place));
+        let is_apart = |place: DVec2| from.iter().all(|dot| dot.position.distance(place) > LABEL_DISTANCE);
+        let apart = way.iter().filter(|dot| is_apart(dot.position)).map(|dot| picture.mapping.to_cell(dot.position));
         let starts = apart.flat_map(|cell| beside(cell, width, 1));
         let Some(cells) = free(picture, width, starts, &taken) else { continue };
         write(text, &cells, color, ui);
@@ -57,7 +57,7 @@ fn draw_note(picture: &TablePicture, ui: &mut Ui) {
     }
     let mut taken = balls.clone();
     picture.each_dot(|_, dot, _| {
-        taken.insert(picture.mapping.to_cell(dot.place));
+        taken.insert(picture.mapping.to_cell(dot.position));
     });
     let width = columns(text) as u16;
     // Covering a path is better than being far from the mark.
@@ -78,11 +78,11 @@ fn beside_balls(picture: &TablePicture, place: DVec2) -> Option<DVec2> {
         picture.balls.into_iter().min_by(|one, other| one.distance(place).total_cmp(&other.distance(place)))?;
     let away = (place - nearest).normalize_or(DVec2::X);
     let rays = [0.0, 1.0, -1.0, 2.0, -2.0].map(|turn| DVec2::from_angle(turn * FRAC_PI_4).rotate(away));
-    let along = |way: DVec2| (0..=(FARTHEST / STEP) as u32).map(move |step| nearest + f64::from(step) * STEP * way);
+    let along = |way: DVec2| (0..=(MAX_DISTANCE / STEP) as u32).map(move |step| nearest + f64::from(step) * STEP * way);
     let places = rays.into_iter().flat_map(|way| along(way).take_while(|at| picture.mapping.is_on_bed(*at)));
     let free: Vec<DVec2> =
         places.filter(|at| picture.is_clear(*at) && !picture.has_picture(*at, &picture.balls)).collect();
-    let rings: Vec<DVec2> = picture.ghosts().into_iter().map(|ghost| ghost.place).collect();
+    let rings: Vec<DVec2> = picture.ghosts().into_iter().map(|ghost| ghost.position).collect();
     free.iter().find(|at| !picture.has_picture(**at, &rings)).or(free.first()).copied()
 }
 
@@ -90,7 +90,7 @@ type Cells = HashSet<(u16, u16)>;
 
 /// The cells of the balls and of the ghosts.
 fn ball_cells(picture: &TablePicture) -> impl Iterator<Item = (u16, u16)> {
-    let balls = picture.balls.into_iter().chain(picture.ghosts().into_iter().map(|ghost| ghost.place));
+    let balls = picture.balls.into_iter().chain(picture.ghosts().into_iter().map(|ghost| ghost.position));
     // A ball may extend into the neighbouring rows and columns.
     balls.map(|place| picture.mapping.to_cell(place)).flat_map(|(x, y)| {
         (x.saturating_sub(2)..=x + 2).flat_map(move |x| (y.saturating_sub(1)..=y + 1).map(move |y| (x, y)))
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn the_place_where_a_ball_comes_to_one_that_lies_still_is_marked_beside_that_ball() {
+    fn a_contact_position_hidden_by_a_resting_ball_is_marked_beside_it() {
         let table = Table::default();
         let layout = Layout::parse("-1,0.3 -0.9,-0.4 0.4,0.1", &table).unwrap();
         let (red, color) = (layout.balls[2], Theme::new(Depth::True).balls[2]);
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn a_place_that_no_ball_hides_is_marked_itself() {
+    fn a_visible_contact_position_is_marked_directly() {
         let (table, area) = (Table::default(), Rect::new(0, 0, 112, 30));
         let layout = Layout::parse("-1,0.3 -0.9,-0.4 0.4,0.1", &table).unwrap();
         let place = DVec2::new(0.0, -0.2);

@@ -37,7 +37,7 @@ const CLEAR_PICTURES: f64 = 1.45;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
     /// Position, m.
-    pub place: DVec2,
+    pub position: DVec2,
     /// Whether it is an outline as large as a ball; otherwise it is a dot.
     pub is_ball: bool,
     /// The colour.
@@ -174,7 +174,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pictures_of_touching_balls_touch_and_others_stay() {
+    fn touching_balls_are_drawn_touching_and_others_stay() {
         let balls = [DVec2::ZERO, DVec2::new(0.06, 0.0), DVec2::new(0.5, 0.0)];
         let [one, two, three] = separated(balls, 0.12);
         assert!((one.distance(two) - 0.12).abs() < 1e-12);

@@ -46,7 +46,7 @@ fn path_color(theme: &Theme, ball: usize, age: Age) -> Color {
     match age {
         Age::Ahead => theme.paths[ball],
         Age::Trail => theme.balls[ball],
-        Age::Past => theme.past(ball),
+        Age::Past => theme.past_path(ball),
     }
 }
 
@@ -64,13 +64,17 @@ fn in_blocks(picture: &TablePicture, ui: &mut Ui) {
         picture.sprite.stamp_ring(canvas, mapping, place, Ink { color, weight: RING_WEIGHT });
     };
     for spot in picture.spots() {
-        if spot.is_ball { ring(&mut canvas, spot.place, spot.color) } else { dot(&mut canvas, spot.place, spot.color) }
+        if spot.is_ball {
+            ring(&mut canvas, spot.position, spot.color);
+        } else {
+            dot(&mut canvas, spot.position, spot.color);
+        }
     }
-    picture.each_other_dot(|place| dot(&mut canvas, place, theme.way));
-    picture.each_dot(|ball, at, age| dot(&mut canvas, at.place, path_color(theme, ball, age)));
+    picture.each_other_dot(|place| dot(&mut canvas, place, theme.next_path));
+    picture.each_dot(|ball, at, age| dot(&mut canvas, at.position, path_color(theme, ball, age)));
     picture.each_cue_dot(|place, _| dot(&mut canvas, place, theme.cue));
     for ghost in picture.ghosts() {
-        ring(&mut canvas, ghost.place, path_color(theme, ghost.ball, ghost.age));
+        ring(&mut canvas, ghost.position, path_color(theme, ghost.ball, ghost.age));
     }
     for (ball, place) in picture.view.film.into_iter().flatten().enumerate() {
         // A sprite too small for an outline is drawn in a paler colour instead.
@@ -102,9 +106,9 @@ fn in_letters(picture: &TablePicture, ui: &mut Ui) {
         cell.set_char(symbol).set_fg(color);
     };
     for spot in picture.spots() {
-        put(spot.place, spot.letter, spot.color);
+        put(spot.position, spot.letter, spot.color);
     }
-    picture.each_other_dot(|place| put(place, caps.pick(OTHER[0], OTHER[1]), theme.way));
+    picture.each_other_dot(|place| put(place, caps.pick(OTHER[0], OTHER[1]), theme.next_path));
     let dots = theme.cue_ball.to_ball_order(caps.pick(DOTS, PLAIN_DOTS));
     let (letters, trail) = (theme.letters(), caps.pick(TRAIL[0], TRAIL[1]));
     picture.each_dot(|ball, dot, age| {
@@ -113,11 +117,11 @@ fn in_letters(picture: &TablePicture, ui: &mut Ui) {
             Age::Trail => trail,
             _ => dots[ball],
         };
-        put(dot.place, sign, path_color(theme, ball, age));
+        put(dot.position, sign, path_color(theme, ball, age));
     });
     picture.each_cue_dot(|place, sign| put(place, sign, theme.cue));
     for ghost in picture.ghosts() {
-        put(ghost.place, letters[ghost.ball].to_ascii_lowercase(), path_color(theme, ghost.ball, ghost.age));
+        put(ghost.position, letters[ghost.ball].to_ascii_lowercase(), path_color(theme, ghost.ball, ghost.age));
     }
     for (ball, place) in picture.view.film.into_iter().flatten().enumerate() {
         put(place, letters[ball].to_ascii_lowercase(), theme.paths[ball]);
@@ -204,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_ahead_a_trail_and_what_is_past_are_told_apart_in_every_theme() {
+    fn future_trail_and_past_of_a_path_differ_in_every_theme() {
         for name in ThemeName::ALL.into_iter().filter(|name| *name != ThemeName::Mono) {
             for depth in [Depth::True, Depth::Indexed, Depth::Ansi] {
                 let theme = Theme::of(name, depth);

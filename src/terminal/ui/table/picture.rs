@@ -50,7 +50,7 @@ impl Age {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ghost {
     pub ball: usize,
-    pub place: DVec2,
+    pub position: DVec2,
     pub age: Age,
 }
 
@@ -104,13 +104,13 @@ impl TablePicture<'_> {
 
     /// The extra marks to draw. An outline of a ball may touch a ball, a dot may not.
     pub fn spots(&self) -> impl Iterator<Item = &Spot> {
-        self.view.spots.iter().filter(|spot| spot.is_ball || self.is_clear(spot.place))
+        self.view.spots.iter().filter(|spot| spot.is_ball || self.is_clear(spot.position))
     }
 
     /// Whether the dot with this `number` of a path is drawn over the table. A path in the air is dashed.
     fn is_drawn(&self, number: usize, dot: &Dot) -> bool {
         let is_kept = !dot.is_aloft() || number.is_multiple_of(2) || self.caps.glyphs == Glyphs::Letters;
-        is_kept && self.mapping.is_on_bed(dot.place) && self.is_clear(dot.place)
+        is_kept && self.mapping.is_on_bed(dot.position) && self.is_clear(dot.position)
     }
 
     /// Calls `draw` with each visible dot of the predicted paths, that is, hidden by no ball and no ghost.
@@ -120,12 +120,12 @@ impl TablePicture<'_> {
         let stride = (columns / (self.mapping.scale().x * DOT_SPACING)).round().max(1.0) as usize;
         let ghosts = self.ghosts();
         let absent: Vec<DVec2> =
-            ghosts.iter().map(|ghost| ghost.place).chain(self.view.film.into_iter().flatten()).collect();
+            ghosts.iter().map(|ghost| ghost.position).chain(self.view.film.into_iter().flatten()).collect();
         let is_free = |place: DVec2| absent.iter().all(|other| other.distance(place) > GHOST_CLEAR * self.clear);
         let balls = if self.view.cue_path_only { 1 } else { BALLS };
         for (ball, path) in shot.paths[..balls].iter().enumerate().rev() {
             let seen = path.iter().step_by(stride).enumerate();
-            for (_, dot) in seen.filter(|(number, dot)| self.is_drawn(*number, dot) && is_free(dot.place)) {
+            for (_, dot) in seen.filter(|(number, dot)| self.is_drawn(*number, dot) && is_free(dot.position)) {
                 draw(ball, dot, Age::at(dot.time, self.time));
             }
         }
@@ -135,7 +135,7 @@ impl TablePicture<'_> {
     pub fn each_other_dot(&self, mut draw: impl FnMut(DVec2)) {
         let dots = self.view.other.map_or(&[][..], |shot| &shot.paths[0]);
         let dashes = dots.chunks(DASH).step_by(2).flatten().enumerate();
-        dashes.filter(|(number, dot)| self.is_drawn(*number, dot)).for_each(|(_, dot)| draw(dot.place));
+        dashes.filter(|(number, dot)| self.is_drawn(*number, dot)).for_each(|(_, dot)| draw(dot.position));
     }
 
     /// The ghosts: the cue ball at its first contact with each object ball, and the final positions of all balls that move.
@@ -146,14 +146,14 @@ impl TablePicture<'_> {
         let is_clear = |place: DVec2, ball: usize| self.balls[ball].distance(place) > clear;
         let contacts = shot.contacts.iter().filter_map(|contact| {
             // Enlarged sprites should touch where the balls do.
-            let way = contact.place - contact.other;
+            let way = contact.position - contact.other;
             let place = contact.other + way.normalize_or(DVec2::X) * way.length().max(2.0 * self.reach());
             let is_clear = (0..BALLS).all(|ball| ball == contact.ball || is_clear(place, ball));
-            is_clear.then(|| Ghost { ball: 0, place, age: Age::at(contact.time, self.time) })
+            is_clear.then(|| Ghost { ball: 0, position: place, age: Age::at(contact.time, self.time) })
         });
         let ends = shot.recording.final_layout().balls.into_iter().enumerate();
         let ends = ends.filter(|&(_, place)| (0..BALLS).all(|ball| is_clear(place, ball)));
-        contacts.chain(ends.map(|(ball, place)| Ghost { ball, place, age: Age::Ahead })).collect()
+        contacts.chain(ends.map(|(ball, place)| Ghost { ball, position: place, age: Age::Ahead })).collect()
     }
 
     /// Before the stroke, calls `draw` along the part of the cue that is over the cloth, with the character of its direction.
@@ -228,20 +228,22 @@ mod tests {
     }
 
     #[test]
-    fn the_cue_ball_has_a_ring_at_each_first_contact_and_no_ring_is_cut() {
+    fn each_first_contact_has_an_uncut_ring_for_the_cue_ball() {
         for columns in [64, 112, 176] {
             at(columns, 0.0, |picture, shot| {
                 let ghosts = picture.ghosts();
                 for contact in &shot.contacts {
-                    let is_there = |ghost: &Ghost| ghost.ball == 0 && ghost.place.distance(contact.place) < 0.07;
+                    let is_there = |ghost: &Ghost| ghost.ball == 0 && ghost.position.distance(contact.position) < 0.07;
                     assert!(ghosts.iter().any(is_there), "{columns}: {ghosts:?}");
                 }
                 let reach = picture.reach();
                 for ghost in &ghosts {
-                    let nearest = picture.balls.map(|ball| ball.distance(ghost.place)).into_iter().fold(1.0, f64::min);
+                    let nearest =
+                        picture.balls.map(|ball| ball.distance(ghost.position)).into_iter().fold(1.0, f64::min);
                     assert!(nearest > 2.0 * reach - 1e-9, "{columns}: {ghost:?} is {nearest} from a ball");
-                    picture
-                        .each_dot(|_, dot, _| assert!(dot.place.distance(ghost.place) > reach, "{columns}: {ghost:?}"));
+                    picture.each_dot(|_, dot, _| {
+                        assert!(dot.position.distance(ghost.position) > reach, "{columns}: {ghost:?}");
+                    });
                 }
             });
         }

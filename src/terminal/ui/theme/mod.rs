@@ -67,11 +67,11 @@ pub struct Theme {
     /// Colours of their signs in text, visible on the background.
     pub signs: [Color; 3],
     /// Colour of the sign for the cue ball's path, in text.
-    pub way_sign: Color,
+    pub next_path_sign: Color,
     /// The dots of the balls' paths.
     pub paths: [Color; 3],
     /// The dots of the cue ball's path in the next shot.
-    pub way: Color,
+    pub next_path: Color,
     /// The cue ball's face, except the tip contact.
     pub face: Color,
     /// The part of the face where the tip would slip off.
@@ -119,13 +119,13 @@ impl Theme {
             cue_ball: CueBall::White,
             balls,
             signs: balls,
-            way_sign: ink(0x007e_e787, 114, Color::LightGreen),
+            next_path_sign: ink(0x007e_e787, 114, Color::LightGreen),
             paths: [
                 ink(0x00b9_d3d8, 152, Color::Gray),
                 ink(0x00d8_c05a, 179, Color::Yellow),
                 ink(0x00ee_8f83, 210, Color::LightRed),
             ],
-            way: ink(0x007e_e787, 114, Color::LightGreen),
+            next_path: ink(0x007e_e787, 114, Color::LightGreen),
             face: ink(0x00f7_f3e8, 255, Color::White),
             miscue: ink(0x00c3_c4be, 251, Color::DarkGray),
             tip: ink(0x001f_63c8, 26, Color::Blue),
@@ -209,7 +209,7 @@ impl Theme {
     }
 
     /// Colour of a path that the ball has already run: midway between the path's colour and the cloth's.
-    pub fn past(&self, ball: usize) -> Color {
+    pub fn past_path(&self, ball: usize) -> Color {
         match (self.paths[ball], self.cloth) {
             (Color::Rgb(r, g, b), Color::Rgb(cloth_r, cloth_g, cloth_b)) => {
                 Color::Rgb(r.midpoint(cloth_r), g.midpoint(cloth_g), b.midpoint(cloth_b))

@@ -135,7 +135,7 @@ fn text_can_be_read_in_every_theme_at_every_depth() {
 }
 
 #[test]
-fn things_that_mean_something_are_told_apart_in_every_theme_at_every_depth() {
+fn colours_with_meaning_are_distinguishable_in_every_theme_at_every_depth() {
     let mut found = Vec::new();
     for (name, theme) in themes() {
         let mut check = |what: &str, group: &[Color], least: f64| {
@@ -145,12 +145,12 @@ fn things_that_mean_something_are_told_apart_in_every_theme_at_every_depth() {
         check("balls", &[white, yellow, red, theme.cloth], 30.0);
         let [white_sign, yellow_sign, red_sign] = theme.signs;
         check("balls among words", &[white_sign, yellow_sign, red_sign, theme.background], 20.0);
-        check("the way among words", &[theme.way_sign, theme.background], 30.0);
+        check("the way among words", &[theme.next_path_sign, theme.background], 30.0);
         check("table", &[theme.cloth, theme.cushion, theme.wood], 12.0);
         check("marks on the rails", &[theme.mark, theme.cushion, theme.wood], 30.0);
         let [white, yellow, red] = theme.paths;
-        check("next way", &[&theme.balls[..], &[theme.way, theme.cloth]].concat(), 30.0);
-        check("both ways", &[theme.way, theme.paths[0]], 30.0);
+        check("next way", &[&theme.balls[..], &[theme.next_path, theme.cloth]].concat(), 30.0);
+        check("both ways", &[theme.next_path, theme.paths[0]], 30.0);
         check("paths", &[white, yellow, red, theme.cloth], 30.0);
         let ([own, other], [own_band, other_band]) = (theme.curves, theme.bands);
         check("curves", &[own, other, theme.background], 30.0);
@@ -165,21 +165,21 @@ fn things_that_mean_something_are_told_apart_in_every_theme_at_every_depth() {
 }
 
 #[test]
-fn people_who_see_fewer_colours_tell_the_balls_the_cloth_and_the_news_apart() {
+fn balls_cloth_and_messages_are_distinguishable_for_colour_blind_people() {
     let theme = Theme::of(ThemeName::ColourBlind, Depth::True);
     for eyes in &EYES {
         let check = |what: &str, group: &[Color]| {
             assert_eq!(too_near(what, &theme, group, 20.0, eyes), Vec::<String>::new());
         };
         check("balls", &[theme.balls[0], theme.balls[1], theme.balls[2], theme.cloth]);
-        check("next way", &[theme.balls[0], theme.balls[1], theme.balls[2], theme.way, theme.cloth]);
+        check("next way", &[theme.balls[0], theme.balls[1], theme.balls[2], theme.next_path, theme.cloth]);
         check("news", &[theme.good, theme.warning]);
         check("curves", &theme.curves);
     }
 }
 
 #[test]
-fn names_are_read_back_and_go_round() {
+fn theme_names_parse_back_and_cycle() {
     let mut name = ThemeName::default();
     for _ in ThemeName::ALL {
         assert_eq!(name.name().parse(), Ok(name));

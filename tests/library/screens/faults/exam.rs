@@ -13,13 +13,13 @@ fn an_exam_starts_with_an_introduction() {
     check("exam_begins", &player);
     player.says("level 2").says("20 exercises of grade 2 to 4").says("one attempt each").says("expert");
     let begun = player.press("Enter");
-    assert_eq!((begun.app.place(), begun.attempt_count()), (EXERCISE, 0), "the first Enter plays nothing");
+    assert_eq!((begun.app.key_context(), begun.attempt_count()), (EXERCISE, 0), "the first Enter plays nothing");
     begun.says("exercise 1 of 20").says("set the stroke and play it");
     let once_more = begun.press("Enter");
     once_more.says("the stroke is unchanged; Space twice plays it anyway");
     assert_eq!((once_more.attempt_count(), once_more.press("Left Enter").attempt_count()), (0, 1));
     let back = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Esc");
-    assert_eq!(back.app.place(), LIBRARY, "nothing has begun: nothing is asked");
+    assert_eq!(back.app.key_context(), LIBRARY, "nothing has begun: nothing is asked");
 }
 
 #[test]
@@ -27,10 +27,10 @@ fn a_left_exam_is_resumed_from_the_coach() {
     let player = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter Esc");
     player.says("leave the exam after 1 of 20 exercises? c on the coach's page goes on with it.");
     let left = player.press("y");
-    assert_eq!(left.app.place(), LIBRARY);
+    assert_eq!(left.app.key_context(), LIBRARY);
     left.says("the exam is kept; c on the coach's page (F2) goes on with it");
     let on = left.press("F2 c");
-    assert_eq!(on.app.place(), EXERCISE);
+    assert_eq!(on.app.key_context(), EXERCISE);
     on.says("exercise 2 of 20");
     let over = (2..=20).fold(on, |player, _| player.press("Space Space Enter Enter"));
     over.says("Grade: ");
@@ -42,7 +42,7 @@ fn a_left_exam_is_resumed_from_the_coach() {
 fn an_open_exam_is_resumed_from_the_coach() {
     for keys in ["F2 c", "Esc F2 c", "r F2 c"] {
         let on = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter").press(keys);
-        assert_eq!(on.app.place(), EXERCISE, "{keys}");
+        assert_eq!(on.app.key_context(), EXERCISE, "{keys}");
         on.says("exercise 2 of 20");
     }
 }
@@ -60,7 +60,7 @@ fn several_left_exams_can_all_be_resumed() {
         (0..exercises).fold(player.press("e Enter"), |player, _| player.press("Space Space Enter Enter"))
     };
     let attempts = |player: &Player| {
-        let sessions = player.app.saved_session().unwrap().with_former();
+        let sessions = player.app.saved_session().unwrap().into_sessions();
         sessions.iter().filter_map(|one| one.practice.as_ref().map(|exam| exam.attempts.len())).collect::<Vec<_>>()
     };
     // On other pages, too, an exam is in progress.
@@ -80,7 +80,7 @@ fn several_left_exams_can_all_be_resumed() {
 #[test]
 fn leaving_an_exam_without_attempts_asks_nothing() {
     let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Esc");
-    assert_eq!(left.app.place(), LIBRARY);
+    assert_eq!(left.app.key_context(), LIBRARY);
     left.does_not_show("the exam is kept");
 }
 
@@ -167,7 +167,7 @@ fn leaving_a_run_needs_confirmation_and_it_can_be_resumed() {
     watched.says("no attempt yet");
     watched.press("x").says("give up the run after 1 attempt?").says(" of 1 made").does_not_show("no attempt yet");
     let left = run.press("Esc");
-    assert_eq!(left.app.place(), LIBRARY);
+    assert_eq!(left.app.key_context(), LIBRARY);
     left.says("the run is kept; Enter on the exercise goes on with it");
     assert_eq!(left.app.saved_session().and_then(|last| last.practice.map(|run| run.attempts.len())), Some(1));
     let on = left.press("Enter");

@@ -8,14 +8,14 @@ use crate::screens::player::{Player, TRUE_COLOUR};
 fn at_coach(word: &str) -> Vec<Action> {
     let mut player = Player::new().press(":");
     player.app.paste(word);
-    player.app.command_palette.as_ref().unwrap().found(player.app.commands()).iter().map(|found| found.action).collect()
+    player.app.command_palette.as_ref().unwrap().matching(player.app.commands()).iter().map(|one| one.action).collect()
 }
 
 /// The same in the library.
 fn in_the_library(word: &str) -> Vec<Action> {
     let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press(":");
     player.app.paste(word);
-    player.app.command_palette.as_ref().unwrap().found(player.app.commands()).iter().map(|found| found.action).collect()
+    player.app.command_palette.as_ref().unwrap().matching(player.app.commands()).iter().map(|one| one.action).collect()
 }
 
 #[test]

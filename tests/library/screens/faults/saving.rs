@@ -19,7 +19,7 @@ fn the_title_prompt_opens_over_the_coachs_page() {
     assert_eq!(rows(&asked.text(120, 40)), rows(&table), "the balls stay visible behind the prompt");
     let saved = asked.type_in("My corner #draw").press("Enter");
     saved.says("saved as my-corner").says("My positions");
-    assert_eq!((saved.app.screen, saved.app.place()), (PageId::Coach, KeyContext::Coach));
+    assert_eq!((saved.app.screen, saved.app.key_context()), (PageId::Coach, KeyContext::Coach));
     assert_eq!(saved.store().positions().items[0].title, "My corner");
     saved.press("d Left").says("My corner").says("#draw");
 }
@@ -31,7 +31,7 @@ fn an_invalid_title_can_be_corrected_and_escape_cancels() {
     let saved = refused.press("Backspace Backspace").type_in("mine").press("Enter");
     saved.says("saved as mine");
     let left = at_coach().press("s").type_in("q1").press("Esc");
-    assert_eq!(left.app.place(), KeyContext::Coach);
+    assert_eq!(left.app.key_context(), KeyContext::Coach);
     assert!(left.store().positions().items.is_empty());
     let mut pasted = at_coach().press("s");
     pasted.app.paste("from a\nchat");
@@ -44,7 +44,7 @@ fn a_late_save_result_does_not_replace_an_open_prompt() {
     let position = player.store().positions().items[0].clone();
     player.app.coach.saved(Box::new(position), Ok(false));
     player.says("mine is not saved: there is another of this name").says("code: 2d,");
-    assert_eq!(player.app.place(), KeyContext::Question { is_typed: true });
+    assert_eq!(player.app.key_context(), KeyContext::Question { is_typed: true });
 }
 
 #[test]
@@ -53,7 +53,7 @@ fn replacing_needs_confirmation_and_bundled_names_are_refused() {
     twice.says("there is a position called mine already; replace it?");
     let first = twice.store().positions().items[0].layout;
     let kept = twice.press("n");
-    assert_eq!((kept.store().positions().items[0].layout, kept.app.place()), (first, KeyContext::Coach));
+    assert_eq!((kept.store().positions().items[0].layout, kept.app.key_context()), (first, KeyContext::Coach));
     let replaced = kept.press("s").type_in("mine").press("Enter y");
     replaced.says("saved as mine");
     assert_eq!(replaced.store().positions().items[0].layout, *replaced.app.coach.layout());

@@ -61,15 +61,15 @@ fn every_valid_seed_can_be_typed_and_larger_ones_are_refused() {
 fn a_run_longer_than_a_day_asks_for_confirmation() {
     let player = at_number_of_shots().press("9 0 0 0 0 0 0 0 0 0 Enter");
     assert!(player.effects.is_empty(), "{:?}", player.effects);
-    assert_eq!(player.app.place(), KeyContext::Question { is_typed: false });
+    assert_eq!(player.app.key_context(), KeyContext::Question { is_typed: false });
     player.says("9,000,000,000 shots take about");
     player.shows(&["start the run?", "y yes", "n no"]);
     let no = player.press("n");
-    assert_eq!(no.app.place(), KeyContext::Training(TrainingContext::Form), "the form is as it was");
+    assert_eq!(no.app.key_context(), KeyContext::Training(TrainingContext::Form), "the form is as it was");
     no.says("9,000,000,000");
     let yes = no.press("Enter y");
     assert_eq!(started_option(&yes, "--steps").as_deref(), Some("9000000000"));
-    assert_eq!(yes.app.place(), KeyContext::Training(TrainingContext::Watch));
+    assert_eq!(yes.app.key_context(), KeyContext::Training(TrainingContext::Watch));
     let usual = at_number_of_shots().press("Enter");
     assert_eq!(started_option(&usual, "--steps").as_deref(), Some("5000000"), "a usual number starts immediately");
 }
@@ -77,7 +77,7 @@ fn a_run_longer_than_a_day_asks_for_confirmation() {
 #[test]
 fn a_policy_name_can_be_pasted() {
     let mut player = Player::watching(TRUE_COLOUR).press("k");
-    assert_eq!(player.app.place(), KeyContext::Question { is_typed: true });
+    assert_eq!(player.app.key_context(), KeyContext::Question { is_typed: true });
     for _ in 0..100 {
         player = player.press("Backspace");
     }
@@ -85,7 +85,7 @@ fn a_policy_name_can_be_pasted() {
     player.says("keep the networks under the name: three-cushions");
     let player = player.press("Enter");
     let kept = player.effects.iter().find_map(|effect| match effect {
-        Effect::Keep(keeping) => Some(keeping.name.clone()),
+        Effect::SavePolicy(task) => Some(task.name.clone()),
         _ => None,
     });
     assert_eq!(kept.as_deref(), Some("three-cushions"));

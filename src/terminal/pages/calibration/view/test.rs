@@ -115,15 +115,15 @@ fn draw_picture(table: &Table, test: &Test, sketch: &Sketch, area: Rect, ui: &mu
     for ball in 0..BALLS {
         let color = ui.theme.paths[ball];
         let dots = sketch.paths[ball].iter().step_by(stride);
-        spots.extend(dots.map(|place| Spot { place: *place, is_ball: false, color, letter: dot }));
+        spots.extend(dots.map(|place| Spot { position: *place, is_ball: false, color, letter: dot }));
     }
     let ahead = DVec2::from_angle(sketch.cue.phi);
     let sign = cue_sign(ahead, ui.caps);
     let behind = (0..=(CUE / CUE_DOTS) as u32).map(|n| 1.5 * table.radius + f64::from(n) * CUE_DOTS);
     let cue = behind.map(|back| sketch.layout.balls[0] - ahead * back).filter(|place| mapping.is_on_bed(*place));
-    spots.extend(cue.map(|place| Spot { place, is_ball: false, color: ui.theme.cue, letter: sign }));
+    spots.extend(cue.map(|place| Spot { position: place, is_ball: false, color: ui.theme.cue, letter: sign }));
     let marks = sketch.mark_positions.iter().flatten();
-    spots.extend(marks.map(|place| Spot { place: *place, is_ball: true, color: ui.theme.mark, letter: 'o' }));
+    spots.extend(marks.map(|place| Spot { position: *place, is_ball: true, color: ui.theme.mark, letter: 'o' }));
     let view = TableView { spots: &spots, is_numbered: false, ..TableView::new(table, &sketch.layout) };
     draw_table(&view, area, ui);
     number_rails(table, &mapping, ui);

@@ -14,7 +14,7 @@ use crate::{
         pages::coach::CoachPage,
         shot::Spin,
         ui::{Theme, Ui, draw_title, list, write_right},
-        words::{fine, fixed, in_diamonds},
+        words::{fixed, format_fine, to_diamonds},
     },
 };
 
@@ -76,12 +76,12 @@ fn draw_ball(coach: &CoachPage, ball: usize, area: Rect, ui: &mut Ui) {
         None => (coach.layout().balls[ball], None, ""),
     };
     let unit = coach.units.length;
-    write_right(ui.buffer, area.x, area.x + X_END, area.y, &fine(place.x, unit), style);
-    write_right(ui.buffer, area.x, area.x + Y_END, area.y, &fine(place.y, unit), style);
+    write_right(ui.buffer, area.x, area.x + X_END, area.y, &format_fine(place.x, unit), style);
+    write_right(ui.buffer, area.x, area.x + Y_END, area.y, &format_fine(place.y, unit), style);
     if let Some(speed) = speed {
         write_right(ui.buffer, area.x, area.x + SPEED_END, area.y, &fixed(unit.speed().0 * speed, 2), style);
     } else {
-        let diamonds = in_diamonds(coach.table(), place);
+        let diamonds = to_diamonds(coach.table(), place);
         write_right(ui.buffer, area.x, area.x + X_DIAMONDS_END, area.y, &fixed(diamonds.x, 2), style);
         write_right(ui.buffer, area.x, area.x + Y_DIAMONDS_END, area.y, &fixed(diamonds.y, 2), style);
     }
@@ -105,7 +105,7 @@ fn more(coach: &CoachPage, theme: &Theme) -> Vec<Line<'static>> {
             let balls = coach.layout().balls;
             let gap = (balls[coach.selected].distance(balls[other]) - 2.0 * coach.table().radius).max(0.0);
             gaps.push(label(if gaps.len() > 1 { ", " } else { " " }));
-            gaps.push(value(format!("{} {}", theme.names()[other], fine(gap, unit))));
+            gaps.push(value(format!("{} {}", theme.names()[other], format_fine(gap, unit))));
         }
         gaps.push(label(" "));
         gaps.push(label(unit.fine().1));

@@ -19,7 +19,7 @@ use crate::{
                 words::{place_along, to_hundredths},
             },
         },
-        ui::{Ui, columns, draw_title, spell},
+        ui::{Ui, columns, draw_title, to_displayable},
         words::{chance_words, fixed, percent, speed_words},
     },
 };
@@ -46,7 +46,7 @@ pub fn draw_card(proposal: &Proposal, coach: &CoachPage, area: Rect, ui: &mut Ui
             // A narrow row has no room for " degrees".
             value = value.replace('\u{b0}', ui.caps.pick("\u{b0}", " deg"));
         }
-        line.push_span(Span::styled(spell(&value, ui.caps), ui.theme.text()));
+        line.push_span(Span::styled(to_displayable(&value, ui.caps), ui.theme.text()));
         ui.buffer.set_line(inner.x, row, &line, inner.width);
     }
 }

@@ -10,7 +10,10 @@ use crate::{
     terminal::{
         AdviceState, Proposal,
         pages::coach::Choice,
-        ui::{Ui, below_title, columns, cut, draw_nothing, draw_title, list, shorten, spell, wrap, write_right},
+        ui::{
+            Ui, below_title, columns, draw_placeholder, draw_title, list, shorten, to_displayable, truncate_lines,
+            wrap, write_right,
+        },
         words::{chance_words, fixed, percent, skill_word},
     },
 };
@@ -38,7 +41,7 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, 
         }
     }
     let inner = draw_title(title, area, ui);
-    let Some(advised) = advised else { return draw_nothing(&[empty], inner, ui) };
+    let Some(advised) = advised else { return draw_placeholder(&[empty], inner, ui) };
     for (n, row) in list::shown(advised.chosen, advised.choices.len(), inner) {
         let is_chosen = n == advised.chosen;
         let style = if is_chosen { ui.theme.accent() } else { ui.theme.text() };
@@ -128,20 +131,20 @@ pub fn why_lines(advised: &AdviceState, width: usize, rows: usize, ui: &Ui) -> O
 /// the explanation is not known or no sentence fits.
 pub fn why_line(advised: &AdviceState, width: usize, ui: &Ui) -> Option<String> {
     let sentences = advised.why.as_ref().filter(|_| advised.chosen == 0)?.brief(ui.theme.cue_ball);
-    sentences.map(|words| spell(&format!("Why: {words}"), ui.caps)).find(|line| columns(line) <= width)
+    sentences.map(|words| to_displayable(&format!("Why: {words}"), ui.caps)).find(|line| columns(line) <= width)
 }
 
 /// Wraps the first sentence that fits into `rows` of `width` columns. The sentences come from long to short; if even the last one does not
 /// fit, it is cut.
 fn fitting(sentences: impl Iterator<Item = String>, width: usize, rows: usize, ui: &Ui) -> Option<Vec<String>> {
-    let mut tries = sentences.map(|sentence| wrap(&spell(&sentence, ui.caps), width));
+    let mut tries = sentences.map(|sentence| wrap(&to_displayable(&sentence, ui.caps), width));
     let mut lines = tries.next()?;
     while lines.len() > rows
         && let Some(shorter) = tries.next()
     {
         lines = shorter;
     }
-    Some(cut(lines, rows, width, ui.caps))
+    Some(truncate_lines(lines, rows, width, ui.caps))
 }
 
 /// The index of the shot that the panel in `area` lists in this screen row.
@@ -176,7 +179,7 @@ pub fn shot_summary(proposal: &Proposal, is_exact: bool, room: usize, ui: &Ui) -
             text = more;
         }
     }
-    let text = spell(&text, ui.caps);
+    let text = to_displayable(&text, ui.caps);
     if columns(&text) > room { shorten(&text, room, ui.caps) } else { text }
 }
 

@@ -10,7 +10,7 @@ use crate::{
     terminal::{
         CoachAction, Mode,
         pages::coach::{CoachPage, keys::COACH},
-        ui::{Ui, end_of},
+        ui::{Ui, shorten_start},
         words::{fixed, others_skill_word, rule_word, short_skill_word, skill_word},
     },
 };
@@ -69,7 +69,7 @@ fn question(coach: &CoachPage, has_plan: bool, has_average: bool, ui: &Ui) -> Li
         let words = if followed.empty_reason().is_some() {
             String::new()
         } else {
-            let table = end_of(&coach.table().name, TABLE, ui.caps);
+            let table = shorten_start(&coach.table().name, TABLE, ui.caps);
             format!(": {table}, {}, {}", rule_word(query.rule), others_skill_word(query.skill))
         };
         let whose = Span::styled(format!(" following {}", followed.name), ui.theme.accent());
@@ -114,9 +114,9 @@ fn policy_or_table(coach: &CoachPage, left: usize, room: usize, ui: &Ui) -> Line
         return Line::default();
     }
     if let Some((policy, _)) = &coach.query.policy {
-        return Line::styled(format!(" {}", end_of(policy, left - 1, ui.caps)), ui.theme.good());
+        return Line::styled(format!(" {}", shorten_start(policy, left - 1, ui.caps)), ui.theme.good());
     }
-    let mut line = Line::styled(format!(" {}", end_of(&table.name, left - 1, ui.caps)), ui.theme.text());
+    let mut line = Line::styled(format!(" {}", shorten_start(&table.name, left - 1, ui.caps)), ui.theme.text());
     if room >= MIN_WIDTH_WITH_SIZE {
         line.push_span(Span::styled(format!(" {} x {} m", table.length, table.width), ui.theme.faint()));
     }

@@ -26,7 +26,7 @@ const DOTS: f64 = 0.05;
 
 /// The ball's path as dots, starting at the diamond behind the ball.
 pub fn lesson_spots(lesson: &Lesson, theme: &Theme) -> Vec<Spot> {
-    let dot = |place: DVec2| Spot { place, is_ball: false, color: theme.accent, letter: '.' };
+    let dot = |place: DVec2| Spot { position: place, is_ball: false, color: theme.accent, letter: '.' };
     let legs = lesson.path.windows(2).flat_map(|leg| {
         let way = leg[1] - leg[0];
         let count = (way.length() / DOTS).ceil().max(1.0) as u32;
@@ -177,7 +177,7 @@ mod tests {
         let guide = Guide::System(applied);
         let lesson = Lesson { path: guide.path(&table), guide, is_of_shot: false, table: table.clone().into() };
         let spots = lesson_spots(&lesson, &Theme::new(crate::terminal::Depth::Mono));
-        let [first, last] = [spots[0].place, spots[spots.len() - 1].place].map(|place| diamonds(&table, place));
+        let [first, last] = [spots[0].position, spots[spots.len() - 1].position].map(|place| diamonds(&table, place));
         assert!(first.distance(DVec2::new(8.225, -0.225)) < 0.01, "{first}");
         assert!(last.y < 0.2 && (last.x - 2.9).abs() < 0.5, "{last}");
     }

@@ -13,7 +13,10 @@ use crate::{
     table::Table,
     terminal::{
         Glyphs,
-        ui::{Dot, Ink, Ui, columns, draw_field, draw_lines, draw_title, face_in, field::Mark, spot_mark, write_right},
+        ui::{
+            Ink, RoundSpot, Ui, columns, draw_field, draw_lines, draw_title, face_in, field::Mark, spot_mark,
+            write_right,
+        },
         words::fixed,
     },
 };
@@ -68,7 +71,7 @@ pub fn draw_tip_map(map: &Map, cue: &CueInputs, table: &Table, unit: LengthUnit,
     // Offset of the tip from the centre of the map, as a fraction of half the map; positive `a` is on the left.
     let share = 1e3 * table.radius / reach;
     let face = face_in(inner);
-    let tip = Dot::new(share * DVec2::new(-cue.a, cue.b), TIP_RADIUS, face, ui.caps);
+    let tip = RoundSpot::new(share * DVec2::new(-cue.a, cue.b), TIP_RADIUS, face, ui.caps);
     draw_signs(face, ui, |x, y, _| match () {
         () if x.hypot(y) > 1.0 => None,
         () if tip.covers(x, y) => Some(Sign::Stroke),

@@ -9,7 +9,7 @@ use crate::{
     },
     terminal::{
         Capabilities, Shot, ShotAnalysis,
-        ui::{Theme, Ui, columns, draw_nothing, draw_title, list, write_right},
+        ui::{Theme, Ui, columns, draw_placeholder, draw_title, list, write_right},
         words::fixed,
     },
 };
@@ -47,14 +47,14 @@ pub fn draw_margins(
     }
     let inner = draw_title(title, area, ui);
     let (margins, skill, shot) = match studied {
-        None => return draw_nothing(&[empty], inner, ui),
+        None => return draw_placeholder(&[empty], inner, ui),
         Some((ShotAnalysis { margins: None, .. }, shot)) => {
             let why = if shot.solved {
                 "none: played exactly, it misses on likely tables"
             } else {
                 "none: this shot makes no point"
             };
-            return draw_nothing(&[why], inner, ui);
+            return draw_placeholder(&[why], inner, ui);
         }
         Some((ShotAnalysis { margins: Some(margins), hand, .. }, shot)) => (margins, *hand, shot),
     };

@@ -43,12 +43,12 @@ use crate::{
                 },
             },
         },
-        shot::playback::passed,
+        shot::playback::passed_count,
         ui::{
-            Message, TableView, Ui, columns, draw_events, draw_profile, draw_spin_or_hit, draw_table, draw_tip, spell,
-            write_paragraphs,
+            Message, TableView, Ui, columns, draw_events, draw_profile, draw_spin_or_hit, draw_table, draw_tip,
+            to_displayable, write_paragraphs,
         },
-        words::{event_words, fine, fixed, in_diamonds, percent},
+        words::{event_words, fixed, format_fine, percent, to_diamonds},
     },
 };
 
@@ -210,7 +210,7 @@ fn draw_panels(coach: &CoachPage, panes: &Panes, ui: &mut Ui) -> bool {
     draw_tip(shot.map(|shot| &shot.cue), how_long, table, panes.tip, ui);
     let time = coach.watched().map(|_| coach.playback.readout);
     let spin = shot.zip(time).and_then(|(shot, time)| shot.spin(time, table.radius));
-    draw_spin_or_hit(spin, shot.map(Shot::meeting), panes.hit, ui);
+    draw_spin_or_hit(spin, shot.map(Shot::first_impact), panes.hit, ui);
     match () {
         () if described.is_some() && is_beside || is_explained => {}
         () if shot.is_none() && coach.followed().is_none() => draw_query(coach, panes.events, ui),
@@ -297,7 +297,7 @@ fn status_line(coach: &CoachPage, says_why: bool, room: usize, ui: &Ui) -> Messa
         }
         Some(shot) => {
             let (events, time) = (coach.events(shot), coach.playback.readout);
-            match events.get(passed(&events, time)) {
+            match events.get(passed_count(&events, time)) {
                 Some(next) => {
                     format!("next: {} in {} s", event_words(next.kind, coach.cue_ball()), fixed(next.time - time, 1))
                 }
@@ -312,7 +312,7 @@ fn status_line(coach: &CoachPage, says_why: bool, room: usize, ui: &Ui) -> Messa
 /// The line of aim and the numbers of the shot's diamond system, as much as fits into a row. The numbers have priority, since the panel
 /// above shows the line of aim too. During the example of another system it is the line of aim alone.
 fn aim_words(coach: &CoachPage, shot: &Shot, room: usize, ui: &Ui) -> String {
-    let aim = spell(&shot.words.aim(coach.units), ui.caps);
+    let aim = to_displayable(&shot.words.aim(coach.units), ui.caps);
     // "nose to nose" is written because diamond systems count on the wood behind the noses.
     let at_noses = format!("{}, nose to nose.", aim.trim_end_matches('.'));
     let alone = if columns(&at_noses) <= room { at_noses.clone() } else { aim.clone() };
@@ -336,10 +336,10 @@ fn selected_ball(coach: &CoachPage) -> String {
     let gap = |other: usize| (balls[ball].distance(balls[other]) - 2.0 * coach.table().radius).max(0.0);
     let nearest = others.min_by(|&one, &two| gap(one).total_cmp(&gap(two)));
     let unit = coach.units.length;
-    let length = |metres: f64| format!("{} {}", fine(metres, unit), unit.fine().1);
+    let length = |metres: f64| format!("{} {}", format_fine(metres, unit), unit.fine().1);
     let near = nearest.map_or(String::new(), |other| format!(", {} from {}", length(gap(other)), names[other]));
     let place = if coach.quarters {
-        let place = in_diamonds(coach.table(), balls[ball]);
+        let place = to_diamonds(coach.table(), balls[ball]);
         format!("{}d,{}d", fixed(place.x, 2), fixed(place.y, 2))
     } else {
         format!("x {}, y {}", length(balls[ball].x), length(balls[ball].y))

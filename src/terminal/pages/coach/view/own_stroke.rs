@@ -39,7 +39,7 @@ pub fn draw_own_stroke(coach: &CoachPage, what_if: &WhatIf, panes: &Panes, ui: &
         draw_set(shot, coach, panes.shot, ui);
     }
     draw_tip(Some(&shot.cue), coach.units.tip == TipUnit::Tips, table, panes.tip, ui);
-    draw_spin_or_hit(shot.spin(time, table.radius), Some(shot.meeting()), panes.hit, ui);
+    draw_spin_or_hit(shot.spin(time, table.radius), Some(shot.first_impact()), panes.hit, ui);
     if !is_wide {
         draw_listed(coach, Some(shot), Some(time), panes.events, ui);
     }

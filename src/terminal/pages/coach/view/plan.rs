@@ -11,7 +11,7 @@ use crate::{
     terminal::{
         Glyphs, Proposal,
         pages::coach::{Choice, view::chances::shot_summary},
-        ui::{Spot, Theme, Ui, draw_lines, draw_nothing, draw_title, wrap},
+        ui::{Spot, Theme, Ui, draw_lines, draw_placeholder, draw_title, wrap},
         words::{fixed, percent},
     },
 };
@@ -39,7 +39,7 @@ pub fn draw_plan(choice: Option<&Choice>, unit: LengthUnit, empty: &str, area: R
         title.push(Span::styled(format!("next point on average {} %", percent(next)), ui.theme.text()));
     }
     let inner = draw_title(title, area, ui);
-    let Some(choice) = choice else { return draw_nothing(&[empty], inner, ui) };
+    let Some(choice) = choice else { return draw_placeholder(&[empty], inner, ui) };
     let room = usize::from(inner.width.saturating_sub(NAMES));
     let explained = wrap(SPREAD_WORDS, usize::from(inner.width.saturating_sub(2)));
     let has_room = usize::from(inner.height) >= ROWS + explained.len();
@@ -64,7 +64,7 @@ pub fn draw_plan(choice: Option<&Choice>, unit: LengthUnit, empty: &str, area: R
         let sign = if ui.caps.glyphs == Glyphs::Letters { WAY_LETTER } else { '•' };
         lines.push(Line::from(vec![
             Span::raw(" "),
-            Span::styled(sign.to_string(), ui.theme.text().fg(ui.theme.way_sign)),
+            Span::styled(sign.to_string(), ui.theme.text().fg(ui.theme.next_path_sign)),
             Span::styled(" the cue ball's way then; n goes on", ui.theme.faint()),
         ]));
     }
@@ -116,7 +116,7 @@ pub fn plan_spots(choice: &Choice, theme: &Theme) -> Vec<Spot> {
     let ends = choice.study.iter().flat_map(|study| &study.scatter.ends);
     let cloud = ends.flat_map(|end| {
         let spot = |ball: usize| Spot {
-            place: end.balls[ball],
+            position: end.balls[ball],
             is_ball: false,
             color: theme.balls[ball],
             letter: theme.letters()[ball].to_ascii_lowercase(),
@@ -125,11 +125,11 @@ pub fn plan_spots(choice: &Choice, theme: &Theme) -> Vec<Spot> {
     });
     let next = choice.next.as_ref().and_then(|next| next.proposals.first());
     let way = next.into_iter().flat_map(|next| {
-        let spot = |place, is_ball| Spot { place, is_ball, color: theme.way, letter: WAY_LETTER };
+        let spot = |place, is_ball| Spot { position: place, is_ball, color: theme.next_path, letter: WAY_LETTER };
         let dots = next.shot.paths[0].iter().step_by(2).enumerate();
         // The path through the air is dashed, as it is when that shot itself is displayed.
         let dots = dots.filter(|(number, dot)| !dot.is_aloft() || number % 2 == 0);
-        let dots = dots.map(move |(_, dot)| spot(dot.place, false));
+        let dots = dots.map(move |(_, dot)| spot(dot.position, false));
         dots.chain(next.shot.words.first.map(|contact| spot(contact.place, true)))
     });
     cloud.chain(way).collect()

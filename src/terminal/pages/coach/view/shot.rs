@@ -11,7 +11,7 @@ use crate::{
     terminal::{
         Capabilities, Proposal, Shot,
         pages::coach::view::card::chance_title,
-        ui::{Theme, Ui, columns, draw_lines, draw_nothing, draw_title},
+        ui::{Theme, Ui, columns, draw_lines, draw_placeholder, draw_title},
         words::{across_word, fixed, height_word},
     },
 };
@@ -32,7 +32,7 @@ pub fn draw_shot(shot: Option<&Shot>, empty: &[&str], (table, unit): (&Table, Le
     let inner = draw_title(title, area, ui);
     match shot {
         Some(shot) => draw_rows(shot, String::from("from the x axis"), (table, unit), inner, ui),
-        None => draw_nothing(empty, inner, ui),
+        None => draw_placeholder(empty, inner, ui),
     }
 }
 

@@ -14,7 +14,7 @@ use crate::{
             CoachPage,
             view::{card::chance_span, chances::why_lines},
         },
-        ui::{Ui, columns, draw_lines, draw_title, spell, wrap},
+        ui::{Ui, columns, draw_lines, draw_title, to_displayable, wrap},
         words::fixed,
     },
 };
@@ -23,7 +23,7 @@ use crate::{
 /// end. Returns whether the panel explains why the first shot ranks first.
 pub fn draw_shot_words(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &mut Ui) -> bool {
     let (words, units, cue_ball) = (&proposal.shot.words, coach.units, coach.cue_ball());
-    let part = |text: String, style| (spell(&text, ui.caps), style);
+    let part = |text: String, style| (to_displayable(&text, ui.caps), style);
     let (width, rows) = (usize::from(area.width.saturating_sub(2)), usize::from(area.height.saturating_sub(1)));
     let [titles @ .., bare] = titles(coach, proposal, ui);
     // There is a line before the title and a blank on either side.
@@ -56,10 +56,9 @@ pub fn draw_shot_words(coach: &CoachPage, proposal: &Proposal, area: Rect, ui: &
 
 /// The titles, from long to short: pattern name, success rate and line of aim. The last one has no line of aim.
 fn titles(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [Vec<Span<'static>>; 4] {
-    let name = proposal
-        .shot
-        .pattern
-        .map(|pattern| Span::styled(spell(pattern.name, ui.caps), ui.theme.text().add_modifier(ui.theme.strong)));
+    let name = proposal.shot.pattern.map(|pattern| {
+        Span::styled(to_displayable(pattern.name, ui.caps), ui.theme.text().add_modifier(ui.theme.strong))
+    });
     let [long, short] = aim_words(coach, proposal, ui).map(|words| Span::styled(words, ui.theme.text()));
     let title = |is_wide: bool, aim: Option<&Span<'static>>| {
         let chance = chance_span(proposal, is_wide, ui);

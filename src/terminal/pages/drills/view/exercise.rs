@@ -78,7 +78,7 @@ fn draw_precision(drills: &DrillsPage, turn: &Turn, aim_line: Option<&AimLine>, 
         let whose = if model_shot.is_own { "Model" } else { "Coach" };
         let cue = Some(&model_shot.advice.cue);
         draw_titled_tip(format!("{whose} tip"), cue, &turn.table, panes.tip, ui);
-        draw_hit_panel(Some(whose), Some(model_shot.shot.meeting()), panes.hit, ui);
+        draw_hit_panel(Some(whose), Some(model_shot.shot.first_impact()), panes.hit, ui);
         return;
     }
     let meant = turn.watched().map_or(turn.stroke(), |watched| &watched.meant);
@@ -91,7 +91,7 @@ fn draw_precision(drills: &DrillsPage, turn: &Turn, aim_line: Option<&AimLine>, 
     );
     let watched = turn.watched().filter(|_| !turn.shows_hint);
     let spin = watched.and_then(|watched| turn.shot()?.spin(watched.playback.readout, turn.table.radius));
-    let meeting = aim_line.map(|line| line.meeting).or_else(|| turn.shot().map(Shot::meeting));
+    let meeting = aim_line.map(|line| line.meeting).or_else(|| turn.shot().map(Shot::first_impact));
     draw_spin_or_hit(spin, meeting, panes.hit, ui);
 }
 
@@ -107,7 +107,7 @@ fn subtitle(turn: &Turn, caps: Capabilities) -> String {
 
 /// Whether a spot is on the table's bed.
 fn is_on_cloth(turn: &Turn, spot: &Spot) -> bool {
-    spot.place.abs().cmple(turn.table.reach() + DVec2::splat(turn.table.radius)).all()
+    spot.position.abs().cmple(turn.table.reach() + DVec2::splat(turn.table.radius)).all()
 }
 
 /// The part of the cue behind the ball that is above the table's bed.
@@ -115,7 +115,7 @@ fn cue_spots(turn: &Turn, phi: f64, theme: &Theme, caps: Capabilities) -> Vec<Sp
     let (start, ahead) = (turn.layout.balls[0], DVec2::from_angle(phi));
     let letter = cue_sign(ahead, caps);
     let back = (0..).map(|n| CUE.0 + CUE_DOT * f64::from(n)).take_while(|back| *back <= CUE.1);
-    let spot = |back: f64| Spot { place: start - back * ahead, is_ball: false, color: theme.cue, letter };
+    let spot = |back: f64| Spot { position: start - back * ahead, is_ball: false, color: theme.cue, letter };
     back.map(spot).filter(|spot| is_on_cloth(turn, spot)).collect()
 }
 
@@ -125,8 +125,8 @@ fn aim_line_spots(turn: &Turn, aim_line: &AimLine, theme: &Theme, caps: Capabili
     // The ball at the end would cover the last dots.
     let dots = aim_line.dots(AIM_DOT_SPACING, 1.5 * turn.table.radius).into_iter();
     let ghost = theme.letters()[0].to_ascii_lowercase();
-    let ghost = aim_line.points.last().map(|place| Spot { place: *place, is_ball: true, color, letter: ghost });
-    let dots = dots.map(|place| Spot { place, is_ball: false, color, letter });
+    let ghost = aim_line.points.last().map(|place| Spot { position: *place, is_ball: true, color, letter: ghost });
+    let dots = dots.map(|place| Spot { position: place, is_ball: false, color, letter });
     dots.chain(ghost).filter(|spot| is_on_cloth(turn, spot)).collect()
 }
 

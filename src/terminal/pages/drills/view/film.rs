@@ -15,7 +15,7 @@ use crate::{
             DrillsPage,
             view::{films::outcome, panes::Panes},
         },
-        shot::film::{Listed, table},
+        shot::film::{ListedShot, table},
         ui::{
             Message, TableView, Ui, draw_events, draw_header, draw_lines, draw_spin_or_hit, draw_table, draw_tip,
             draw_title, pair, separator, tip_rows, write_paragraphs,
@@ -44,7 +44,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     let stroke = played.and_then(|played| played.stroke.as_ref());
     draw_tip(stroke, drills.units.tip == TipUnit::Tips, table(), panes.tip, ui);
     let spin = played.and_then(|played| played.shot.spin(time, table().radius));
-    draw_spin_or_hit(spin, played.map(|played| played.shot.meeting()), panes.hit, ui);
+    draw_spin_or_hit(spin, played.map(|played| played.shot.first_impact()), panes.hit, ui);
     draw_distances(played, time, unit, panes.aim, ui);
     let recording = played.map(|played| &played.shot.recording);
     let events = recording.map(|recording| (recording, recording.events()));
@@ -57,7 +57,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
 }
 
 /// Result, speed and duration of a filmed shot.
-fn subtitle(listed: &Listed, unit: LengthUnit, dot: &str) -> String {
+fn subtitle(listed: &ListedShot, unit: LengthUnit, dot: &str) -> String {
     let filmed = &listed.filmed;
     let speed = speed_words(filmed.speed(), unit, 1);
     [outcome(listed).to_owned(), speed, format!("{} s", fixed(filmed.duration(), 1))].join(dot)
@@ -70,7 +70,7 @@ fn distance(metres: f64, unit: LengthUnit) -> String {
 }
 
 /// The distance between the simulated and the filmed cue ball, and whether the film at this time was used for the fit.
-fn status_line(played: &FilmReplay, listed: &Listed, time: f64, unit: LengthUnit) -> Message {
+fn status_line(played: &FilmReplay, listed: &ListedShot, time: f64, unit: LengthUnit) -> Message {
     let white = distance(played.replay.distances(time)[0], unit);
     if time >= played.replay.duration() {
         let simulated = if played.shot.solved { "a point" } else { "no point" };
@@ -82,7 +82,7 @@ fn status_line(played: &FilmReplay, listed: &Listed, time: f64, unit: LengthUnit
 }
 
 /// Draws the fitted stroke, and the speeds of the cue ball from the fit and in the film.
-fn draw_stroke(played: Option<&FilmReplay>, listed: &Listed, units: Units, area: Rect, ui: &mut Ui) {
+fn draw_stroke(played: Option<&FilmReplay>, listed: &ListedShot, units: Units, area: Rect, ui: &mut Ui) {
     let inner = draw_title("The fitted stroke", area, ui);
     let Some(played) = played else { return };
     let [side, height] = match &played.stroke {

@@ -13,7 +13,7 @@ use crate::terminal::{
             view::{READABLE, draw_preview},
         },
     },
-    shot::film::{Listed, listed, table},
+    shot::film::{ListedShot, listed, table},
     ui::{Message, Ui, below_title, draw_header, draw_title, list, split, wrap, write_paragraphs, write_right},
     words::fixed,
 };
@@ -39,7 +39,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
 }
 
 /// The result of a shot in the film.
-pub const fn outcome(listed: &Listed) -> &'static str {
+pub const fn outcome(listed: &ListedShot) -> &'static str {
     if listed.is_point { "point" } else { "no point" }
 }
 
@@ -73,7 +73,7 @@ fn draw_list(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
     }
 }
 
-fn draw_shot(listed: &Listed, area: Rect, ui: &mut Ui) {
+fn draw_shot(listed: &ListedShot, area: Rect, ui: &mut Ui) {
     let title = format!("Shot {}, {}", listed.filmed.number, outcome(listed));
     let inner = draw_title(title, area, ui);
     let width = inner.width.saturating_sub(2).min(READABLE);

@@ -47,7 +47,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     draw_list(drills, list, ui);
     match drills.catalogue.marked() {
         Some(exercise) => draw_exercise(drills, exercise, preview, ui),
-        None => draw_nothing(drills, list, ui),
+        None => draw_placeholder(drills, list, ui),
     }
     status_line(drills)
 }
@@ -191,7 +191,7 @@ fn description(drills: &DrillsPage, exercise: &Exercise, table: &Table, theme: &
     all
 }
 
-fn draw_nothing(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
+fn draw_placeholder(drills: &DrillsPage, area: Rect, ui: &mut Ui) {
     let filter = &drills.catalogue.filter;
     let words = if filter.category == Some(Category::Own) && filter.text.is_none() && filter.grade.is_none() {
         "You have saved no position yet. On the coach's table, s saves the balls as they lie; here, a adds a position from \

@@ -18,8 +18,8 @@ use crate::{
             other_table_words,
             view::{percent_words, position_words},
         },
-        shot::Meeting,
-        ui::{Ui, columns, draw_lines, draw_title, pair, separator, spell, stroke_rows, wrap_by},
+        shot::FirstImpact,
+        ui::{Ui, columns, draw_lines, draw_title, pair, separator, stroke_rows, to_displayable, wrap_by},
         words::{fixed, rail_name},
     },
 };
@@ -89,7 +89,7 @@ pub fn draw_task(
     let title = settled.map_or(task, |watched| chances(turn, watched, ui.caps));
     let mut paragraphs = Vec::new();
     if let Some(watched) = settled {
-        let model = turn.hint().map(|model_shot| spell(&model_words(turn, model_shot, units), ui.caps));
+        let model = turn.hint().map(|model_shot| to_displayable(&model_words(turn, model_shot, units), ui.caps));
         let words = model.into_iter().chain(differences(turn, watched, units, ui.caps));
         paragraphs.extend(words.map(|words| (words, ui.theme.text())));
     } else {
@@ -198,7 +198,7 @@ fn aim_line_words(aim_line: &AimLine, cue_ball: CueBall, diamond: f64, units: Un
     let (in_a_metre, symbol) = units.length.small();
     let way = format!("{} {symbol}", fixed(in_a_metre * aim_line.length(), 0));
     match (aim_line.meeting, aim_line.cushion) {
-        (Meeting::Ball(hit), _) => {
+        (FirstImpact::Ball(hit), _) => {
             let side = hit.side().map_or_else(String::new, |side| format!(", {side} side"));
             format!("{} {:.0} % full{side}, {way}", cue_ball.names()[hit.ball], 100.0 * hit.fullness)
         }
@@ -258,7 +258,7 @@ fn hint(turn: &Turn, model_shot: &ModelShot, units: Units, caps: Capabilities) -
     };
     let yours = (!turn.is_with_coach()).then(differs);
     let model = model_words(turn, model_shot, units);
-    std::iter::once(model).chain(yours).map(|words| spell(&words, caps)).collect()
+    std::iter::once(model).chain(yours).map(|words| to_displayable(&words, caps)).collect()
 }
 
 /// The success rates of the player's stroke and of the model shot.
@@ -279,7 +279,7 @@ fn differences(turn: &Turn, watched: &Watched, units: Units, caps: Capabilities)
     let added =
         difference_words(turn, &outcome.played.stroke, meant, units).unwrap_or_else(|| "hardly any change".to_owned());
     if watched.is_by_coach() {
-        return vec![spell(&format!("the coach's hand: {added}"), caps)];
+        return vec![to_displayable(&format!("the coach's hand: {added}"), caps)];
     }
     let compared = match &turn.model_shot {
         ModelShotState::Known(model_shot) => difference_words(turn, meant, &model_shot.advice.cue, units).map_or_else(
@@ -289,7 +289,7 @@ fn differences(turn: &Turn, watched: &Watched, units: Units, caps: Capabilities)
         ModelShotState::Pending => "the coach is still thinking".to_owned(),
         ModelShotState::Missing => "the coach has found no shot".to_owned(),
     };
-    [compared, format!("your hand: {added}")].map(|words| spell(&words, caps)).to_vec()
+    [compared, format!("your hand: {added}")].map(|words| to_displayable(&words, caps)).to_vec()
 }
 
 #[cfg(test)]
@@ -311,7 +311,7 @@ mod tests {
         let table = Table::default();
         let mark = RailPoint { rail: Rail::Left, diamond: 2.04 };
         let places = vec![DVec2::ZERO, DVec2::new(0.5, 0.0)];
-        let aim_line = AimLine { points: places, meeting: Meeting::Rail(mark.rail, None), cushion: Some(mark) };
+        let aim_line = AimLine { points: places, meeting: FirstImpact::Rail(mark.rail, None), cushion: Some(mark) };
         let other = Units { tip: TipUnit::Mm, position: PositionUnit::Mm, length: LengthUnit::Feet };
         let said = |units| aim_line_words(&aim_line, CueBall::White, table.diamond(), units);
         assert_eq!(said(Units::default()), "left rail at 2.0 diamonds, 50 cm");

@@ -11,7 +11,7 @@ use ratatui::{
 use crate::terminal::{
     Capabilities, SettingsContext, SettingsPage,
     pages::{OpenQuestion, PageArea, PageView, Target, settings::Question},
-    ui::{Message, Ui, below_title, end_of, split, write_paragraphs},
+    ui::{Message, Ui, below_title, shorten_start, split, write_paragraphs},
 };
 
 /// Width of the list: percent of the screen, and maximum columns.
@@ -25,8 +25,11 @@ const MIN_ROWS_WITH_GAPS: u16 = 10;
 impl PageView for SettingsPage {
     fn draw(&self, area: &PageArea, ui: &mut Ui) -> Message {
         let rest = area.header;
-        let path =
-            end_of(&self.places.settings.display().to_string(), usize::from(rest.width.saturating_sub(2)), ui.caps);
+        let path = shorten_start(
+            &self.places.settings.display().to_string(),
+            usize::from(rest.width.saturating_sub(2)),
+            ui.caps,
+        );
         ui.buffer.set_string(rest.x + 1, rest.y, path, ui.theme.faint());
         let [list, words] = halves(self.page, area.body);
         let status_line = match self.page {

@@ -9,7 +9,7 @@ use crate::{
     learning::run::{follow::Condition, status::Phase},
     terminal::{
         pages::training::Watch,
-        ui::{Ui, columns, end_of},
+        ui::{Ui, columns, shorten_start},
     },
 };
 
@@ -34,8 +34,10 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
     // Condition and percentage have priority. The rest of the row goes to the name, then to the description, then to the bar.
     let fixed = (columns(&words) + percent.len() + 2) as u16;
     let room = area.width.saturating_sub(fixed + 1);
-    let mut left =
-        Line::from(Span::styled(format!(" {}", end_of(&watch.own.name, usize::from(room), ui.caps)), ui.theme.text()));
+    let mut left = Line::from(Span::styled(
+        format!(" {}", shorten_start(&watch.own.name, usize::from(room), ui.caps)),
+        ui.theme.text(),
+    ));
     if let Some(config) = &watch.own.run.config {
         let what = format!("  {} for {} on \"{}\"", config.agent, config.plan.reward, config.table.name);
         if left.width() + columns(&what) + usize::from(BAR.0) + 2 <= usize::from(room) {

@@ -10,7 +10,7 @@ use crate::{
     storage::Lock,
     terminal::{
         App,
-        shown::{FILE, ShownTable},
+        shared_table::{FILE, SharedTable},
     },
 };
 
@@ -29,7 +29,7 @@ pub struct TableSharing {
 struct Open {
     /// Signals that the table is still shared; released when the process ends, however that happens.
     _lock: Lock,
-    written: Option<ShownTable>,
+    written: Option<SharedTable>,
     when: Instant,
 }
 
@@ -41,14 +41,14 @@ impl TableSharing {
 
     /// Time of the next write; `None` if there is nothing to write.
     pub fn due(&self, app: &App) -> Option<Instant> {
-        self.due_for(app.shown_table().as_ref())
+        self.due_for(app.shared_table().as_ref())
     }
 
-    fn due_for(&self, now: Option<&ShownTable>) -> Option<Instant> {
+    fn due_for(&self, now: Option<&SharedTable>) -> Option<Instant> {
         match (now, &self.open) {
             (None, None) => None,
             (Some(now), Some(open)) => {
-                let is_seen = |seen: &ShownTable| !seen.is_outdated_by(open.when.elapsed(), now);
+                let is_seen = |seen: &SharedTable| !seen.is_outdated_by(open.when.elapsed(), now);
                 (!open.written.as_ref().is_some_and(is_seen)).then(|| open.when + INTERVAL)
             }
             _ => Some(Instant::now()),
@@ -60,22 +60,22 @@ impl TableSharing {
     /// # Errors
     /// A message that says why the table cannot be shared; sharing then ends.
     pub fn write(&mut self, app: &App) -> Result<(), String> {
-        let now = app.shown_table();
+        let now = app.shared_table();
         if self.due_for(now.as_ref()).is_none_or(|due| due > Instant::now()) {
             return Ok(());
         }
         let Some(now) = now else {
-            self.end();
+            self.stop();
             return Ok(());
         };
         let shown = self.show(now);
         if shown.is_err() {
-            self.end();
+            self.stop();
         }
         shown
     }
 
-    fn show(&mut self, now: ShownTable) -> Result<(), String> {
+    fn show(&mut self, now: SharedTable) -> Result<(), String> {
         let refusal =
             |error: std::io::Error| format!("{}: {error}; others cannot see the table", self.folder.display());
         if self.open.is_none() {
@@ -92,7 +92,7 @@ impl TableSharing {
     }
 
     /// Stops sharing.
-    pub fn end(&mut self) {
+    pub fn stop(&mut self) {
         if self.open.is_some() {
             // If the file cannot be removed, readers still ignore it without its lock.
             let _ = fs::remove_file(self.folder.join(FILE));

@@ -23,22 +23,22 @@ use crate::{
 pub const FILE: &str = "table.json";
 
 /// Largest file that is read, bytes: sixty times the size of a usual one.
-const LARGEST: u64 = 1 << 16;
+const MAX_FILE_BYTES: u64 = 1 << 16;
 
 /// Version of the file format.
 const VERSION: u32 = 1;
 
 /// Accepted lengths and widths of a table, and radii of its balls, m: far beyond any table that is built.
-const SIDE: std::ops::RangeInclusive<f64> = 0.3..=10.0;
-const RADIUS: std::ops::RangeInclusive<f64> = 0.005..=0.2;
+const SIDES: std::ops::RangeInclusive<f64> = 0.3..=10.0;
+const RADII: std::ops::RangeInclusive<f64> = 0.005..=0.2;
 
 /// Longest name of a table, bytes.
-const LONGEST_NAME: usize = 64;
+const MAX_NAME_BYTES: usize = 64;
 
 /// What the player is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Doing {
+pub enum Activity {
     /// The player is placing the balls.
     Placing,
     /// The coach is thinking.
@@ -63,11 +63,11 @@ pub enum Author {
 
 /// The coach's table as other players see it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ShownTable {
+pub struct SharedTable {
     /// Version of the file format.
     pub version: u32,
     /// What the player is doing.
-    pub doing: Doing,
+    pub doing: Activity,
     /// The table.
     pub table: Table,
     /// Positions of the balls before the shot.
@@ -82,12 +82,12 @@ pub struct ShownTable {
     /// Index of the selected ball in the layout.
     pub selected: usize,
     /// The shot on the table, or `None`.
-    pub shot: Option<ShownShot>,
+    pub shot: Option<SharedShot>,
 }
 
 /// A shot on a shared table.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ShownShot {
+pub struct SharedShot {
     /// The stroke.
     pub cue: CueInputs,
     /// Who proposed it.
@@ -108,7 +108,7 @@ pub struct ShownShot {
     pub over: bool,
 }
 
-impl ShownShot {
+impl SharedShot {
     /// Playback position at the time `since` after the file was written, s since the stroke.
     pub fn time_after(&self, since: Duration) -> f64 {
         self.time + if self.playing { self.speed * since.as_secs_f64() } else { 0.0 }
@@ -117,7 +117,7 @@ impl ShownShot {
 
 /// What an onlooker finds in a player's folder.
 #[derive(Clone, Debug)]
-pub enum Sight<T> {
+pub enum SharedTableState<T> {
     /// No table: the player shows none or is absent. Onlookers do not learn which.
     Nothing,
     /// A file that cannot be read.
@@ -126,10 +126,10 @@ pub enum Sight<T> {
     Table(Box<T>),
 }
 
-impl ShownTable {
+impl SharedTable {
     /// Creates a view of a table with balls and nothing else. A name that is too long for readers is truncated.
-    pub fn new(doing: Doing, mut table: Table, layout: Layout, rule: Rule, skill: Skill) -> Self {
-        let is_too_much = |(at, letter): &(usize, char)| at + letter.len_utf8() > LONGEST_NAME;
+    pub fn new(doing: Activity, mut table: Table, layout: Layout, rule: Rule, skill: Skill) -> Self {
+        let is_too_much = |(at, letter): &(usize, char)| at + letter.len_utf8() > MAX_NAME_BYTES;
         if let Some((end, _)) = table.name.char_indices().find(is_too_much) {
             table.name.truncate(end);
         }
@@ -141,15 +141,15 @@ impl ShownTable {
     /// a change.
     pub fn is_outdated_by(&self, since: Duration, now: &Self) -> bool {
         /// Largest accepted difference between two clocks, seconds of real time.
-        const APART: f64 = 0.25;
+        const MAX_CLOCK_ERROR: f64 = 0.25;
         let (Some(before), Some(shot)) = (&self.shot, &now.shot) else { return self != now };
         if !(before.playing && shot.playing) {
             return self != now;
         }
-        if (shot.time - before.time_after(since)).abs() > APART * shot.speed {
+        if (shot.time - before.time_after(since)).abs() > MAX_CLOCK_ERROR * shot.speed {
             return true;
         }
-        let shot = Some(ShownShot { time: before.time, ..*shot });
+        let shot = Some(SharedShot { time: before.time, ..*shot });
         *self != Self { shot, ..now.clone() }
     }
 
@@ -162,31 +162,31 @@ impl ShownTable {
     }
 
     /// Reads the view in `folder`, with its age.
-    pub fn look(folder: &Path) -> Sight<(Self, Duration)> {
+    pub fn read(folder: &Path) -> SharedTableState<(Self, Duration)> {
         // A killed process leaves its file behind, but its lock is released.
         if Lock::is_held(folder) == Some(false) {
-            return Sight::Nothing;
+            return SharedTableState::Nothing;
         }
         let path = folder.join(FILE);
         let written = fs::metadata(&path).and_then(|found| found.modified());
         let age = written.ok().and_then(|written| SystemTime::now().duration_since(written).ok()).unwrap_or_default();
-        match storage::read(&path, LARGEST) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Sight::Nothing,
-            Err(_) => Sight::Damaged,
+        match storage::read(&path, MAX_FILE_BYTES) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => SharedTableState::Nothing,
+            Err(_) => SharedTableState::Damaged,
             Ok(bytes) => match serde_json::from_slice::<Self>(&bytes) {
-                Ok(shown) if shown.is_sound() => Sight::Table(Box::new((shown, age))),
-                _ => Sight::Damaged,
+                Ok(shown) if shown.is_valid() => SharedTableState::Table(Box::new((shown, age))),
+                _ => SharedTableState::Damaged,
             },
         }
     }
 
     /// Whether the view can be drawn. Every value is checked, since somebody else has written the file.
-    fn is_sound(&self) -> bool {
+    fn is_valid(&self) -> bool {
         let Self { table, .. } = self;
-        let can_be_drawn = SIDE.contains(&table.length)
-            && SIDE.contains(&table.width)
-            && RADIUS.contains(&table.radius)
-            && table.name.len() <= LONGEST_NAME;
+        let can_be_drawn = SIDES.contains(&table.length)
+            && SIDES.contains(&table.width)
+            && RADII.contains(&table.radius)
+            && table.name.len() <= MAX_NAME_BYTES;
         self.version == VERSION
             && can_be_drawn
             && self.layout.validate(table).is_ok()
@@ -201,13 +201,13 @@ impl ShownTable {
 }
 
 /// The players of this account who are sharing their table now, sorted by name.
-pub fn all_shown() -> Vec<Player> {
+pub fn sharing_players() -> Vec<Player> {
     let Some(folder) = DataPaths::players() else { return Vec::new() };
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let players = entries.filter_map(|entry| entry.file_name().to_str()?.parse::<Player>().ok());
     let is_shown = |player: &Player| {
         DataPaths::of_player(player)
-            .is_ok_and(|places| !matches!(ShownTable::look(&places.spectator_folder), Sight::Nothing))
+            .is_ok_and(|paths| !matches!(SharedTable::read(&paths.spectator_folder), SharedTableState::Nothing))
     };
     let mut shown: Vec<Player> = players.filter(is_shown).collect();
     shown.sort_by_key(Player::folder);
@@ -220,11 +220,11 @@ mod tests {
 
     use super::*;
 
-    fn shown() -> ShownTable {
+    fn shown() -> SharedTable {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let cue = CueInputs::parse("0.2,0.3,6,-72,2.5").unwrap();
-        let shot = ShownShot {
+        let shot = SharedShot {
             cue,
             author: Author::Coach,
             solved: true,
@@ -234,62 +234,65 @@ mod tests {
             playing: true,
             over: false,
         };
-        let shown = ShownTable::new(Doing::Watching, table, layout, Rule::ThreeCushion, Skill::CLUB);
-        ShownTable { shot: Some(shot), selected: 2, ..shown }
+        let shown = SharedTable::new(Activity::Watching, table, layout, Rule::ThreeCushion, Skill::CLUB);
+        SharedTable { shot: Some(shot), selected: 2, ..shown }
     }
 
     #[test]
-    fn what_is_written_is_seen_as_long_as_its_writer_lives() {
+    fn a_shared_table_is_visible_while_its_writer_lives() {
         let folder = tempfile::tempdir().unwrap();
         let lock = Lock::try_acquire(folder.path()).unwrap();
-        assert!(matches!(ShownTable::look(folder.path()), Sight::Nothing));
+        assert!(matches!(SharedTable::read(folder.path()), SharedTableState::Nothing));
         shown().write(folder.path()).unwrap();
-        let Sight::Table(found) = ShownTable::look(folder.path()) else { panic!("nothing is seen") };
+        let SharedTableState::Table(found) = SharedTable::read(folder.path()) else { panic!("nothing is seen") };
         let (seen, age) = *found;
-        let cue = |shown: &ShownTable| shown.shot.unwrap().cue;
+        let cue = |shown: &SharedTable| shown.shot.unwrap().cue;
         // Directions are stored in degrees.
         assert!((cue(&seen).phi - cue(&shown()).phi).abs() < 1e-14 && age < Duration::from_secs(60));
-        let shot = seen.shot.map(|shot| ShownShot { cue: cue(&shown()), ..shot });
-        assert_eq!(ShownTable { shot, ..seen }, shown());
+        let shot = seen.shot.map(|shot| SharedShot { cue: cue(&shown()), ..shot });
+        assert_eq!(SharedTable { shot, ..seen }, shown());
         let size = fs::metadata(folder.path().join(FILE)).unwrap().len();
-        assert!((100..LARGEST / 32).contains(&size), "{size}");
+        assert!((100..MAX_FILE_BYTES / 32).contains(&size), "{size}");
         drop(lock);
-        assert!(matches!(ShownTable::look(folder.path()), Sight::Nothing), "a process that was killed has left it");
+        assert!(
+            matches!(SharedTable::read(folder.path()), SharedTableState::Nothing),
+            "a process that was killed has left it"
+        );
     }
 
     #[test]
-    fn a_shot_that_plays_on_is_no_news_and_everything_else_is() {
+    fn only_changes_other_than_playback_progress_are_written() {
         let before = shown();
         let at = |time: f64| {
-            let shot = before.shot.map(|shot| ShownShot { time, ..shot });
-            ShownTable { shot, ..before.clone() }
+            let shot = before.shot.map(|shot| SharedShot { time, ..shot });
+            SharedTable { shot, ..before.clone() }
         };
         let second = Duration::from_secs(1);
         assert!(!before.is_outdated_by(second, &at(3.0)));
         assert!(before.is_outdated_by(second, &at(1.0)), "it has stood still meanwhile");
-        assert!(before.is_outdated_by(second, &ShownTable { selected: 0, ..at(3.0) }));
-        let paused = before.shot.map(|shot| ShownShot { time: 3.0, playing: false, ..shot });
-        let paused = ShownTable { shot: paused, ..before.clone() };
+        assert!(before.is_outdated_by(second, &SharedTable { selected: 0, ..at(3.0) }));
+        let paused = before.shot.map(|shot| SharedShot { time: 3.0, playing: false, ..shot });
+        let paused = SharedTable { shot: paused, ..before.clone() };
         assert!(before.is_outdated_by(second, &paused) && !paused.is_outdated_by(second, &paused));
-        assert!(before.is_outdated_by(second, &ShownTable { shot: None, ..before.clone() }));
+        assert!(before.is_outdated_by(second, &SharedTable { shot: None, ..before.clone() }));
     }
 
     #[test]
-    fn a_table_of_a_long_name_is_shown_as_far_as_that_is_accepted() {
-        let ShownTable { doing, table, layout, rule, skill, .. } = shown();
+    fn a_long_table_name_is_truncated() {
+        let SharedTable { doing, table, layout, rule, skill, .. } = shown();
         let long = Table { name: "당구".repeat(30), ..table };
-        let shown = ShownTable::new(doing, long, layout, rule, skill);
-        assert!(shown.is_sound() && shown.table.name.len() == 63, "{}", shown.table.name);
+        let shown = SharedTable::new(doing, long, layout, rule, skill);
+        assert!(shown.is_valid() && shown.table.name.len() == 63, "{}", shown.table.name);
     }
 
     #[test]
-    fn what_somebody_else_has_written_is_not_taken_on_trust() {
+    fn values_written_by_others_are_validated() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(FILE);
         let sound = serde_json::to_value(shown()).unwrap();
         let is_seen = |text: &str| {
             fs::write(&path, text).unwrap();
-            matches!(ShownTable::look(folder.path()), Sight::Table(..))
+            matches!(SharedTable::read(folder.path()), SharedTableState::Table(..))
         };
         assert!(is_seen(&sound.to_string()));
         let bad: &[(&str, Value)] = &[
@@ -323,9 +326,9 @@ mod tests {
         }
         assert!(!is_seen(&format!("{text}{}", " ".repeat(1 << 16))), "a file without an end");
         fs::write(&path, [0xff, 0xfe]).unwrap();
-        assert!(matches!(ShownTable::look(folder.path()), Sight::Damaged));
+        assert!(matches!(SharedTable::read(folder.path()), SharedTableState::Damaged));
         fs::remove_file(&path).unwrap();
         fs::create_dir(&path).unwrap();
-        assert!(matches!(ShownTable::look(folder.path()), Sight::Damaged));
+        assert!(matches!(SharedTable::read(folder.path()), SharedTableState::Damaged));
     }
 }

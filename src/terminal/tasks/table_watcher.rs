@@ -8,7 +8,7 @@ use crate::{
     table::{Layout, Table},
     terminal::{
         Shot,
-        shown::{Author, ShownTable, Sight},
+        shared_table::{Author, SharedTable, SharedTableState},
     },
 };
 
@@ -19,18 +19,18 @@ const MAX_EVENTS: u32 = 20_000;
 const MAX_DURATION: f64 = 120.0;
 
 /// The result of reading another player's table.
-pub type Seen = Sight<SeenTable>;
+pub type FollowedTableState = SharedTableState<FollowedTable>;
 
-/// The message if the table of the player `name` is [`Sight::Damaged`].
-pub fn damage_words(name: &str) -> String {
+/// The message if the table of the player `name` is [`SharedTableState::Damaged`].
+pub fn damage_message(name: &str) -> String {
     format!("The table of {name} cannot be read: it is damaged, or of another version of carom.")
 }
 
 /// Another player's table.
 #[derive(Clone, Debug)]
-pub struct SeenTable {
+pub struct FollowedTable {
     /// The shared view.
-    pub shown: ShownTable,
+    pub shown: SharedTable,
     /// Its age when read.
     pub age: Duration,
     /// The simulated shot; `None` if there is none or it cannot be simulated.
@@ -42,37 +42,38 @@ type ShotInputs = (Table, Layout, CueInputs, bool);
 
 /// A reader of another player's table.
 #[derive(Debug)]
-pub struct Onlooker {
+pub struct TableWatcher {
     folder: PathBuf,
-    before: Option<Seen>,
+    before: Option<FollowedTableState>,
     /// The inputs and the result of the last simulation.
     shot: Option<(ShotInputs, Option<Arc<Shot>>)>,
 }
 
-impl Onlooker {
+impl TableWatcher {
     /// Creates a reader of the table shared in `folder`.
     pub const fn new(folder: PathBuf) -> Self {
         Self { folder, before: None, shot: None }
     }
 
     /// Reads the table; `None` if nothing has changed.
-    pub fn look(&mut self) -> Option<Seen> {
-        let sight = ShownTable::look(&self.folder);
-        let is_known = match (&sight, &self.before) {
-            (Sight::Nothing, Some(Seen::Nothing)) | (Sight::Damaged, Some(Seen::Damaged)) => true,
-            (Sight::Table(found), Some(Seen::Table(seen))) => found.0 == seen.shown,
+    pub fn poll(&mut self) -> Option<FollowedTableState> {
+        let found = SharedTable::read(&self.folder);
+        let is_known = match (&found, &self.before) {
+            (SharedTableState::Nothing, Some(FollowedTableState::Nothing))
+            | (SharedTableState::Damaged, Some(FollowedTableState::Damaged)) => true,
+            (SharedTableState::Table(table), Some(FollowedTableState::Table(seen))) => table.0 == seen.shown,
             _ => false,
         };
         if is_known {
             return None;
         }
-        let seen = match sight {
-            Sight::Nothing => Seen::Nothing,
-            Sight::Damaged => Seen::Damaged,
-            Sight::Table(found) => {
-                let (shown, age) = *found;
+        let seen = match found {
+            SharedTableState::Nothing => FollowedTableState::Nothing,
+            SharedTableState::Damaged => FollowedTableState::Damaged,
+            SharedTableState::Table(table) => {
+                let (shown, age) = *table;
                 let shot = self.record(&shown);
-                Seen::Table(Box::new(SeenTable { shown, age, shot }))
+                FollowedTableState::Table(Box::new(FollowedTable { shown, age, shot }))
             }
         };
         self.before = Some(seen.clone());
@@ -80,7 +81,7 @@ impl Onlooker {
     }
 
     /// Simulates the shot, unless it is the same as the last one.
-    fn record(&mut self, shown: &ShownTable) -> Option<Arc<Shot>> {
+    fn record(&mut self, shown: &SharedTable) -> Option<Arc<Shot>> {
         let shot = shown.shot?;
         let inputs = (shown.table.clone(), shown.layout, shot.cue, shot.solved);
         if let Some((known, shot)) = &self.shot
@@ -113,37 +114,37 @@ mod tests {
         coach::Skill,
         game::Rule,
         storage::Lock,
-        terminal::shown::{Doing, ShownShot},
+        terminal::shared_table::{Activity, SharedShot},
     };
 
     #[test]
-    fn a_change_is_seen_once_and_the_shot_is_the_same_bit_for_bit() {
+    fn a_change_is_reported_once_with_a_bit_identical_shot() {
         let folder = tempfile::tempdir().unwrap();
-        let mut onlooker = Onlooker::new(folder.path().to_owned());
-        assert!(matches!(onlooker.look(), Some(Seen::Nothing)) && onlooker.look().is_none());
+        let mut watcher = TableWatcher::new(folder.path().to_owned());
+        assert!(matches!(watcher.poll(), Some(FollowedTableState::Nothing)) && watcher.poll().is_none());
         let lock = Lock::try_acquire(folder.path()).unwrap();
         let table = Table::default();
         let layout = Layout::opening(&table);
         let cue = CueInputs::parse("0.2,0.3,6,-72,2.5").unwrap();
         let (author, solved, made, time, speed, playing, over) = (Author::Coach, true, None, 0.0, 1.0, false, false);
-        let shot = ShownShot { cue, author, solved, made, time, speed, playing, over };
-        let shown = ShownTable::new(Doing::Watching, table.clone(), layout, Rule::StraightRail, Skill::CLUB);
-        let shown = ShownTable { shot: Some(shot), ..shown };
+        let shot = SharedShot { cue, author, solved, made, time, speed, playing, over };
+        let shown = SharedTable::new(Activity::Watching, table.clone(), layout, Rule::StraightRail, Skill::CLUB);
+        let shown = SharedTable { shot: Some(shot), ..shown };
         shown.write(folder.path()).unwrap();
-        let Some(Seen::Table(seen)) = onlooker.look() else { panic!("nothing is seen") };
+        let Some(FollowedTableState::Table(seen)) = watcher.poll() else { panic!("nothing is seen") };
         let (there, here) = (Recording::new(&table, &layout, &cue).unwrap(), &seen.shot.as_ref().unwrap().recording);
         assert_eq!((there.duration(), there.events().len()), (here.duration(), here.events().len()));
-        assert!(onlooker.look().is_none());
-        let playing = ShownTable { shot: Some(ShownShot { playing: true, ..shot }), ..shown };
+        assert!(watcher.poll().is_none());
+        let playing = SharedTable { shot: Some(SharedShot { playing: true, ..shot }), ..shown };
         playing.write(folder.path()).unwrap();
-        let Some(Seen::Table(again)) = onlooker.look() else { panic!("nothing is seen") };
+        let Some(FollowedTableState::Table(again)) = watcher.poll() else { panic!("nothing is seen") };
         assert!(Arc::ptr_eq(seen.shot.as_ref().unwrap(), again.shot.as_ref().unwrap()), "recorded once");
         drop(lock);
-        assert!(matches!(onlooker.look(), Some(Seen::Nothing)));
+        assert!(matches!(watcher.poll(), Some(FollowedTableState::Nothing)));
     }
 
     #[test]
-    fn a_table_on_which_a_shot_never_seems_to_end_keeps_nobody_waiting() {
+    fn a_shot_without_end_is_given_up_in_time() {
         let slippery = Table {
             sliding_friction: 1e-4,
             rolling_friction: 1e-4,
