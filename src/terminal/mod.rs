@@ -135,7 +135,7 @@ fn with_saved_state(app: App, paths: &DataPaths) -> App {
         .with_draft(draft.unwrap_or_default())
         .with_notice(of_session.as_deref())
         .with_notice(of_draft.as_deref());
-    app.coach.own = own.map(|own| own.skill);
+    app.coach.own_skill = own.map(|own| own.skill);
     app
 }
 

@@ -48,7 +48,7 @@ impl App {
         let tasks = self.drills.receive(report);
         let troubles = self.drills.book.troubles.iter().filter(|trouble| !known.contains(trouble));
         self.toasts.push_first(&troubles.cloned().collect::<Vec<_>>());
-        self.coach.own = self.drills.player.own.or(self.coach.own);
+        self.coach.own_skill = self.drills.player.own_skill.or(self.coach.own_skill);
         self.collect_toasts(false);
         tasks
     }

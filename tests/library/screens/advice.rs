@@ -120,11 +120,11 @@ fn an_analysis_is_stored_with_the_shot_it_belongs_to() {
     let now = set(&other);
     other.app.coach.apply_changed_settings(&now, &before).unwrap();
     let player = other.tell(study.id, CoachEvent::Next(None));
-    let is_studied = |player: &Player| player.app.coach.current_advice().map(|advised| advised.choice().is_studied);
-    assert_eq!(is_studied(&player), Some(false), "the analysis belongs to another answer");
+    let is_analysed = |player: &Player| player.app.coach.current_advice().map(|advised| advised.choice().is_analysed);
+    assert_eq!(is_analysed(&player), Some(false), "the analysis belongs to another answer");
     let mut player = player;
     player.app.coach.apply_changed_settings(&before, &now).unwrap();
-    assert_eq!(is_studied(&player), Some(true));
+    assert_eq!(is_analysed(&player), Some(true));
 }
 
 #[test]

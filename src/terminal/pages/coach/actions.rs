@@ -94,12 +94,12 @@ impl CoachPage {
             Action::SwapCueBall => self.swap_cue_ball(),
             Action::RandomPosition => {
                 let layout = Layout::random(&self.history.present().table, &mut self.rng);
-                self.place(layout);
+                self.set_layout(layout);
             }
             Action::Undo if self.what_if().is_some() => return self.undo_own_stroke(),
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),
-            Action::Recommend => return Some(self.ask()),
+            Action::Recommend => return Some(self.request_advice()),
             Action::SavePosition => self.ask_title(),
             Action::Answer(true) => return self.accept_answer(),
             Action::Answer(false) => self.question = None,
@@ -109,7 +109,7 @@ impl CoachPage {
             Action::Continue => return self.continue_from_end(),
             Action::NextRule => self.choose_terms(Terms { rule: neighbour(&Rule::ALL, terms.rule, 1), ..terms }),
             Action::NextSkill => {
-                let skill = next_skill(terms.skill, self.own, self.settings_terms.skill);
+                let skill = next_skill(terms.skill, self.own_skill, self.settings_terms.skill);
                 self.choose_terms(Terms { skill, ..terms });
             }
             Action::TogglePlan => self.choose_terms(Terms { plan: !terms.plan, ..terms }),
@@ -129,8 +129,8 @@ impl CoachPage {
                     Some(Message::plain("without a shot the panel shows the ball positions; Enter asks the coach"));
             }
             Action::NextInfoPanel => self.info = neighbour(&InfoPanel::ALL, self.info, 1),
-            Action::CycleShot(shots) => self.choose(|advised| advised.cycle(shots)),
-            Action::ShowShot(shot) => self.choose(|advised| advised.show_shot(shot)),
+            Action::CycleShot(shots) => self.choose_shot(|advised| advised.cycle(shots)),
+            Action::ShowShot(shot) => self.choose_shot(|advised| advised.show_shot(shot)),
             Action::WhatIf => return self.start_own_stroke(0),
             Action::LeaveStroke => self.leave_own_stroke(),
             Action::ChangeStroke(change) => return self.change_stroke(change),
@@ -160,7 +160,7 @@ impl CoachPage {
         let cue_ball = self.cue_ball().other();
         let layout = self.layout().for_the_opponent();
         self.selected = CueBall::Yellow.to_ball_order([0, 1, 2])[self.selected];
-        self.place(layout);
+        self.set_layout(layout);
         self.history.present_mut().cue_ball = cue_ball;
         self.message = Some(Message::plain(format!("{cue_ball} is the cue ball now; Enter asks the coach")));
     }
@@ -170,7 +170,7 @@ impl CoachPage {
         let side = self.layout().opening_side(self.table()).map_or(Side::Left, Side::other);
         let layout = Layout::opening_on(self.table(), side);
         let rule = self.query.rule;
-        self.place(layout);
+        self.set_layout(layout);
         if self.table().opening == Opening::Umb {
             let red = if Point::of(rule, self.table(), &layout).red_first { "; red has to be met first" } else { "" };
             let (here, there) = (side.name(), side.other().name());
@@ -230,7 +230,7 @@ impl CoachPage {
         };
         let slide = placing::slide(self.table(), self.layout(), self.selected, step);
         if slide.layout != *self.layout() {
-            self.place(slide.layout);
+            self.set_layout(slide.layout);
         }
         let names = self.cue_ball().names();
         if let Some(place) = slide.stop_message(self.selected, names) {
@@ -239,7 +239,7 @@ impl CoachPage {
     }
 
     /// Puts the balls in new positions, as an undoable step. The shot disappears because it belongs to the old positions.
-    pub(super) fn place(&mut self, layout: Layout) {
+    pub(super) fn set_layout(&mut self, layout: Layout) {
         self.end_drag();
         self.history.push(self.snapshot(layout));
         self.reset_playback();

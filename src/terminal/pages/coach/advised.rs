@@ -33,13 +33,13 @@ pub struct Choice {
     /// The advice on the layout after the shot.
     pub next: Option<Advice>,
     /// Whether the analysis is complete.
-    pub is_studied: bool,
+    pub is_analysed: bool,
 }
 
 impl AdviceState {
     /// Creates the state from the `advice` that answers `query`; `None` if it contains no shot.
     pub fn new(query: CoachQuery, advice: Advice) -> Option<Self> {
-        let choice = |proposal| Choice { proposal, study: None, next: None, is_studied: false };
+        let choice = |proposal| Choice { proposal, study: None, next: None, is_analysed: false };
         let Advice { proposals, seed, found, .. } = advice;
         let choices: Vec<_> = proposals.into_iter().map(choice).collect();
         (!choices.is_empty()).then_some(Self { query, why: None, seed, found, choices, chosen: 0 })

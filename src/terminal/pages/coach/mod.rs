@@ -113,7 +113,7 @@ pub struct CoachPage {
     /// The query to the coach: the policy and the terms.
     pub query: CoachQuery,
     /// The user's own measured skill; `None` if none is saved.
-    pub own: Option<Skill>,
+    pub own_skill: Option<Skill>,
     /// The chosen panel.
     pub info: InfoPanel,
     /// Whether the shot is described in the thesis' numbers instead of a player's words.
@@ -174,7 +174,7 @@ impl CoachPage {
             playback: Playback::default(),
             message: None,
             query: CoachQuery::default(),
-            own: None,
+            own_skill: None,
             info: InfoPanel::default(),
             is_in_numbers: false,
             has_all_events: false,

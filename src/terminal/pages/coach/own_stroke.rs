@@ -86,7 +86,7 @@ impl CoachPage {
             return self.refuse(error);
         }
         let own_strokes_played = self.own_strokes_played() + 1;
-        self.place(end);
+        self.set_layout(end);
         self.start_own_stroke(own_strokes_played)
     }
 
@@ -167,7 +167,7 @@ impl CoachPage {
         let judged = self.proposal().filter(|coach| !coach.is_early).and_then(|coach| coach.made);
         let attempts = judged.map_or(DEFAULT_TRIALS, |made| made.trials.max(MIN_TRIALS));
         let advised = self.current_advice().map(|advised| (advised.seed, advised.judged_from()));
-        let job = self.job(None);
+        let job = self.new_job(None);
         let (seed, from) = advised.unwrap_or((job.seed, 0));
         let cancel = self.own_stroke.as_mut()?.what_if.request_rate(job.id);
         Some(Effect::AskCoach(Box::new(CoachJob { stroke: Some((cue, from..from + attempts)), seed, cancel, ..job })))

@@ -49,7 +49,7 @@ impl CoachPage {
             .with_positions(text, self.table(), self.cue_ball(), self.selected)
             .map_err(|error| error.to_string())?;
         self.cancel();
-        self.place(layout);
+        self.set_layout(layout);
         let is_opening = Point::of(self.query.rule, self.table(), &layout).red_first;
         let message = if is_opening {
             "this is the opening: red has to be met first"

@@ -43,17 +43,17 @@ pub struct RunningAnalysis {
 }
 
 impl CoachPage {
-    pub(super) fn ask(&mut self) -> Effect {
+    pub(super) fn request_advice(&mut self) -> Effect {
         self.playback.pause();
         let former = self.current_advice().into_iter().flat_map(|advised| &advised.choices);
         let former = former.map(|choice| choice.proposal.shot.cue).collect();
-        let job = CoachJob { former, ..self.job(None) };
+        let job = CoachJob { former, ..self.new_job(None) };
         let (cancel, query) = (Arc::clone(&job.cancel), job.query.clone());
         self.pending = Some(PendingRequest { id: job.id, cancel, query, elapsed: 0.0, best_so_far: None });
         Effect::AskCoach(Box::new(job))
     }
 
-    pub(super) fn job(&mut self, shot: Option<CueInputs>) -> CoachJob {
+    pub(super) fn new_job(&mut self, shot: Option<CueInputs>) -> CoachJob {
         self.job_count += 1;
         CoachJob {
             id: self.job_count,
@@ -79,7 +79,10 @@ impl CoachPage {
             if pending.query == self.query {
                 words += "; this is the best shot so far";
             }
-            self.show(pending.query, Advice { proposals: vec![so_far], seed: pending.id, effort: None, found: None });
+            self.store_advice(
+                pending.query,
+                Advice { proposals: vec![so_far], seed: pending.id, effort: None, found: None },
+            );
         }
         self.message = Some(Message::plain(words));
     }
@@ -105,19 +108,19 @@ impl CoachPage {
                     let [asked, now] = [query.skill, self.query.skill].map(skill_word);
                     Some(Message::plain(format!("this answer is for {asked}; Enter asks for {now}")))
                 };
-                self.show(query, advice);
+                self.store_advice(query, advice);
             }
             (CoachEvent::Refused(sentence), Some(_)) => {
                 self.cancel();
                 self.message = Some(Message::warning(sentence));
             }
             (CoachEvent::Why(why), _) if is_study => {
-                if let Some((reason, _)) = self.studied() {
+                if let Some((reason, _)) = self.analysed_shot() {
                     *reason = Some(*why);
                 }
             }
             (CoachEvent::Analysis(study), _) if is_study => {
-                if let Some((_, choice)) = self.studied() {
+                if let Some((_, choice)) = self.analysed_shot() {
                     choice.study = Some(study);
                 }
             }
@@ -127,8 +130,8 @@ impl CoachPage {
                 }
             }
             (CoachEvent::Next(next), _) if is_study => {
-                if let Some((_, choice)) = self.studied() {
-                    (choice.next, choice.is_studied) = (next, true);
+                if let Some((_, choice)) = self.analysed_shot() {
+                    (choice.next, choice.is_analysed) = (next, true);
                 }
                 self.running_analysis = None;
             }
@@ -140,7 +143,7 @@ impl CoachPage {
 
     /// The shot under analysis, and the explanation of its advice's ranking, for storing results. Another shot may be displayed by now.
     /// `None` if the advice no longer exists.
-    fn studied(&mut self) -> Option<(&mut Option<Why>, &mut Choice)> {
+    fn analysed_shot(&mut self) -> Option<(&mut Option<Why>, &mut Choice)> {
         let shot = &self.running_analysis.as_ref()?.shot;
         self.history.present_mut().advised.iter_mut().find_map(|AdviceState { why, choices, .. }| {
             Some((why, choices.iter_mut().find(|choice| Arc::ptr_eq(&choice.proposal.shot, shot))?))
@@ -155,7 +158,7 @@ impl CoachPage {
     }
 
     /// Stores the advice that answers `query`. If that is the current query, shows its best shot.
-    fn show(&mut self, query: CoachQuery, advice: Advice) {
+    fn store_advice(&mut self, query: CoachQuery, advice: Advice) {
         let is_asked = query == self.query;
         let advised = &mut self.history.present_mut().advised;
         advised.retain(|known| known.query != query);
@@ -174,7 +177,7 @@ impl CoachPage {
     /// player has an own stroke, no analysis runs.
     pub fn study(&mut self) -> Option<Effect> {
         let advised = self.current_advice().filter(|_| self.pending.is_none() && self.own_stroke.is_none());
-        let wanted = advised.map(AdviceState::choice).filter(|choice| !choice.is_studied);
+        let wanted = advised.map(AdviceState::choice).filter(|choice| !choice.is_analysed);
         let wanted = wanted.map(|choice| Arc::clone(&choice.proposal.shot));
         if let (Some(running_analysis), Some(shot)) = (&self.running_analysis, &wanted)
             && Arc::ptr_eq(&running_analysis.shot, shot)
@@ -186,12 +189,12 @@ impl CoachPage {
         }
         let shot = wanted?;
         let found = self.current_advice().and_then(AdviceState::unexplained_search).cloned();
-        let job = CoachJob { found, ..self.job(Some(shot.cue)) };
+        let job = CoachJob { found, ..self.new_job(Some(shot.cue)) };
         self.running_analysis = Some(RunningAnalysis { id: job.id, cancel: Arc::clone(&job.cancel), shot });
         Some(Effect::AskCoach(Box::new(job)))
     }
 
-    pub(super) fn choose(&mut self, choose: impl FnOnce(&mut AdviceState)) {
+    pub(super) fn choose_shot(&mut self, choose: impl FnOnce(&mut AdviceState)) {
         let names = self.cue_ball().names();
         if let Some(advised) = self.current_advice_mut() {
             choose(advised);
@@ -213,11 +216,11 @@ impl CoachPage {
         if let Err(error) = end.validate(self.table()) {
             return self.refuse(error);
         }
-        self.place(end);
-        let Some(next) = next else { return Some(self.ask()) };
+        self.set_layout(end);
+        let Some(next) = next else { return Some(self.request_advice()) };
         self.message =
             next.proposals.first().map(|best| proposal_message(best, None, &self.query, self.cue_ball().names()));
-        self.show(self.query.clone(), next);
+        self.store_advice(self.query.clone(), next);
         None
     }
 

@@ -179,7 +179,7 @@ impl CoachPage {
             snapshot.advised.extend(AdviceState::new(self.query.clone(), advice));
             // Only the other player's own program analyses the shot.
             if let Some(advised) = snapshot.advised.first_mut() {
-                advised.choices[advised.chosen].is_studied = true;
+                advised.choices[advised.chosen].is_analysed = true;
             }
         }
         self.history = History::new(snapshot);

@@ -121,7 +121,7 @@ impl DrillsPage {
     /// Returns to the library, or to the coach page if the library is left too.
     fn leave_page(&mut self) {
         let is_closed = self.is_closed();
-        self.leave_turn();
+        self.close_exercise();
         if !is_closed {
             self.pages = vec![DrillContext::Library];
         }
@@ -163,7 +163,7 @@ impl DrillsPage {
             Ok(Some(mut turn)) => {
                 turn.jumps = self.jumps;
                 self.pages = vec![DrillContext::Library, DrillContext::Exercise];
-                return self.turn.insert(turn).ask();
+                return self.turn.insert(turn).request_model_shot();
             }
             Ok(None) => {}
             Err(error) => self.message = Some(Message::warning(error.to_string())),
@@ -189,7 +189,7 @@ impl DrillsPage {
 
     /// Opens the page of the filmed shot that is `shots` after the marked one, and requests the fit of its stroke.
     fn open_film(&mut self, shots: isize) -> Option<Effect> {
-        let Some(filmed) = self.film.begin(shots) else {
+        let Some(filmed) = self.film.select(shots) else {
             let end = if shots > 0 { "last" } else { "first" };
             self.message = Some(Message::plain(format!("this is the {end} filmed shot")));
             return None;

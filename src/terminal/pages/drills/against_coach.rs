@@ -27,7 +27,7 @@ impl DrillsPage {
             _ => {}
         }
         self.question = None;
-        self.leave_turn();
+        self.close_exercise();
         // The match must not change the options of the exercises.
         let options = self.options;
         self.options.shifted = false;

@@ -35,7 +35,7 @@ impl FilmsScreen {
 
     /// Marks the shot that is `shots` after the marked one, and returns it to be fitted and simulated. Returns `None` if there is no
     /// such shot. Playback starts when the result arrives.
-    pub fn begin(&mut self, shots: isize) -> Option<FilmedShot> {
+    pub fn select(&mut self, shots: isize) -> Option<FilmedShot> {
         let before = self.mark;
         self.move_mark(shots);
         if shots != 0 && self.mark == before {

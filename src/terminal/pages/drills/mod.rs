@@ -56,7 +56,7 @@ pub struct Player {
     /// The current skill: the standard errors of the simulated strokes.
     pub skill: Skill,
     /// The skill that the user has saved as the own one.
-    pub own: Option<Skill>,
+    pub own_skill: Option<Skill>,
     /// The skill of the settings.
     settings_skill: Skill,
     /// The skill on the coach page. Only an explicit choice changes it.
@@ -66,7 +66,7 @@ pub struct Player {
 impl Player {
     /// Chooses the next skill.
     fn choose_next(&mut self) {
-        self.choose(next_skill(self.skill, self.own, self.settings_skill));
+        self.choose(next_skill(self.skill, self.own_skill, self.settings_skill));
     }
 
     /// Chooses `skill`, for the coach page too.
@@ -209,7 +209,7 @@ impl DrillsPage {
     pub fn resume(&mut self, session: Session, skill: Skill) -> Effect {
         self.unfinished_exam = self.unfinished().filter(|open| open.is_exam() && open.id != session.id).cloned();
         self.own_table = session.table.clone().or(self.own_table.take());
-        self.leave_turn();
+        self.close_exercise();
         self.player.coach_page_skill = skill;
         self.player.skill = session.skill;
         let mut tasks = vec![self.load()];
@@ -277,7 +277,7 @@ impl DrillsPage {
     }
 
     /// Closes the exercise. Its attempts are on the disk already; an unfinished run, game or match is kept for resuming.
-    fn leave_turn(&mut self) {
+    fn close_exercise(&mut self) {
         if let Some(mut turn) = self.turn.take() {
             turn.cancel_request();
             if turn.is_in_progress() {

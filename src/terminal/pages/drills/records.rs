@@ -42,13 +42,13 @@ impl Records {
     }
 
     /// Returns the number of a new request for the estimate.
-    pub(super) const fn ask(&mut self) -> u64 {
+    pub(super) const fn next_request(&mut self) -> u64 {
         self.asked += 1;
         self.asked
     }
 
     /// Handles the answer to request `number`; drops it if there is a later request.
-    pub(super) fn estimated(&mut self, number: u64, estimate: Estimate) {
+    pub(super) fn on_estimate(&mut self, number: u64, estimate: Estimate) {
         if number == self.asked {
             self.estimate = estimate;
         }

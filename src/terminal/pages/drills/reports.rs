@@ -22,7 +22,7 @@ impl DrillsPage {
                 self.on_loaded(*loaded);
                 let mut tasks = self.load_newer_session();
                 if self.page() == DrillContext::Record {
-                    tasks.push(DrillTask::Estimate(self.records.ask(), self.book.sessions.clone().into()));
+                    tasks.push(DrillTask::Estimate(self.records.next_request(), self.book.sessions.clone().into()));
                 }
                 return tasks;
             }
@@ -80,7 +80,7 @@ impl DrillsPage {
             },
             DrillReport::PositionRemoved(name, outcome) => match outcome {
                 Ok(()) => {
-                    let own = self.own().filter(|exercise| exercise.name != name).cloned().collect();
+                    let own = self.own_positions().filter(|exercise| exercise.name != name).cloned().collect();
                     self.set_own_positions(own);
                     self.message = Some(Message::plain(format!("{name} is removed; its results stay")));
                 }
@@ -89,7 +89,7 @@ impl DrillsPage {
             DrillReport::Estimated(number, found) => {
                 let missing = Estimate::Missing;
                 let estimate = found.map_or_else(missing, |(skill, sentence)| Estimate::Known(skill, sentence));
-                self.records.estimated(number, estimate);
+                self.records.on_estimate(number, estimate);
             }
             DrillReport::Filmed(number, played) => {
                 if let Err(sentence) = self.film.receive(number, played) {
@@ -97,7 +97,7 @@ impl DrillsPage {
                 }
             }
             DrillReport::SkillSaved(skill, kept) => {
-                self.player.own = Some(skill);
+                self.player.own_skill = Some(skill);
                 self.player.choose(skill);
                 self.message = Some(Message::good("this is your skill now: you are the player \"me by my notes\""));
                 self.warn_unsaved(kept, "the skill is taken, but not kept for the next time");
@@ -112,8 +112,8 @@ impl DrillsPage {
         self.book = Book::new(sessions, troubles);
         self.set_own_positions(positions);
         // The saved skill becomes the current one unless the user has chosen another.
-        if let Some(skill) = skill.filter(|_| self.player.own.is_none()) {
-            self.player.own = Some(skill);
+        if let Some(skill) = skill.filter(|_| self.player.own_skill.is_none()) {
+            self.player.own_skill = Some(skill);
             if self.player.skill == Skill::default() {
                 self.player.skill = skill;
             }
@@ -175,7 +175,7 @@ impl DrillsPage {
     }
 
     /// The user's own positions in the library.
-    fn own(&self) -> impl Iterator<Item = &Exercise> {
+    fn own_positions(&self) -> impl Iterator<Item = &Exercise> {
         let library = &self.catalogue.library;
         library.exercises().iter().filter(|exercise| !library.is_bundled(&exercise.name))
     }
@@ -187,7 +187,7 @@ impl DrillsPage {
     }
 
     fn on_position_saved(&mut self, exercise: &Exercise) {
-        let own = self.own().filter(|own| own.name != exercise.name).cloned();
+        let own = self.own_positions().filter(|own| own.name != exercise.name).cloned();
         let own = own.chain([exercise.clone()]).collect();
         self.set_own_positions(own);
         self.catalogue.show_own(&exercise.name);

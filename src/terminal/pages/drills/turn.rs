@@ -280,7 +280,7 @@ impl Turn {
     }
 
     /// Requests the model shot for the current position, and cancels the previous request.
-    pub(super) fn ask(&mut self) -> Vec<DrillTask> {
+    pub(super) fn request_model_shot(&mut self) -> Vec<DrillTask> {
         self.cancel_request();
         self.what_if = None;
         self.model_shot = ModelShotState::Pending;
@@ -342,8 +342,8 @@ impl Turn {
         let duration = outcome.shot.as_ref().map_or(0.0, |shot| shot.recording.duration());
         playback.toggle(duration);
         let noted = outcome.session.attempts.last().and_then(|attempt| attempt.intended);
-        let meant = noted.unwrap_or(*self.stroke());
-        let mut watched = Watched { outcome, meant, chance: None, playback, is_end_shown: false };
+        let intended = noted.unwrap_or(*self.stroke());
+        let mut watched = Watched { outcome, intended, chance: None, playback, is_end_shown: false };
         watched.settle();
         self.stage = Stage::Watching(Box::new(watched));
     }
@@ -381,7 +381,7 @@ impl Turn {
     /// Continues with the version of another instance of the program.
     pub(super) fn replace_session(&mut self, stored: Session) -> Vec<DrillTask> {
         self.stage = Stage::Aiming;
-        self.begin(stored)
+        self.begin_session(stored)
     }
 
     /// Handles the end of saving a session, successful or not. Requests a new model shot if the next position is a different one.
@@ -391,7 +391,7 @@ impl Turn {
             self.unsaved = Some(ahead);
         }
         self.session = session.clone();
-        if self.place_next() { self.ask() } else { Vec::new() }
+        if self.place_next() { self.request_model_shot() } else { Vec::new() }
     }
 
     /// Whether a record from a real table can be undone.
@@ -401,25 +401,25 @@ impl Turn {
     }
 
     /// Starts another session of the same exercises. Requests a new model shot if that may be different now.
-    pub(super) fn begin(&mut self, session: Session) -> Vec<DrillTask> {
+    pub(super) fn begin_session(&mut self, session: Session) -> Vec<DrillTask> {
         let asks_otherwise = (session.skill, session.is_game()) != (self.session.skill, self.session.is_game());
         self.session = session;
         self.unsaved = None;
         let is_moved = self.place_next();
-        if is_moved || asks_otherwise { self.ask() } else { Vec::new() }
+        if is_moved || asks_otherwise { self.request_model_shot() } else { Vec::new() }
     }
 
     /// Places the balls for the next attempt of the session. Returns whether the position has changed.
     pub(super) fn place_next(&mut self) -> bool {
         match self.session.position() {
-            Ok(Some((table, layout))) => self.place(table, layout),
+            Ok(Some((table, layout))) => self.place_balls(table, layout),
             // The session is over. An error is impossible here, because the exercise was checked when it was opened.
             _ => false,
         }
     }
 
     /// Places the balls. Returns whether the position has changed.
-    pub(super) fn place(&mut self, table: Table, layout: Layout) -> bool {
+    pub(super) fn place_balls(&mut self, table: Table, layout: Layout) -> bool {
         let exercise = self.session.exercise().cloned().unwrap_or_else(|| self.exercise.clone());
         let is_other = exercise.name != self.exercise.name;
         let is_moved = is_other || layout != self.layout;

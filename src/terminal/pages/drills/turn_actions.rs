@@ -237,7 +237,7 @@ impl DrillsPage {
         let venue = if is_match { Venue::Program } else { venue.unwrap_or(turn.latest_session().venue) };
         let mut session = turn.new_session(goal, shifted && !is_match, venue, skill, seed);
         session.table = own_table;
-        turn.begin(session)
+        turn.begin_session(session)
     }
 
     fn play(&mut self) -> Option<Effect> {
@@ -265,7 +265,7 @@ impl DrillsPage {
         }
         let turn = self.turn.as_mut()?;
         match next {
-            Some((table, layout)) => turn.place(table, layout).then(|| Effect::Drill(turn.ask())),
+            Some((table, layout)) => turn.place_balls(table, layout).then(|| Effect::Drill(turn.request_model_shot())),
             None if turn.session.is_exam() => {
                 self.pages = vec![DrillContext::Library, DrillContext::Result];
                 None

@@ -11,7 +11,7 @@ pub struct Watched {
     /// Its result.
     pub outcome: AttemptOutcome,
     /// The stroke that the player meant, without errors.
-    pub meant: CueInputs,
+    pub intended: CueInputs,
     /// The success rate of the meant stroke; `None` until it has been computed.
     pub chance: Option<f64>,
     /// Playback position and speed of the shot.

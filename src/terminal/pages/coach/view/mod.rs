@@ -248,7 +248,7 @@ fn draw_info(coach: &CoachPage, panel: InfoPanel, says_why: bool, area: Rect, ui
         (Some(_), _) => "the coach is thinking",
         (None, Some(_)) if is_followed => "only the player sees this",
         (None, None) if is_followed => "no shot yet",
-        (None, Some(choice)) if choice.is_studied => FAILED,
+        (None, Some(choice)) if choice.is_analysed => FAILED,
         (None, Some(_)) => "being computed",
         (None, None) => "no shot yet; Enter asks the coach",
     };

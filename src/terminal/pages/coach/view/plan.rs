@@ -84,7 +84,7 @@ fn shot_words(proposal: &Proposal, room: usize, ui: &Ui) -> String {
 fn stop_words(choice: &Choice, unit: LengthUnit, is_explained: bool, theme: &Theme) -> (&'static str, String) {
     let (in_a_metre, symbol) = unit.small();
     let Some(study) = &choice.study else {
-        let words = if choice.is_studied { FAILED } else { "being tried" };
+        let words = if choice.is_analysed { FAILED } else { "being tried" };
         return ("stop", words.to_owned());
     };
     let meant = choice.proposal.shot.recording.final_layout();
@@ -103,7 +103,7 @@ fn stop_words(choice: &Choice, unit: LengthUnit, is_explained: bool, theme: &The
 }
 
 fn next_words(choice: &Choice, room: usize, ui: &Ui) -> String {
-    match (&choice.next, choice.is_studied) {
+    match (&choice.next, choice.is_analysed) {
         (Some(next), _) => next.proposals.first().map_or_else(String::new, |proposal| shot_words(proposal, room, ui)),
         (None, false) => "being looked for".to_owned(),
         (None, true) if choice.study.is_none() => FAILED.to_owned(),

@@ -81,7 +81,7 @@ fn draw_precision(drills: &DrillsPage, turn: &Turn, aim_line: Option<&AimLine>, 
         draw_hit_panel(Some(whose), Some(model_shot.shot.first_impact()), panes.hit, ui);
         return;
     }
-    let meant = turn.watched().map_or(turn.stroke(), |watched| &watched.meant);
+    let meant = turn.watched().map_or(turn.stroke(), |watched| &watched.intended);
     draw_tip(
         Some(meant).filter(|_| !turn.is_coach_thinking()),
         drills.units.tip == TipUnit::Tips,

@@ -30,7 +30,7 @@ const ALL_ROWS: u16 = 7;
 /// Draws the inputs of the current stroke, or of the watched one as it was meant: in the form of the advice, or `in_numbers`, in the
 /// units that the keys change.
 pub fn draw_stroke(turn: &Turn, units: Units, in_numbers: bool, area: Rect, ui: &mut Ui) {
-    let cue = turn.watched().map_or_else(|| turn.raised_stroke(), |watched| watched.meant);
+    let cue = turn.watched().map_or_else(|| turn.raised_stroke(), |watched| watched.intended);
     // A match has two sides, so "yours" would be ambiguous.
     let title = if turn.session.is_match() { format!("Stroke of {}", turn.cue_ball) } else { "Your stroke".to_owned() };
     let inner = draw_title(title, area, ui);
@@ -275,17 +275,18 @@ fn chances(turn: &Turn, watched: &Watched, caps: Capabilities) -> String {
 
 /// The difference of the meant stroke from the model shot, and the error that the player's hand has added.
 fn differences(turn: &Turn, watched: &Watched, units: Units, caps: Capabilities) -> Vec<String> {
-    let Watched { meant, outcome, .. } = watched;
-    let added =
-        difference_words(turn, &outcome.played.stroke, meant, units).unwrap_or_else(|| "hardly any change".to_owned());
+    let Watched { intended, outcome, .. } = watched;
+    let added = difference_words(turn, &outcome.played.stroke, intended, units)
+        .unwrap_or_else(|| "hardly any change".to_owned());
     if watched.is_by_coach() {
         return vec![to_displayable(&format!("the coach's hand: {added}"), caps)];
     }
     let compared = match &turn.model_shot {
-        ModelShotState::Known(model_shot) => difference_words(turn, meant, &model_shot.advice.cue, units).map_or_else(
-            || format!("{}: almost the same", advisor(model_shot)),
-            |yours| format!("yours, beside the {}: {yours}", advisor(model_shot)),
-        ),
+        ModelShotState::Known(model_shot) => difference_words(turn, intended, &model_shot.advice.cue, units)
+            .map_or_else(
+                || format!("{}: almost the same", advisor(model_shot)),
+                |yours| format!("yours, beside the {}: {yours}", advisor(model_shot)),
+            ),
         ModelShotState::Pending => "the coach is still thinking".to_owned(),
         ModelShotState::Missing => "the coach has found no shot".to_owned(),
     };

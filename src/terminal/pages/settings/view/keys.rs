@@ -26,7 +26,7 @@ pub fn draw(settings: &SettingsPage, area: Rect, words: Rect, ui: &mut Ui) -> &'
         draw_entry(settings, entry, is_marked, area, ui);
     });
     if let Some(entry) = settings.keys.marked() {
-        draw_words(settings, entry, words, ui);
+        draw_description(settings, entry, words, ui);
     }
     "Enter gives what is marked another key"
 }
@@ -51,7 +51,7 @@ fn keys_of(settings: &SettingsPage, entry: &KeyEntry, caps: Capabilities) -> Opt
     (!text.is_empty()).then_some(text)
 }
 
-fn draw_words(settings: &SettingsPage, entry: &KeyEntry, area: Rect, ui: &mut Ui) {
+fn draw_description(settings: &SettingsPage, entry: &KeyEntry, area: Rect, ui: &mut Ui) {
     let inner = draw_title(entry.section.title(), area, ui);
     let keys = keys_of(settings, entry, ui.caps).unwrap_or_else(|| "no key".to_owned());
     let mut paragraphs = vec![

@@ -29,7 +29,7 @@ pub fn draw(settings: &SettingsPage, area: Rect, words: Rect, ui: &mut Ui) -> &'
     list(settings).draw(inner, ui, |entry, is_marked, area, ui| {
         draw_entry(settings, entry, is_marked, area, ui);
     });
-    draw_words(settings, words, ui);
+    draw_description(settings, words, ui);
     if settings.is_writable {
         "changes apply at once and are saved"
     } else {
@@ -59,7 +59,7 @@ fn draw_entry(settings: &SettingsPage, entry: &Entry, is_marked: bool, area: Rec
     ui.buffer.set_line(x, area.y, &Line::from(spans), area.right().saturating_sub(x));
 }
 
-fn draw_words(settings: &SettingsPage, area: Rect, ui: &mut Ui) {
+fn draw_description(settings: &SettingsPage, area: Rect, ui: &mut Ui) {
     let entry = settings.marked();
     let inner = draw_title(entry.key, area, ui);
     let default = (entry.get)(&Settings::default());
