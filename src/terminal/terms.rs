@@ -42,7 +42,7 @@ impl Terms {
             (self.rule != before.rule).then(|| format!("what counts: {}", self.rule)),
             (self.skill != before.skill).then(|| format!("the player: {}", player_words(self.skill))),
             (self.plan != before.plan).then(|| plan.to_owned()),
-            (self.first != before.first).then(|| format!("met first: {}", self.first.word(names))),
+            (self.first != before.first).then(|| format!("hit first: {}", self.first.word(names))),
         ];
         news.into_iter().flatten().collect::<Vec<_>>().join("; ")
     }

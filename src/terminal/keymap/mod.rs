@@ -133,7 +133,7 @@ macro_rules! marks {
     ($what:literal) => {
         &[
             concat!("mark the next ", $what),
-            concat!("mark the ", $what, " before"),
+            concat!("mark the previous ", $what),
             concat!("go down by ten ", $what, "s"),
             concat!("go up by ten ", $what, "s"),
             concat!("mark the last ", $what),

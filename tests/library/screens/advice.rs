@@ -77,8 +77,8 @@ fn changing_rule_player_or_plan_hides_the_shot() {
         ("S", "the player: world-class (average 2); Enter asks the coach", "R straight S world-class P plan on"),
         ("R S S S S S", "the player: perfect; Enter asks the coach", "R 1-cushion S perfect P plan on"),
         ("P", "only this point counts; Enter asks the coach", "R straight S expert P plan off"),
-        ("B B", "met first: red; Enter asks the coach", "R straight S expert P plan on B red first"),
-        ("x B", "met first: white; Enter asks the coach", "R straight S expert P plan on B white first"),
+        ("B B", "hit first: red; Enter asks the coach", "R straight S expert P plan on B red first"),
+        ("x B", "hit first: white; Enter asks the coach", "R straight S expert P plan on B white first"),
     ] {
         let player = Player::new().press("Enter").answer().press(keys);
         let text = player.text(80, 24);

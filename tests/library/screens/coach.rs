@@ -286,7 +286,7 @@ fn undo_and_redo_walk_through_all_changes() {
 
 #[test]
 fn an_unavailable_key_explains_why() {
-    for (keys, reason) in [("Space", "there is no shot yet; Enter asks the coach"), ("U", "nothing was taken back")] {
+    for (keys, reason) in [("Space", "there is no shot yet; Enter asks the coach"), ("U", "there is nothing to redo")] {
         Player::new().press(keys).warns(reason);
     }
     let watching = Player::new().press("Enter").answer().press("h");

@@ -19,7 +19,7 @@ fn the_palette_lists_available_and_unavailable_commands() {
 #[test]
 fn typing_filters_commands_and_enter_runs_the_selected_one() {
     let player = opened(TRUE_COLOUR).press("c h a n g e Space B A C K");
-    player.shows(&["Placing the balls: take the last change back"]).does_not_show("ask the coach");
+    player.shows(&["Placing the balls: undo the last change"]).does_not_show("ask the coach");
     let moved = *player.app.coach.layout();
     let player = player.press("Enter");
     assert_ne!(*player.app.coach.layout(), moved, "the move was taken back");
@@ -62,7 +62,7 @@ fn a_key_with_two_contexts_is_listed_once() {
 fn remapped_letters_are_typed_and_shown_as_keys() {
     let player = Player::with_settings(TRUE_COLOUR, "[keys]\n\"x\" = \"u\"\n");
     let text = player.press("Left : x").text(120, 40);
-    assert!(text.contains("x u ") && text.contains("take the last change back"), "{text}");
+    assert!(text.contains("x u ") && text.contains("undo the last change"), "{text}");
 }
 
 #[test]

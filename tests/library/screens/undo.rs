@@ -20,7 +20,7 @@ fn changes_of_the_stroke_are_undone_one_by_one() {
     back.press("z").says("the stroke is unchanged");
     let again = Player::practising(TRUE_COLOUR).press("Left Left Left k k Up Left z z z z Z Z Z C-r");
     assert_eq!(stroke(&again), end);
-    again.press("Z").says("no change of the stroke was taken back");
+    again.press("Z").says("no change of the stroke to redo");
     let played = Player::practising(TRUE_COLOUR).press("Left Space z");
     played.says("a shot is being watched; Enter goes on");
 }

@@ -104,16 +104,16 @@ pub const TESTS: &[Binding<A, W>] = &[
         key(Down, A::MoveMark(1)), key(Up, A::MoveMark(-1)), letter('j', A::MoveMark(1)), letter('k', A::MoveMark(-1)),
         key(End, A::MoveMark(isize::MAX)), key(Home, A::MoveMark(isize::MIN)),
         ], Some(("test", 2)), "mark another test")
-        .each(&["mark the next test", "mark the test before", "mark the last test", "mark the first test"]),
+        .each(&["mark the next test", "mark the previous test", "mark the last test", "mark the first test"]),
     bind(Calibration, W::Always, &[key(PageDown, A::Page(1)), key(PageUp, A::Page(-1))], None, "mark a test ten on or back; of the values, turn the page")
-        .each(&["mark a test ten on; of the values, the next page", "mark a test ten back; of the values, the page before"]),
+        .each(&["mark a test ten on; of the values, the next page", "mark a test ten back; of the values, the previous page"]),
     bind(Calibration, W::Always, &[key(Tab, A::ToggleValues)], Some(("values", 1)), "the table's values so far, and which marks look misread; again for the test"),
     bind(Calibration, W::Always, &[letter('n', A::MarkBest)], Some(("best next", 1)), "mark the test whose next stroke tells most"),
-    bind(Calibration, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
+    bind(Calibration, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "undo the last change"),
     bind(Calibration, W::HasStroke, &[letter('e', A::EditStroke)], Some(("edit", 1)), "change what was entered of the marked stroke"),
     bind(Calibration, W::HasStroke, &[key(Left, A::MarkStroke(-1)), key(Right, A::MarkStroke(1)), letter('h', A::MarkStroke(-1)), letter('l', A::MarkStroke(1))],
         Some(("stroke", 2)), "mark another stroke of the test")
-        .each(&["mark the stroke of the test before", "mark the next stroke of the test"]),
+        .each(&["mark the previous stroke of the test", "mark the next stroke of the test"]),
     bind(Calibration, W::HasStroke, &[key(Delete, A::DeleteStroke), key(Backspace, A::DeleteStroke)], Some(("delete", 1)), "delete the marked stroke"),
     bind(Calibration, W::Always, &[letter('x', A::ToggleLeftOut)], Some(("leave out", 1)), "leave the test out with its strokes, take it in again"),
     bind(Calibration, W::HasResult, &[letter('s', A::SaveTable)], Some(("save", 1)), "save the table under a name"),
@@ -128,7 +128,7 @@ pub const TESTS: &[Binding<A, W>] = &[
 pub const FORM: &[Binding<A, W>] = &[
     bind(Marks, W::Always, &[key(Enter, A::Answer(true))], Some(("next, keep", 1)), "go to the next mark; after the last one keep the stroke"),
     bind(Marks, W::Always, &[key(Down, A::MoveField(1)), key(Up, A::MoveField(-1)), key(Tab, A::MoveField(1)), key(BackTab, A::MoveField(-1))],
-        Some(("mark", 2)), "type another mark").each(&["type the next mark", "type the mark before"]),
+        Some(("mark", 2)), "type another mark").each(&["type the next mark", "type the previous mark"]),
     bind(Marks, W::Always, &[ctrl('t', A::ToggleTape)], Some(("by tape", 1)), "this place was measured with a tape, to 5 mm; again for by eye"),
     bind(Marks, W::Always, &[ctrl('e', A::ToggleFarEnd)], Some(("far end", 1)), "this stroke was played from the far end, where the balls meet the other rails; again for your own"),
     bind(Marks, W::Always, &[key(Esc, A::Answer(false))], Some(("back", 1)), "leave the form; it is there again when the same stroke is entered"),

@@ -59,10 +59,8 @@ impl CoachPage {
             }
             CoachCondition::StrokeUndoable => refuse(!self.can_undo_redo_stroke().0, "the stroke is unchanged"),
             CoachCondition::OwnStrokePlayed => refuse(self.own_strokes_played() == 0, "the stroke is unchanged"),
-            CoachCondition::StrokeRedoable => {
-                refuse(!self.can_undo_redo_stroke().1, "no change of the stroke was taken back")
-            }
-            CoachCondition::Redoable => refuse(!self.history.can_redo(), "nothing was taken back"),
+            CoachCondition::StrokeRedoable => refuse(!self.can_undo_redo_stroke().1, "no change of the stroke to redo"),
+            CoachCondition::Redoable => refuse(!self.history.can_redo(), "there is nothing to redo"),
         }
     }
 
@@ -172,7 +170,7 @@ impl CoachPage {
         let rule = self.query.rule;
         self.set_layout(layout);
         if self.table().opening == Opening::Umb {
-            let red = if Point::of(rule, self.table(), &layout).red_first { "; red has to be met first" } else { "" };
+            let red = if Point::of(rule, self.table(), &layout).red_first { "; red must be hit first" } else { "" };
             let (here, there) = (side.name(), side.other().name());
             self.message = Some(Message::plain(format!("the cue ball on the {here}, again for the {there}{red}")));
         }

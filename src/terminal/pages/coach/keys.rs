@@ -155,7 +155,7 @@ pub const COACH: &[Binding<A, W>] = &[
         key(Tab, A::CycleBall(1)), key(BackTab, A::CycleBall(-1)), letter('1', A::SelectBall(0)), letter('2', A::SelectBall(1)),
         letter('3', A::SelectBall(2)), key(Esc, A::PlaceBalls), letter('e', A::PlaceBalls),
         ], Some(("place", 1)), "back to placing the balls, with one of them selected; a click on a ball does it too").each(&[
-        "leave the shot and select the next ball", "leave the shot and select the ball before",
+        "leave the shot and select the next ball", "leave the shot and select the previous ball",
         "leave the shot and select the white ball", "leave the shot and select the yellow ball",
         "leave the shot and select the red ball", "leave the shot, back to placing the balls",
         ]),
@@ -170,7 +170,7 @@ pub const COACH: &[Binding<A, W>] = &[
         "the shot in the thesis' numbers, or in words again").known_as("a b theta phi V impulse angle millimetres"),
     bind(Shot, W::Shot, &[letter('E', A::ToggleAllEvents)], None,
         "list all events, with rolls and stops, or contacts only").known_as("rolls slides filter"),
-    bind(Shot, W::Shot, &[letter('i', A::ToggleSideView)], None, "the jump from the side: height over way, or the table alone")
+    bind(Shot, W::Shot, &[letter('i', A::ToggleSideView)], None, "the jump from the side: height along the path, or only the table")
         .known_as("jump hop height flight profile"),
     bind(Balls, W::Placing, &[
         key(Left, A::MoveBall(-1, 0, 1.0)), key(Down, A::MoveBall(0, -1, 1.0)),
@@ -203,10 +203,10 @@ pub const COACH: &[Binding<A, W>] = &[
         "steps of quarter diamonds, or of millimetres again").known_as("snap grid"),
     bind(Shot, W::Shot, &[letter(',', P(Event(-1))), letter('.', P(Event(1)))],
         Some(("event", 2)), "step from event to event")
-        .each(&["step to the event before", "step to the next event"]),
+        .each(&["step to the previous event", "step to the next event"]),
     bind(Shot, W::Watching, &[key(Left, P(Event(-1))), key(Right, P(Event(1)))], None,
         "step from event to event while a shot is watched")
-        .each(&["step to the event before", "step to the next event"]),
+        .each(&["step to the previous event", "step to the next event"]),
     bind(Shot, W::Watching, &[letter('-', P(Pace(-1))), letter('+', P(Pace(1))), letter('=', P(Pace(1))),
         key(Down, P(Pace(-1))), key(Up, P(Pace(1)))], Some(("speed", 2)), "play slower or faster")
         .each(&["play slower", "play faster"]),
@@ -226,12 +226,12 @@ pub const COACH: &[Binding<A, W>] = &[
         "what the cue ball must hit first: anything, the other cue ball, red, a cushion").known_as("bank rail pattern wish"),
     bind(Balls, W::Idle, &[key(Tab, A::CycleBall(1)), key(BackTab, A::CycleBall(-1)), letter('1', A::SelectBall(0)),
         letter('2', A::SelectBall(1)), letter('3', A::SelectBall(2))], Some(("ball", 1)), "select a ball: white, yellow, red").each(&[
-        "select the next ball", "select the ball before", "select the white ball", "select the yellow ball",
+        "select the next ball", "select the previous ball", "select the white ball", "select the yellow ball",
         "select the red ball",
         ]),
-    bind(Balls, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last change back"),
+    bind(Balls, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "undo the last change"),
     bind(Balls, W::Redoable, &[letter('U', A::Redo), ctrl('r', A::Redo)], Some(("redo", 1)),
-        "make a change again that was taken back"),
+        "redo the last undone change"),
     bind(Balls, W::Resumable, &[letter('c', A::Resume)], Some(("go on", 1)),
         "go on with the exam that was left, or from where the last session ended"),
     bind(Balls, W::Idle, &[letter('o', A::OpeningPosition)], None, "put the balls on their spots; again for the other side")
@@ -257,7 +257,7 @@ pub const FOLLOW: &[Binding<A, W>] = &[
     bind(Shot, W::Shot, &[letter('E', A::ToggleAllEvents)], Some(("events", 1)),
         "list all events, with rolls and stops, or contacts only").known_as("rolls slides filter"),
     bind(Shot, W::Shot, &[letter('i', A::ToggleSideView)], Some(("from the side", 1)),
-        "the jump from the side: height over way, or the table alone").known_as("jump hop height flight profile"),
+        "the jump from the side: height along the path, or only the table").known_as("jump hop height flight profile"),
 ];
 
 /// Key bindings for the player's own stroke.
@@ -274,18 +274,18 @@ pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::ChangeStroke, W::Always
         "type your stroke, or what changes of it, as players say it: red 1/2 right, 1.5 left, 2 up, 3 lengths")
         .known_as("words say fullness tips lengths aim"),
     bind(Stroke, W::StrokeUndoable, &[letter('u', A::UndoStroke), letter('z', A::UndoStroke)], Some(("undo", 1)),
-        "take the last change of the stroke back"),
+        "undo the last change of the stroke"),
     bind(Stroke, W::OwnStrokePlayed, &[letter('u', A::Undo), letter('z', A::Undo)], Some(("undo", 1)), "put the balls back where your last stroke was played"),
     bind(Stroke, W::StrokeRedoable, &[letter('U', A::RedoStroke), letter('Z', A::RedoStroke), ctrl('r', A::RedoStroke)],
-        Some(("redo", 1)), "make a change of the stroke again that was taken back"),
+        Some(("redo", 1)), "redo the last undone change of the stroke"),
     bind(Stroke, W::Always, &[letter(',', P(Event(-1))), letter('.', P(Event(1)))], Some(("event", 2)),
-        "step from event to event").each(&["step to the event before", "step to the next event"]),
+        "step from event to event").each(&["step to the previous event", "step to the next event"]),
 ], [
     bind(Stroke, W::Always, &[key(Home, P(ToStart)), key(End, P(ToEnd)), letter('$', P(ToEnd))], None,
         "to the stroke, to the end").each(&["to the stroke", "to the end of the shot"]),
     bind(Stroke, W::Always, &[letter('<', P(Pace(-1))), letter('>', P(Pace(1)))], None, "play slower or faster")
         .each(&["play slower", "play faster"]),
-    bind(Stroke, W::Always, &[letter('i', A::ToggleSideView)], None, "the jump from the side: height over way, or the table alone"),
+    bind(Stroke, W::Always, &[letter('i', A::ToggleSideView)], None, "the jump from the side: height along the path, or only the table"),
     bind(Stroke, W::Always, &[letter('s', A::SavePosition)], None, "save the balls as a position to practise"),
     bind(Program, W::HasPlayerName, &[letter('F', A::ToggleSharing)], None, "let others follow your table (carom follow NAME), or no longer"),
 ]);

@@ -52,7 +52,7 @@ impl CoachPage {
         self.set_layout(layout);
         let is_opening = Point::of(self.query.rule, self.table(), &layout).red_first;
         let message = if is_opening {
-            "this is the opening: red has to be met first"
+            "this is the opening: red must be hit first"
         } else {
             "the balls are in the typed positions"
         };

@@ -198,7 +198,7 @@ impl DrillContext {
 }
 
 const BACK: Binding<A, W> =
-    bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before");
+    bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the previous page");
 
 /// Key bindings of the library.
 #[rustfmt::skip]
@@ -207,7 +207,7 @@ pub const LIBRARY: &[Binding<A, W>] = &[
     bind(Library, W::Marked, lines!(A::MoveMark), Some(("choose", 2)), "mark another exercise").each(marks!("exercise")),
     bind(Library, W::Always, &[key(Left, A::CycleCategory(-1)), key(Right, A::CycleCategory(1)), key(BackTab, A::CycleCategory(-1)),
         key(Tab, A::CycleCategory(1))], Some(("category", 2)), "list another category")
-        .each(&["list the category before", "list the next category"]),
+        .each(&["list the previous category", "list the next category"]),
     bind(Library, W::Always, &[letter('/', A::Search)], Some(("find", 1)), "find words in titles, points and tags")
         .known_as("diamonds systems banks"),
     bind(Library, W::Filtered, &[letter('0', A::ShowAll)], Some(("all", 1)),
@@ -235,7 +235,7 @@ pub const LIBRARY: &[Binding<A, W>] = &[
         .known_as("import"),
     bind(Library, W::MarkedOwn, &[letter('x', A::Remove), key(Delete, A::Remove)], None, "remove one of my positions; asks first"),
     bind(Program, W::Searching, &[key(Esc, A::ClearSearch)], Some(("end search", 1)), "list what the search has left out again"),
-    bind(Program, W::NotSearching, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before"),
+    bind(Program, W::NotSearching, &[key(Esc, A::Back)], Some(("back", 1)), "back to the previous page"),
 ];
 
 /// Key bindings of the search.
@@ -245,7 +245,7 @@ pub const SEARCH: &[Binding<A, W>] = &[
         "choose from what is found, in all categories where this one has nothing"),
     bind(Library, W::Always, &[key(Esc, A::Answer(false))], Some(("cancel", 1)), "list what was listed before"),
     bind(Library, W::Marked, &[key(Down, A::MoveMark(1)), key(Up, A::MoveMark(-1))], None, "mark another exercise")
-        .each(&["mark the next exercise", "mark the exercise before"]),
+        .each(&["mark the next exercise", "mark the previous exercise"]),
 ];
 
 /// Key bindings of the description of an exam.
@@ -272,13 +272,13 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::ChangeStroke, W::Aiming, 
     bind(Stroke, W::ModelShotCopyable, &[letter('w', A::WhatIf)], Some(("what if", 1)),
         "take the model shot over into your stroke, to change it and see what comes of it; the attempt then counts as one \
          with a hint").known_as("adopt compare try hint"),
-    bind(Stroke, W::Always, &[letter('i', A::ToggleSideView)], None, "the jump from the side: height over way, or the table alone"),
+    bind(Stroke, W::Always, &[letter('i', A::ToggleSideView)], None, "the jump from the side: height along the path, or only the table"),
     bind(Stroke, W::Always, &[letter('N', A::ToggleNumbers)], None,
         "your stroke in degrees and by its speed, or by the diamond and in table lengths again")
         .known_as("angle speed diamonds lengths"),
     bind(Stroke, W::Always, &[key(PageDown, A::TurnTextPage(1)), key(PageUp, A::TurnTextPage(-1))], None,
         "turn the pages of a text that is longer than its room").each(&[
-        "the next page of a text that is longer than its room", "the page before of a text that is longer than its room",
+        "the next page of a text that is longer than its room", "the previous page of a text that is longer than its room",
         ]),
     bind(Score, W::Recordable, &[letter('m', A::LogAttempt(true)), letter('n', A::LogAttempt(false))], Some(("made/miss", 2)),
         "note a point, a miss at a real table; nothing is played here").each(&[
@@ -296,17 +296,17 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::ChangeStroke, W::Aiming, 
         .known_as("words say fullness tips lengths aim"),
     bind(Stroke, W::Watching, &[letter(',', P(Event(-1))), letter('.', P(Event(1))), key(Left, P(Event(-1))),
         key(Right, P(Event(1)))], Some(("event", 2)), "step from event to event")
-        .each(&["step to the event before", "step to the next event"]),
+        .each(&["step to the previous event", "step to the next event"]),
 ], [
-    bind(Stroke, W::StrokeUndoable, &[letter('z', A::UndoStroke)], None, "take the last change of the stroke back"),
+    bind(Stroke, W::StrokeUndoable, &[letter('z', A::UndoStroke)], None, "undo the last change of the stroke"),
     bind(Stroke, W::StrokeRedoable, &[letter('Z', A::RedoStroke), ctrl('r', A::RedoStroke)], None,
-        "make a change of the stroke again that was taken back"),
+        "redo the last undone change of the stroke"),
     bind(Position, W::Free, &[letter('c', A::SendToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
     bind(Position, W::Restartable, &[letter('p', A::NextPlayer)], None, "choose the player whose errors are played"),
     bind(Score, W::Always, &[letter('r', A::OpenRecord)], Some(("record", 1)), "the record of this exercise"),
     bind(Program, W::Comparing, &[key(Esc, A::LeaveWhatIf)], Some(("model shot off", 1)),
         "take the model shot off the table; your stroke stays as it is set"),
-    bind(Program, W::NotComparing, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before"),
+    bind(Program, W::NotComparing, &[key(Esc, A::Back)], Some(("back", 1)), "back to the previous page"),
 ]);
 
 /// Key bindings of an exam's result.
@@ -340,11 +340,11 @@ pub const FILM: &[Binding<A, W>] = &[
     bind(Film, W::HasFilm, &[letter(' ', P(Toggle))], Some(("play", 1)), "play and pause the shot"),
     bind(Film, W::HasFilm, &[letter(',', P(Event(-1))), letter('.', P(Event(1))), key(Left, P(Event(-1))),
         key(Right, P(Event(1)))], Some(("event", 2)), "step from event to event")
-        .each(&["step to the event before", "step to the next event"]),
+        .each(&["step to the previous event", "step to the next event"]),
     bind(Film, W::HasFilm, &[letter('-', P(Pace(-1))), letter('+', P(Pace(1))), letter('=', P(Pace(1))),
         key(Down, P(Pace(-1))), key(Up, P(Pace(1)))], Some(("speed", 2)), "play slower or faster")
         .each(&["play slower", "play faster"]),
     bind(Film, W::Always, &[letter('[', A::CycleFilm(-1)), letter(']', A::CycleFilm(1))], Some(("other shot", 2)),
-        "watch the shot before, the next shot").each(&["watch the shot before", "watch the next shot"]),
+        "watch the previous shot, the next shot").each(&["watch the previous shot", "watch the next shot"]),
     BACK,
 ];

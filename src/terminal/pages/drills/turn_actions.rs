@@ -103,7 +103,7 @@ impl Turn {
                 refuse(!self.stroke.can_undo_redo().0, "the stroke is unchanged; Space twice plays it anyway")
             }
             (Stage::Aiming, Condition::StrokeRedoable) => {
-                refuse(!self.stroke.can_undo_redo().1, "no change of the stroke was taken back")
+                refuse(!self.stroke.can_undo_redo().1, "no change of the stroke to redo")
             }
             (_, Condition::StrokeUndoable | Condition::StrokeSet | Condition::StrokeRedoable) => {
                 self.disabled_reason(Condition::Aiming)

@@ -66,14 +66,14 @@ impl SettingsContext {
 }
 
 const BACK: Binding<A, W> =
-    bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the screen before");
+    bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the previous screen");
 
 /// Key bindings of the settings.
 #[rustfmt::skip]
 pub const VALUES: &[Binding<A, W>] = &[
     bind(Settings, W::Always, &[key(Left, A::ChangeValue(-1)), key(Right, A::ChangeValue(1)), letter('h', A::ChangeValue(-1)), letter('l', A::ChangeValue(1))],
-        Some(("change", 2)), "take the value before, the next value")
-        .each(&["take the value before", "take the next value"]),
+        Some(("change", 2)), "take the previous value, the next value")
+        .each(&["take the previous value", "take the next value"]),
     bind(Settings, W::Always, &[key(Enter, A::TypeValue)], Some(("type", 1)), "type a value"),
     bind(Settings, W::Always, lines!(A::MoveMark), Some(("choose", 2)), "mark another setting").each(marks!("setting")),
     bind(Settings, W::Changed, &[key(Delete, A::ResetToDefault), key(Backspace, A::ResetToDefault)], Some(("default", 1)), "back to the default"),
@@ -87,7 +87,7 @@ pub const KEYS: &[Binding<A, W>] = &[
     bind(OwnKeys, W::Always, &[key(Enter, A::AskForKey)], Some(("new key", 1)), "choose a key for what is marked"),
     bind(OwnKeys, W::Always, &[key(Left, A::ChooseKeyPage(-1)), key(Right, A::ChooseKeyPage(1)), letter('h', A::ChooseKeyPage(-1)), letter('l', A::ChooseKeyPage(1))],
         Some(("page", 2)), "list the keys of another page")
-        .each(&["list the keys of the page before", "list the keys of the next page"]),
+        .each(&["list the keys of the previous page", "list the keys of the next page"]),
     bind(OwnKeys, W::Always, lines!(A::MoveMark), Some(("choose", 2)), "mark something else").each(marks!("line")),
     bind(OwnKeys, W::Changed, &[key(Delete, A::ResetToDefault), key(Backspace, A::ResetToDefault)], Some(("default", 1)), "back to the default keys"),
     bind(OwnKeys, W::Always, &[key(Tab, A::ToggleKeys)], Some(("settings", 1)), "to the settings"),

@@ -127,7 +127,7 @@ pub enum TrainingCondition {
 }
 
 const BACK: Binding<A, W> =
-    bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the page before");
+    bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the previous page");
 
 #[rustfmt::skip]
 const MARK: Binding<A, W> = bind(List, W::Marked, lines!(A::MoveMark), Some(("choose", 2)), "mark another run")
@@ -156,10 +156,10 @@ pub const COMPARE: &[Binding<A, W>] = &[
 pub const FORM: &[Binding<A, W>] = &[
     bind(Form, W::Always, &[key(Enter, A::Start)], Some(("start", 1)), "start the run"),
     bind(Form, W::Always, &[key(Down, A::MoveField(1)), key(Up, A::MoveField(-1)), key(Tab, A::MoveField(1)), key(BackTab, A::MoveField(-1))],
-        Some(("field", 2)), "go to another field").each(&["go to the next field", "go to the field before"]),
+        Some(("field", 2)), "go to another field").each(&["go to the next field", "go to the previous field"]),
     bind(Form, W::Always, &[key(Left, A::ChangeValue(-1)), key(Right, A::ChangeValue(1))], Some(("value", 2)),
         "choose a value; numbers can be typed as well").each(&[
-        "choose the value before; numbers can be typed as well", "choose the next value; numbers can be typed as well",
+        "choose the previous value; numbers can be typed as well", "choose the next value; numbers can be typed as well",
         ]),
     bind(Form, W::Always, &[key(Backspace, A::Erase)], None, "take a digit back"),
     BACK,
@@ -192,7 +192,7 @@ pub const WATCH: &[Binding<A, W>] = &[
     bind(Charts, W::HasChart, &[letter('+', A::Zoom(1)), letter('-', A::Zoom(-1)), letter('=', A::Zoom(1))],
         Some(("zoom", 2)), "show fewer shots, or more").each(&["show fewer shots", "show more shots"]),
     bind(Charts, W::HasChart, &[key(Tab, A::SelectChart(1)), key(BackTab, A::SelectChart(-1))], Some(("chart", 1)), "select a chart")
-        .each(&["select the next chart", "select the chart before"]),
+        .each(&["select the next chart", "select the previous chart"]),
     bind(Charts, W::HasChart, &[letter('l', A::ToggleLogScale)], Some(("log", 1)), "logarithmic scale for the selected chart"),
     bind(Charts, W::HasChart, &[letter('s', A::NextSmoothing)], Some(("smooth", 1)), "smooth over 1, 3 or 10 % of what is shown, or not"),
     bind(Charts, W::Always, &[
@@ -207,8 +207,8 @@ pub const WATCH: &[Binding<A, W>] = &[
     bind(Run, W::HasPolicy, &[letter('k', A::SavePolicy)], Some(("keep", 1)), "keep these networks under a name"),
     bind(Run, W::Active, &[letter('A', A::Abandon)], None, "end a run that is training and delete it; asks first"),
     bind(Replay, W::HasReplay, &[letter(' ', A::Play)], Some(("replay", 1)), "play and pause the latest shots on held-out layouts"),
-    bind(Replay, W::HasReplay, &[letter(',', A::StepShot(-1)), letter('.', A::StepShot(1))], None, "the shot before, the next shot")
-        .each(&["the shot before", "the next shot"]),
+    bind(Replay, W::HasReplay, &[letter(',', A::StepShot(-1)), letter('.', A::StepShot(1))], None, "the previous shot, the next shot")
+        .each(&["the previous shot", "the next shot"]),
     BACK,
 ];
 
