@@ -20,7 +20,7 @@ pub struct Errors {
     pub time: Option<f64>,
     /// Index of the first event that differs; `None` if all events agree.
     pub differs_at: Option<usize>,
-    /// Whether the outcome is wrong under each of [`RULES`].
+    /// Whether the outcome is wrong under each of `RULES`.
     pub flips: [bool; 2],
 }
 

@@ -6,7 +6,7 @@ fn the_keys_page_matches_the_program() {
     assert_eq!(
         written,
         carom::terminal::keys_document(),
-        "cargo run --release --example picture -- docs/ writes it anew"
+        "cargo run --release --example picture -- docs/ writes it again"
     );
     for part in ["## Coach", "## Drills: exercise", "| `F2` |", "| `←↓↑→ hjkl` | move the selected ball"] {
         assert!(written.contains(part), "{part}");

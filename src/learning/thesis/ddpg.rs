@@ -83,9 +83,9 @@ pub struct PlainDdpgSettings {
     pub range_pull: f64,
     /// Whether each transition of a minibatch is transformed by a random one of the table's symmetries (data augmentation).
     pub symmetric: bool,
-    /// Whether the agent acts and learns in [`View::canonical`] instead.
+    /// Whether the agent acts and learns in the canonical view instead: the symmetric view that all eight share.
     pub canonical: bool,
-    /// Whether the agent acts and learns in [`View::relative`] instead of both.
+    /// Whether the agent acts and learns in coordinates relative to the nearer object ball, instead of both.
     pub relative: bool,
 }
 

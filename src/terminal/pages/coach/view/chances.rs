@@ -81,7 +81,7 @@ fn risk_lines(risk: &Risk, width: usize, rows: usize) -> Vec<String> {
     let whole = ["each error alone would miss:".to_owned(), format!("hand {hand} %, table {table} %, balls {balls} %")];
     let in_one = [
         whole.join(" "),
-        format!("alone miss: hand {hand}, table {table}, balls {balls} %"),
+        format!("misses by: hand {hand}, table {table}, balls {balls} %"),
         format!("alone: hand {hand}, table {table}, balls {balls} %"),
     ];
     if columns(&in_one[0]) > width && rows >= whole.len() {
@@ -191,7 +191,7 @@ mod tests {
     fn each_risk_also_fits_in_one_row() {
         let risk = Risk { hand: 0.63, table: 0.24, placing: 0.112 };
         assert_eq!(risk_lines(&risk, 38, 2), ["each error alone would miss:", "hand 63 %, table 24 %, balls 11 %"]);
-        assert_eq!(risk_lines(&risk, 41, 1), ["alone miss: hand 63, table 24, balls 11 %"]);
+        assert_eq!(risk_lines(&risk, 41, 1), ["misses by: hand 63, table 24, balls 11 %"]);
         assert_eq!(risk_lines(&risk, 38, 1), ["alone: hand 63, table 24, balls 11 %"]);
         assert_eq!(risk_lines(&risk, 70, 1), ["each error alone would miss: hand 63 %, table 24 %, balls 11 %"]);
     }
