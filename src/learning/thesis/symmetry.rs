@@ -2,6 +2,8 @@
 
 use std::f32::consts::PI;
 
+use glam::Vec2;
+
 use super::{
     environment::{Action, State},
     replay::StoredTransition,
@@ -20,32 +22,31 @@ pub struct View {
 }
 
 impl View {
-    /// The view through one symmetry; `symmetry` is below [`SYMMETRIES`].
+    /// Returns the view through one symmetry; `symmetry` is below [`SYMMETRIES`].
     pub const fn symmetric(symmetry: u32) -> Self {
         Self { symmetry, line: None }
     }
 
-    /// The one of the symmetric views that all eight share: a policy that acts in it has an eighth as much to learn. The nearer
-    /// object ball is the first and lies to the right of the cue ball; the other one lies above the cue ball.
+    /// Returns the symmetric view in which all eight views of a layout look the same, so that a policy has an eighth as much to learn.
+    /// The nearer object ball is the first and lies to the right of the cue ball; the other one lies above the cue ball.
     pub fn canonical(state: State) -> Self {
         let (exchanged, [nearer, farther]) = by_distance(state);
-        Self::symmetric(bits([nearer[0] < 0.0, farther[1] < 0.0, exchanged]))
+        Self::symmetric(bits([nearer.x < 0.0, farther.y < 0.0, exchanged]))
     }
 
-    /// The view along the line from the cue ball to the nearer object ball, which is the first and lies to the right of the cue ball.
-    /// The other one lies on the left of that line, and directions are measured from it.
+    /// Returns the view along the line from the cue ball to the nearer object ball. This ball is the first and lies to the right of
+    /// the cue ball; the other one lies on the left of the line. Directions are measured from the line.
     pub fn relative(state: State) -> Self {
         let (exchanged, [nearer, farther]) = by_distance(state);
         // Each mirror exchanges left and right.
-        let mirrored_x = nearer[0] < 0.0;
-        let mirrored_y = mirrored_x != (cross(nearer, farther) < 0.0);
+        let mirrored_x = nearer.x < 0.0;
+        let mirrored_y = mirrored_x != (nearer.perp_dot(farther) < 0.0);
         let symmetry = Self::symmetric(bits([mirrored_x, mirrored_y, exchanged]));
-        let [x, y] = offset(symmetry.state(state), 1);
-        Self { line: Some(y.atan2(x) / PI), ..symmetry }
+        Self { line: Some(offset(symmetry.state(state), 1).to_angle() / PI), ..symmetry }
     }
 
-    /// The state in this view. In relative coordinates: the place of the cue ball, the direction of the first ball (in quarter turns)
-    /// and its distance, and the place of the second ball along and to the left of that line; lengths in widths of the table.
+    /// Returns the state in this view. In relative coordinates: the position of the cue ball, the direction of the first ball (quarter
+    /// turns) and its distance, and the position of the second ball along and to the left of the line; both in widths of the table.
     pub fn state(self, state: State) -> State {
         let [x0, y0, x1, y1, x2, y2] = state;
         let balls = if self.symmetry & 4 == 0 { state } else { [x0, y0, x2, y2, x1, y1] };
@@ -54,24 +55,23 @@ impl View {
                 |index| if self.symmetry & (1 << (index % 2)) == 0 { balls[index] } else { -balls[index] },
             );
         let Some(line) = self.line else { return seen };
-        let [first, second] = [1, 2].map(|ball| offset(seen, ball));
-        let (sine, cosine) = (PI * line).sin_cos();
-        let [along, left] = [dot([cosine, sine], second), cross([cosine, sine], second)];
-        [seen[0], seen[1], 2.0 * line, 0.5 * first[0].hypot(first[1]), 0.5 * along, 0.5 * left]
+        let [first, second] = [1, 2].map(|ball| 0.5 * offset(seen, ball));
+        let direction = Vec2::from_angle(PI * line);
+        [seen[0], seen[1], 2.0 * line, first.x.hypot(first.y), direction.dot(second), direction.perp_dot(second)]
     }
 
-    /// An action on the table as this view has it.
+    /// Returns an action on the table as an action in this view.
     pub fn action(self, on_table: Action) -> Action {
         let [phi, speed] = self.mirrored(on_table);
         [wrapped(phi, -self.line.unwrap_or_default()), speed]
     }
 
-    /// An action in this view as it is carried out on the table.
+    /// Returns an action in this view as an action on the table.
     pub fn on_table(self, [phi, speed]: Action) -> Action {
         self.mirrored([wrapped(phi, self.line.unwrap_or_default()), speed])
     }
 
-    /// An action in the mirrored table, or back from it.
+    /// Mirrors an action; the inverse is the same function.
     fn mirrored(self, [phi, speed]: Action) -> Action {
         let (along, across) = (self.symmetry & 1 != 0, self.symmetry & 2 != 0);
         let phi = if across { -phi } else { phi };
@@ -80,14 +80,14 @@ impl View {
         [phi, speed]
     }
 
-    /// A shot in this view; `next` is the view of what follows it.
+    /// Returns a transition in this view; `next` is the view of its next state.
     pub fn shot(self, shot: &StoredTransition, next: Self) -> StoredTransition {
         let (state, action) = (self.state(shot.state), self.action(shot.action));
         StoredTransition { state, action, next: next.state(shot.next), ..*shot }
     }
 }
 
-/// `phi` turned by `turn`, in half turns; directions out of range stay so where nothing is turned.
+/// Turns `phi` by `turn`, in half turns, into the range from -1 to 1. Without a turn, a direction out of range stays as it is.
 fn wrapped(phi: f32, turn: f32) -> f32 {
     if turn == 0.0 {
         return phi;
@@ -96,29 +96,22 @@ fn wrapped(phi: f32, turn: f32) -> f32 {
     turned - 2.0 * (0.5 * turned).round()
 }
 
-/// Whether the second object ball is the nearer one, and the [`offset`]s of the nearer and the farther ball.
-fn by_distance(state: State) -> (bool, [[f32; 2]; 2]) {
+/// Returns whether the second object ball is the nearer one, and the [`offset`]s of the nearer and the farther ball.
+fn by_distance(state: State) -> (bool, [Vec2; 2]) {
     let [one, other] = [1, 2].map(|ball| offset(state, ball));
-    let exchanged = other[0].hypot(other[1]) < one[0].hypot(one[1]);
+    let exchanged = other.x.hypot(other.y) < one.x.hypot(one.y);
     (exchanged, if exchanged { [other, one] } else { [one, other] })
 }
 
-/// From the cue ball to another ball, in half widths of the table. A state has parts of half the table, which is twice as long as wide.
-fn offset(state: State, ball: usize) -> [f32; 2] {
-    [2.0 * (state[2 * ball] - state[0]), state[2 * ball + 1] - state[1]]
+/// Returns the vector from the cue ball to another ball, in half widths of the table. The table is twice as long as wide, and a state
+/// has shares of half its length and half its width.
+fn offset(state: State, ball: usize) -> Vec2 {
+    Vec2::new(2.0 * (state[2 * ball] - state[0]), state[2 * ball + 1] - state[1])
 }
 
+/// Packs flags into a number, the first into bit 0.
 fn bits(flags: [bool; 3]) -> u32 {
     (0..).zip(flags).map(|(bit, flag)| u32::from(flag) << bit).sum()
-}
-
-fn dot(a: [f32; 2], b: [f32; 2]) -> f32 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-/// Positive if `b` points to the left of `a`.
-fn cross(a: [f32; 2], b: [f32; 2]) -> f32 {
-    a[0] * b[1] - a[1] * b[0]
 }
 
 #[cfg(test)]
@@ -170,7 +163,7 @@ mod tests {
                 }
             }
         }
-        // Places and directions are rounded to 24 bits: a shot that just touches a ball may miss it.
+        // Positions and directions are rounded to 24 bits, so a shot that just touches a ball may miss it.
         assert!(same + 2 >= cases, "{same} of {cases}");
     }
 }
