@@ -139,8 +139,9 @@ impl CueInputs {
         range("V", self.speed, speed_ok, "above 0 and at most 100 m/s")
     }
 
-    /// Checks that the tip does not slip: either the tip offset `a² + b²` or the distance of the cue's line from the centre,
-    /// [`Self::offset_across_squared`], must be within `limit`. [`Table::miscue_limit`] is the value at which a real tip starts to slip.
+    /// Checks that the tip does not slip: either the squared tip offset `a² + b²` or the squared distance of the cue's line from the
+    /// centre, [`Self::offset_across_squared`], both in units of R², must be at most `limit`. [`Table::miscue_limit`] is the value at
+    /// which a real tip starts to slip.
     /// For a level cue both measures are equal. The second one lets a steep cue hit the ball further up; the first one keeps a low tip
     /// accepted if the cue is slightly raised.
     ///

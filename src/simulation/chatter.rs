@@ -6,8 +6,8 @@
 //!
 //! Both give the same impulse, because both bring the speed to zero, and the same first moment of the impulse, because both bring the gap
 //! to zero. Forces that depend on the slip therefore see the same slip on average. The second moments differ by twice the area under the
-//! gap, `4 s³ / (3 p² (1 - e³))`. The relative error is half of this, divided by the square of the time in which the direction of friction
-//! turns: this error bound is checked.
+//! gap, `4 s³ / (3 p² (1 - e³))`. The error in speed, m/s, is half of this, divided by the square of the time in which the direction of
+//! friction turns: this error bound is checked.
 
 use super::{
     Constants,
@@ -34,7 +34,7 @@ const GRIPPED_SLIP: f64 = 7.0;
 const REPORTED_BOUNCES: u32 = 4;
 
 /// Flights with a larger ratio of successive durations do not indicate a chatter that ends.
-const SLOWEST_SHRINKING: f64 = 0.99;
+const MAX_FLIGHT_RATIO: f64 = 0.99;
 
 /// A pause between two bounces ends a chatter if it exceeds this multiple of the last flight, and [`LONGEST_FLIGHTS`].
 const LAST_FLIGHTS: f64 = 8.0;
@@ -217,7 +217,7 @@ pub fn chatter_end(
         return None;
     }
     // After a first bounce, `flight_ratio` is NaN and counts as the slowest: `min` returns the other operand.
-    let restitution = restitution.max(flight_ratio.min(SLOWEST_SHRINKING));
+    let restitution = restitution.max(flight_ratio.min(MAX_FLIGHT_RATIO));
     let cube = |x: f64| x * x * x;
     // Coupled contacts do not necessarily bounce more and more softly: only their present speed is known.
     let negligible = if alone { tolerance.negligible } else { tolerance.negligible_coupled };

@@ -76,7 +76,7 @@ pub fn watch_with<S: Savings, O: Observer + ?Sized>(
 /// Contact mode of a ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum ContactMode {
-    /// Free flight along the cloth, with occasional impacts.
+    /// Free motion, on the cloth or in the air, with occasional impacts.
     Free,
     /// Chatter: the bounces are simulated one by one, but reported only as the beginning of a contact. Also after a resting contact, while
     /// the ball may bounce again.

@@ -9,18 +9,20 @@ pub const KNOWN_SET_COST: u64 = 700;
 /// Multiplications for everything else in a step of a resting contact, including the root finding of its predictions.
 pub const STEP_COST: u64 = 14_000;
 
-/// Budget of a step of a resting contact. When it is spent, all resting contacts of the shot are given up. Most steps take about a
-/// hundredth of it.
+/// Budget of a step of a resting contact, in multiplications. When it is spent, all resting contacts of the shot are given up. Most steps
+/// take about a hundredth of it.
 pub const STEP_BUDGET: u64 = 6_000_000;
 
-/// Budget of resting contacts and chatters; when it is spent, resting contacts are disabled: see [`super::micro_collisions`].
+/// Budget of resting contacts and chatters, in multiplications; when it is spent, resting contacts are disabled: see
+/// [`super::micro_collisions`].
 pub const RESTING_BUDGET: u64 = 36_000_000;
 
-/// Budget after resting contacts are disabled (including impacts in the air). When it is spent, the shot is ended, which is not physics: a
-/// ball in another contact stands still from then on, and the energy audit of the stability table shows the missing energy.
+/// Budget after resting contacts are disabled, in multiplications (including impacts in the air). When it is spent, the shot is ended,
+/// which is not physics: a ball in another contact stands still from then on, and the energy audit of the stability table shows the missing
+/// energy.
 pub const BUDGET_WITHOUT_REST: u64 = 64_000_000;
 
-/// Budget of impacts in the air alone, which micro-collisions would not reduce.
+/// Budget of impacts in the air alone, in multiplications, which micro-collisions would not reduce.
 pub const AIR_BUDGET: u64 = 85_000_000;
 
 /// Multiplications for the bounce of a chatter. If bounces lose nothing, a pressed ball bounces until its spin has decayed; these bounces

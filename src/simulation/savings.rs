@@ -14,7 +14,7 @@ pub trait Savings {
     const CUSHIONS_IN_REACH: bool = true;
     /// No root is sought for two balls whose trajectories are separated by a line.
     const SEPARATED_COURSES: bool = true;
-    /// While the cue ball moves alone, a specialized loop follows it, which compares no event times and does not store the trajectory in
+    /// While a single ball moves, a specialized loop follows it, which compares no event times and does not store the trajectory in
     /// memory. It keeps predictions, and is therefore off if [`Savings::KEPT_PREDICTIONS`] is off.
     const LONE_BALL: bool = true;
     /// A ball that only rolls to rest is not simulated if the observer does not need the end.

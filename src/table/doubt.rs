@@ -165,7 +165,7 @@ pub enum DoubtError {
     /// A value that the constant cannot have: the assignment and the accepted range, both as text.
     #[error("the doubt has {0} for another rail law; accepted are numbers {1}")]
     Value(String, String),
-    /// The total weight of the alternative rail models, which is negative or not below 1.
+    /// The total weight of the alternative rail models. A weight is negative, or the total is not below 1.
     #[error("the weights of the rail laws in the doubt add up to {0}; accepted are weights from 0 with a sum below 1")]
     Weight(f64),
     /// Correlations that do not form a positive definite matrix.

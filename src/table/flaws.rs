@@ -2,8 +2,8 @@
 
 use super::{Rail, RailModel, Table, models::Fade};
 
-/// Steepest accepted slope, as a share of `mu_r g` and of `mu_s g`. At `mu_r g` balls would start to roll by themselves; at `mu_s g` a
-/// slide would never end.
+/// Steepest accepted slope, as a share of `mu_r g` and of `mu_s g`. At `mu_r g` balls would start to roll by themselves; the limit of
+/// `mu_s g` keeps slides far from an endless one.
 const MAX_TILT_SHARE: f64 = 0.2;
 
 /// Whether `value` is an acceptable coefficient of friction of a cushion or between two balls.

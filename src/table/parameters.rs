@@ -207,7 +207,7 @@ impl Table {
         let cloth: fn(f64) -> bool = |x| (1e-4..=1e3).contains(&x);
         let restitution: fn(f64) -> bool = |x| (0.0..=1.0).contains(&x);
         let checks: [Check; 14] = [
-            // Below this radius, [`super::TOUCHING_TOLERANCE`] would no longer be small against a ball.
+            // Keeps [`super::TOUCHING_TOLERANCE`] far below the size of a ball.
             ("R", self.radius, |r| (1e-4..f64::INFINITY).contains(&r), "0.0001 m or more; a carom ball has 0.03075"),
             // Ball: from a light toy ball to more than any stone ball. Cue: from a stick to an iron bar.
             ("m", self.ball_mass, |m| (0.001..=1.0).contains(&m), "0.001 to 1 kg; a carom ball has 0.21"),

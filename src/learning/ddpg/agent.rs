@@ -87,7 +87,7 @@ impl Ddpg {
         self.critic_optimiser.set_learning_rate(lr_factor * self.hyper.critic_learning_rate);
         self.critic_optimiser.backward_step(&loss)?;
 
-        let (mut goal, probability) = self.actor_loss(&played.observed.first(self.hyper.actor_batch)?)?;
+        let (mut goal, probability) = self.actor_objective(&played.observed.first(self.hyper.actor_batch)?)?;
         if let Some(searched) = searched {
             goal = (goal - (self.imitation_loss(searched)? * self.hyper.imitation)?)?;
         }
@@ -131,7 +131,7 @@ impl Ddpg {
 
     /// Returns the actor's objective over every head's action (the deterministic policy gradient), and the critic's mean probability.
     /// The objective is the mean probability plus a share of the mean logit, less the penalty of saturated outputs.
-    fn actor_loss(&self, observed: &ObservationBatch) -> Result<(Tensor, Tensor)> {
+    fn actor_objective(&self, observed: &ObservationBatch) -> Result<(Tensor, Tensor)> {
         let outputs = self.online.actor.forward(&observed.states)?;
         let actions = self.online.squash(&outputs)?;
         let logits = self.online.critic.forward_frozen(&observed.with_actions(&actions)?)?;
@@ -245,7 +245,7 @@ mod tests {
                 let Networks { actor, critic, .. } = &agent.online;
                 [
                     error_of_gradient(critic, || agent.critic_loss(&batch).unwrap()),
-                    error_of_gradient(actor, || agent.actor_loss(&batch.observed).unwrap().0),
+                    error_of_gradient(actor, || agent.actor_objective(&batch.observed).unwrap().0),
                     error_of_gradient(actor, || agent.imitation_loss(&batch).unwrap()),
                 ]
             });
@@ -259,9 +259,9 @@ mod tests {
     }
 
     #[test]
-    fn actor_losses_leave_the_critic_unchanged() {
+    fn actor_objectives_leave_the_critic_unchanged() {
         let (agent, batch) = agent_and_batch(ActionSpace::Full, 21);
-        for goal in [agent.actor_loss(&batch.observed).unwrap().0, agent.imitation_loss(&batch).unwrap()] {
+        for goal in [agent.actor_objective(&batch.observed).unwrap().0, agent.imitation_loss(&batch).unwrap()] {
             let gradients = goal.backward().unwrap();
             assert!(gradients.get(agent.online.critic.parameters()).is_none());
             assert!(gradients.get(agent.online.actor.parameters()).is_some());

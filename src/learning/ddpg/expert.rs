@@ -30,7 +30,7 @@ const ROUNDS: [(usize, usize); 3] = [(16, 24), (32, 8), (64, 6)];
 const LEFT_PER_OBSERVATION: usize = 2;
 
 /// New attempts that measure the stored success of strokes that did not win.
-const FINAL_ATTEMPTS: usize = 8;
+const ATTEMPTS_FOR_OTHERS: usize = 8;
 
 /// Neighbours drawn around each remaining stroke, neighbours that enter successive halving, and the standard deviations of the steps to
 /// them, in units of half an action's range. The critic only selects the neighbours that enter. Attempts decide, so its errors cost time,
@@ -167,7 +167,7 @@ impl Expert<'_> {
             let strokes = if is_imitated { &mut best } else { &mut others };
             strokes.push(candidate);
         }
-        let [best, others] = [(best, ROUNDS[2].0), (others, FINAL_ATTEMPTS)]
+        let [best, others] = [(best, ROUNDS[2].0), (others, ATTEMPTS_FOR_OTHERS)]
             .map(|(strokes, attempts)| strokes.iter().map(|stroke| again(stroke, attempts)).collect());
         Ok(SearchResult { best, others })
     }

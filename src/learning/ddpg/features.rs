@@ -26,8 +26,8 @@ pub const FREE_PATHS: [usize; 2] = [29, 57];
 /// Indices of the action features that describe only the action and none of its consequences.
 const ACTION_ONLY: [Range<usize>; 2] = [0..8, 30..37];
 
-/// Appends [`STATE_FEATURES`] numbers of the order of one: the positions of the balls, their relative positions, the distances from the
-/// first ball to the cushions, and the second ball's images in the cushions as seen from the first.
+/// Appends [`STATE_FEATURES`] numbers of the order of one: the positions of the balls, their relative positions, the free paths of the
+/// first ball to the cushions along the line of aim and to both sides, and the second ball's images in the cushions as seen from the first.
 pub fn push_state_features(table: &Table, observation: &Observation, out: &mut Vec<f32>) {
     let mut push = |value: f64| out.push(value as f32);
     let (reach, length, diameter) = (table.reach(), table.length, 2.0 * table.radius);

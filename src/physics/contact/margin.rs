@@ -52,8 +52,8 @@ fn is_at_edge(problem: &Problem, solution: &Solution, index: usize, none: f64) -
     }
 }
 
-/// Returns forces away from the edges, with all slip rates at most `none`, m/s². `None` if no force is at an edge, or no other forces obey
-/// all laws.
+/// Returns forces away from the edges, in which no friction that was moved from an edge slips faster than at the rate `none`, m/s². `None`
+/// if no force is at an edge, or no other forces obey all laws.
 pub fn with_margin(problem: &Problem, solution: &Solution, none: f64, effort: &Effort) -> Option<Solution> {
     let at_edge = |index: &usize| is_at_edge(problem, solution, *index, none);
     // Normal forces come first: if the last unknown at an edge is one, the share of frictions has no effect.

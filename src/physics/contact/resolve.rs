@@ -25,7 +25,8 @@ const ROUNDING: f64 = 1e-12;
 
 impl Scene<'_> {
     /// Determines the contacts that push, the frictions that stick, and the forces; the present active set defines what already slips.
-    /// `None` if no normal force exceeds `least_push`, m/s². If forces are not unique, those near `similar` are chosen.
+    /// `None` if no normal force exceeds `least_push`, m/s², and no contact is a paradox. If forces are not unique, those near `similar`
+    /// are chosen.
     pub fn resolve(self, least_push: f64, similar: Option<&Forces>, effort: &Effort) -> Option<Resolved> {
         let (mut problem, mut solution) = self.solved(similar, solve, effort);
         self.resolve_filippov(least_push, &mut problem, &mut solution, effort)

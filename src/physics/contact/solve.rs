@@ -188,8 +188,9 @@ impl<'a> System<'a> {
         None
     }
 
-    /// Takes the whole step if it reduces the error, otherwise the damped step that reduces it most. Returns the new point first. At a
-    /// double root, the whole step leaves a quarter of the error and the doubled step hardly any (Rall 1966).
+    /// Takes the whole step if it nearly removes the error, or the better of the whole and the doubled step if one halves the error;
+    /// otherwise halves the step too. Returns the new point first. At a double root, the whole step leaves a quarter of the error and
+    /// the doubled step hardly any (Rall 1966).
     fn step<'p>(
         &self,
         here: &Point,

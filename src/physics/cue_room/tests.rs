@@ -125,7 +125,7 @@ fn cue_clears_rails_and_balls_exactly_from_the_least_elevation() {
     assert!(refused < 150 && 15 * wrongly < refused, "{refused} refused, {wrongly} that would do at some elevation");
 }
 
-/// Returns a cue ball at the distance `gap` from the bottom rail, in the middle of a half of the default table, with the other balls far
+/// Returns a cue ball at the distance `gap` from the bottom rail, in one half of the default table, with the other balls far
 /// away.
 fn near_the_bottom(gap: f64) -> (Table, Layout) {
     let table = table();
@@ -145,8 +145,8 @@ fn frozen_cue_ball_needs_a_raised_cue_away_from_its_rail() {
     assert_eq!(least_elevation(&table, &frozen, &up(0.0)).unwrap_err().obstacle, Obstacle::Rail(Rail::Bottom));
     let low = least_elevation(&table, &frozen, &up(0.35)).unwrap();
     assert!(low.over == Some(Obstacle::Rail(Rail::Bottom)) && low.theta > 0.3, "{low:?}");
-    // From 12.25 mm above the middle on, a level cue with a radius of 6 mm passes 6.25 mm above the nose; only its taper needs an
-    // elevation.
+    // From 12.25 mm above the ball's middle on, the underside of a level cue with a radius of 6 mm is at the height of the nose or higher,
+    // 6.25 mm above the middle; only its taper needs an elevation.
     assert!(least_elevation(&table, &frozen, &up(0.42)).unwrap().theta < 0.5_f64.to_radians());
     let (table, middle) = near_the_bottom(0.6);
     let least = least_elevation(&table, &middle, &up(0.0)).unwrap();

@@ -12,7 +12,7 @@ use crate::{
 /// A step is repeated if the step length for half the accepted deviation is shorter than this share of it: `2^(-1/6)`.
 const DEVIATION_MARGIN: f64 = 0.89;
 
-/// Largest accepted excess of a slip that has begun slowly over its limit within a step.
+/// Largest accepted ratio of a slip that has begun slowly to its limit, at the end of a step.
 const MAX_YIELDED: f64 = 1.5;
 
 /// Largest number of halvings of the interval to a point within a step, if a single step to it is not accurate enough.

@@ -16,7 +16,7 @@ use crate::{physics::contact::forces::DEPARTING, table::BALLS};
 const MAX_STEPS: usize = 20;
 
 /// Tolerance of the share, and of the upward friction as a share of the cloth's limit.
-const KNOWN: f64 = 1e-15;
+const TOLERANCE: f64 = 1e-15;
 
 /// Contact forces and the resulting motion, both linear in the share and in the upward friction.
 #[derive(Clone, Copy)]
@@ -178,7 +178,7 @@ impl Edge {
                 divided: limit * part.min(1.0 - part),
             };
             up += up_step;
-            if share_step.abs() <= KNOWN && up_step.abs() <= KNOWN * limit {
+            if share_step.abs() <= TOLERANCE && up_step.abs() <= TOLERANCE * limit {
                 break;
             }
         }

@@ -17,9 +17,9 @@ use super::{
 pub(super) enum StickSlip {
     /// Coulomb friction up to the no-slip limit: `f = min(2/7, μ P / (m |S|))`.
     Sharp,
-    /// `f = L tanh(μ P / (m L |S|))`, with `L` the largest share of the slip that friction removes.
+    /// `f = L tanh(μ P / (m L |S|))`, with `L` the upper limit of `f`.
     Smooth {
-        /// `L`; two sevenths if the contact just sticks.
+        /// `L`; 2/7 removes the slip exactly.
         most: f64,
     },
 }
