@@ -53,7 +53,7 @@ pub struct Args {
     /// played; with --filmed: filmed.csv and filmed.svg.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Print JSON instead of text: one object for each reference file, each table and each method.
+    /// Print JSON instead of text: one object for each reference file, table, method, row or model.
     #[arg(long)]
     json: bool,
 }

@@ -168,7 +168,7 @@ const OWN: &str = "own";
 pub fn skill_by_name(name: &str) -> Result<Skill, Failure> {
     if name == OWN {
         return own_skill()?.ok_or_else(|| {
-            Failure::failed("no skill of your own is kept yet; carom drill skill --keep estimates and keeps it")
+            Failure::failed("no skill of your own is saved yet; carom drill skill --keep estimates and saves it")
         });
     }
     name.parse().map_err(|error| match error {

@@ -90,7 +90,7 @@ pub enum TerminalError {
     /// Input or output is not a terminal, or the terminal cannot draw pictures.
     #[error(
         "this is not a terminal that can show the table; use the command line instead: \
-         carom recommend --layout \"-0.71,0 0.71,0 -0.71,0.1825\", or carom --plain for the coach in lines"
+         carom recommend --layout \"-0.71,0.1825 -0.71,0 0.71,0\", or carom --plain for the coach in lines"
     )]
     NoTerminal,
     /// The same for a guest, who may use no other command.

@@ -39,7 +39,8 @@ pub struct PlayOptions {
     #[arg(long)]
     pub(super) no_jumps: bool,
     /// The table to play on: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file. It must have the size
-    /// of the exercise's table. Default: the exercise's table
+    /// of the exercise's table, or with carom play that of a bundled table; exams have tables of their own. Default: the exercise's table,
+    /// with carom play "match"
     #[arg(long)]
     pub table: Option<String>,
     /// Print JSON: one object a line, of the kinds "position", "attempt", "refused" and "result".

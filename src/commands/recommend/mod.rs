@@ -93,7 +93,7 @@ pub struct Args {
     /// Return the networks' own shot, without any search.
     #[arg(long)]
     policy_only: bool,
-    /// The policy: "bundled", the path of a file that `carom train` wrote, the folder of its run, or the name of a saved policy.
+    /// The policy: "bundled", the path of a file that `carom train` wrote, the folder or name of its run, or the name of a saved or bundled policy.
     #[arg(long, value_name = "FILE", default_value = "bundled", value_parser = NonEmptyStringValueParser::new())]
     policy: String,
     /// Seed of the search: if time does not run out, the same seed finds the same shot.

@@ -87,7 +87,7 @@ pub enum RunError {
     /// The progress since the last checkpoint could not be saved.
     #[error(
         "the run could not be saved after {shots} shots: {reason}; the last checkpoint is intact: free some disk space, \
-         then go on with: carom train --resume {call}",
+         then resume with: carom train --resume {call}",
         call = shell_word(folder)
     )]
     Unsaved {

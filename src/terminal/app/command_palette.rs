@@ -172,11 +172,11 @@ mod tests {
 
     #[test]
     fn a_search_needs_all_words_in_any_order_and_case() {
-        let undo = matching("CHANGE back last");
+        let undo = matching("CHANGE undo last");
         assert_eq!(undo.len(), 1, "{undo:?}");
         assert_eq!((undo[0].action, undo[0].keys.as_str()), (Action::Coach(CoachAction::Undo), "u"));
         assert_eq!(matching("undo"), undo, "the word of the hint line is known as well");
-        assert!(matching("back nonsense").is_empty());
+        assert!(matching("undo nonsense").is_empty());
         assert!(matching("ctrl-r").iter().all(|command| command.keys.contains("Ctrl-r")));
         let is_placing = |command: &Command| format!("{} {}", command.title, command.description).contains("lacing");
         assert!(matching("placing").iter().all(is_placing));

@@ -190,7 +190,7 @@ impl Conversation {
             Command::OwnSkill => {
                 let (skill, from) = self
                     .own
-                    .ok_or("No skill of your own is kept yet; carom drill skill --keep estimates and keeps it.")?;
+                    .ok_or("No skill of your own is saved yet; carom drill skill --keep estimates and saves it.")?;
                 self.request.skill = skill;
                 self.drop_shots(format!("You average {}, {from}.", speech::average(skill)))
             }

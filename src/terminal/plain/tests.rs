@@ -140,7 +140,7 @@ fn with_the_yellow_cue_ball_every_colour_is_right() {
 
 #[test]
 fn the_saved_skill_is_used_and_its_absence_reported() {
-    assert!(talk("skill own").contains("No skill of your own is kept yet"));
+    assert!(talk("skill own").contains("No skill of your own is saved yet"));
     let own = "a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1";
     let settings = Settings { think_ms: 1_000, ..Settings::default() };
     let reply = talk_of(own.parse().ok(), &settings, "skill own\nskill 0.6\nshot\nskill 7\n");

@@ -127,7 +127,7 @@ fn a_run_is_stopped_or_abandoned_by_a_request_file() {
     assert!(standing["warning"].as_str().unwrap().contains("\"puase\" is not understood"), "{standing}");
     let reward = standing["held_out_reward"].as_f64().unwrap();
     let expected =
-        format!("the run was stopped after {} shots, held-out reward {reward:.4}; go on with", standing["shots"]);
+        format!("the run was stopped after {} shots, held-out reward {reward:.4}; resume with", standing["shots"]);
     assert!(stopped.err.contains(&expected), "{expected}: {}", stopped.err);
 }
 

@@ -18,7 +18,7 @@ fn the_palette_lists_available_and_unavailable_commands() {
 
 #[test]
 fn typing_filters_commands_and_enter_runs_the_selected_one() {
-    let player = opened(TRUE_COLOUR).press("c h a n g e Space B A C K");
+    let player = opened(TRUE_COLOUR).press("c h a n g e Space U N D O");
     player.shows(&["Placing the balls: undo the last change"]).does_not_show("ask the coach");
     let moved = *player.app.coach.layout();
     let player = player.press("Enter");

@@ -94,7 +94,7 @@ impl Followed {
         let folder = self.folder.display();
         let shots = self.shots();
         let after = if shots > 0 { format!(" after {shots} shots") } else { String::new() };
-        let go_on = format!("go on with: carom train --resume {}", shell_word(&self.folder.to_string_lossy()));
+        let go_on = format!("resume with: carom train --resume {}", shell_word(&self.folder.to_string_lossy()));
         match self.condition {
             Condition::Unknown => format!("looking at {folder}"),
             Condition::Missing => format!("{folder} contains no run yet"),
