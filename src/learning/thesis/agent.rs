@@ -60,8 +60,8 @@ pub trait Settings: Clone + std::fmt::Debug + Default + Serialize + DeserializeO
     /// When an episode ends.
     fn episode(&self) -> Episode;
 
-    /// Whether the settings use points, so that they are of no use with a reward that is not about points.
-    fn use_points(&self) -> bool {
+    /// Whether the settings require a reward that is about points.
+    fn needs_point_rewards(&self) -> bool {
         false
     }
 
@@ -168,7 +168,7 @@ pub(crate) const fn kind_of<A: Agent + 'static>() -> AgentKind {
         },
         start: |plan, table, settings| {
             let settings = settings_from(settings, A::Settings::validate)?;
-            if settings.use_points() && plan.reward.rule().is_none() {
+            if settings.needs_point_rewards() && plan.reward.rule().is_none() {
                 return Err(StartError::settings(
                     "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion",
                 ));

@@ -127,7 +127,7 @@ impl Settings for PlainDdpgSettings {
         self.episode
     }
 
-    fn use_points(&self) -> bool {
+    fn needs_point_rewards(&self) -> bool {
         self.hindsight > 0.0 || self.demonstrations > 0.0
     }
 
@@ -325,7 +325,7 @@ impl Agent for PlainDdpg {
         let values = self.networks.values()?;
         writer.add("networks", &[values.len()], &values);
         let Self { shots, noise, .. } = *self;
-        let lessons = self.settings.use_points().then(|| self.lessons.save(writer));
+        let lessons = self.settings.needs_point_rewards().then(|| self.lessons.save(writer));
         let (updates, next) = (self.networks.updates(), replay::save(&self.replay, MEMORY, writer));
         note_of(&PlainDdpgState { shots, updates, next, noise, lessons })
     }

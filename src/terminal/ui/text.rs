@@ -71,8 +71,8 @@ pub fn wrap(text: &str, width: usize) -> Vec<String> {
 pub fn wrap_by(text: &str, width: impl Fn(usize) -> usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     let mut taken = 0;
-    for word in text.split_whitespace() {
-        let wide = columns(word);
+    for word in unbreakable(text) {
+        let wide = columns(&word);
         let last = lines.len() - 1;
         if lines[last].is_empty() || taken + 1 + wide <= width(last) {
             if !lines[last].is_empty() {
@@ -106,6 +106,18 @@ pub fn wrap_by(text: &str, width: impl Fn(usize) -> usize) -> Vec<String> {
     lines
 }
 
+/// Splits text into the parts between which lines may break: words, but a number and its percent sign together.
+fn unbreakable(text: &str) -> Vec<String> {
+    let mut parts: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match parts.last_mut() {
+            Some(number) if word.starts_with('%') => number.extend([" ", word]),
+            _ => parts.push(word.to_owned()),
+        }
+    }
+    parts
+}
+
 /// Replaces characters that the terminal does not have.
 pub fn to_displayable(text: &str, caps: Capabilities) -> String {
     if caps.unicode {
@@ -134,6 +146,12 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+
+    #[test]
+    fn a_number_and_its_percent_sign_stay_on_one_line() {
+        assert_eq!(wrap("yellow and red kiss in 8 %.", 24), ["yellow and red kiss in", "8 %."]);
+        assert_eq!(wrap("% of 8", 4), ["% of", "8"]);
+    }
 
     #[test]
     fn long_sentences_are_broken_between_words() {
