@@ -257,7 +257,8 @@ fn meet(constants: &Constants, d: &[DVec3; 6], horizon: f64) -> Prediction {
         }
         let slope = [c[0], 2.0 * c[1], 3.0 * c[2], 4.0 * c[3]];
         let value = |t: f64| (d + t * (v + t * k)).length_squared() - diameter * diameter;
-        return first_crossing(value, &slope, horizon).map_or(Prediction::Nothing, Prediction::Impact);
+        let rounding = f64::EPSILON * diameter * diameter;
+        return first_crossing(value, &slope, horizon, rounding).map_or(Prediction::Nothing, Prediction::Impact);
     }
     let mut gap = [0.0; MAX_DEGREE + 1];
     for i in 0..6 {

@@ -70,7 +70,8 @@ fn approach(
     let c4 = dk.length_squared();
     let derivative = [c1, 2.0 * c2, 3.0 * c3, 4.0 * c4];
     let value = |t: f64| (d + t * (dv + t * dk)).length_squared() - diameter * diameter;
-    first_crossing(value, &derivative, horizon).map_or(Prediction::Nothing, Prediction::Impact)
+    let rounding = f64::EPSILON * diameter * diameter;
+    first_crossing(value, &derivative, horizon, rounding).map_or(Prediction::Nothing, Prediction::Impact)
 }
 
 /// A triangle that contains a part of a trajectory: the control points of a parabola, or the range of positions for all velocities between
@@ -144,7 +145,8 @@ fn next_collision_of_touching(
     let speed = [c1 + 4.0 * diameter * tolerance.opening, 2.0 * c2, 3.0 * c3, 4.0 * c4];
     let horizon = if let Prediction::Impact(time) = falls { time } else { horizon };
     let steepness = [speed[1], 2.0 * speed[2], 3.0 * speed[3]];
-    match first_crossing(|t| horner(&speed, t), &steepness, horizon) {
+    let rounding = f64::EPSILON * speed[0].abs();
+    match first_crossing(|t| horner(&speed, t), &steepness, horizon, rounding) {
         Some(time) if horner(&gap, time) <= 2.0 * diameter * tolerance.touching => Prediction::Impact(time),
         _ => falls,
     }

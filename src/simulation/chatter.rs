@@ -127,19 +127,15 @@ impl Chatters {
         self.0[Self::slot(contact)].flight_ratio
     }
 
-    /// Returns when each chatter of a ball ends, s, if it does not bounce again: those with other balls at their index, those with cushions
-    /// at the ball's own index. Any bounce, reported or not, may be followed by others within `pause`, s.
-    pub fn end_times(&self, ball: usize, pause: f64) -> [f64; BALLS] {
-        let mut ends = [f64::NEG_INFINITY; BALLS];
-        let cushions = (0..4).map(|rail| (ball, PAIRS.len() + 4 * ball + rail));
-        for (other, slot) in cushions.chain(PAIRS_OF[ball].map(|(pair, other)| (other, pair))) {
-            let bounces = self.0[slot];
-            ends[other] = ends[other].max(bounces.last + pause);
-            if bounces.count > REPORTED_BOUNCES {
-                ends[other] = ends[other].max(bounces.last + bounces.longest_pause());
-            }
-        }
-        ends
+    /// Returns when each chatter of a ball ends, s, if it does not bounce again, with the index of the other ball, or the ball's own index for
+    /// chatters with cushions. Any bounce, reported or not, may be followed by others within `pause`, s.
+    pub fn ends(&self, ball: usize, pause: f64) -> impl Iterator<Item = (usize, f64)> {
+        let cushions = (0..4).map(move |rail| (ball, PAIRS.len() + 4 * ball + rail));
+        cushions.chain(PAIRS_OF[ball].map(|(pair, other)| (other, pair))).map(move |(other, slot)| {
+            let bounces = &self.0[slot];
+            let pause = if bounces.count > REPORTED_BOUNCES { pause.max(bounces.longest_pause()) } else { pause };
+            (other, bounces.last + pause)
+        })
     }
 }
 
@@ -274,6 +270,12 @@ fn meets_another(
 mod tests {
     use super::*;
 
+    /// Returns the end of the chatters of a ball with another one, s.
+    fn end_time(chatters: &Chatters, ball: usize, other: usize) -> f64 {
+        let ends = chatters.ends(ball, 0.0).filter(|(with, _)| *with == other);
+        ends.map(|(_, end)| end).fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// Returns how many bounces with these flights after them are reported, and when the last flight is over, s.
     fn reported(chatters: &mut Chatters, contact: &Contact, flights: impl Iterator<Item = f64>) -> (u32, f64) {
         flights.fold((0, 0.0), |(reported, now), flight| {
@@ -287,8 +289,8 @@ mod tests {
         let flights = (1..=40).map(|bounce| 0.1 * 0.9_f64.powi(bounce));
         let (reported, now) = reported(&mut chatters, &Contact::of_balls(0, 1), flights);
         assert_eq!(reported, REPORTED_BOUNCES);
-        assert!(chatters.end_times(1, 0.0)[0] > now && chatters.end_times(2, 0.0)[0] < now);
-        assert!(chatters.end_times(0, 0.0)[1] < now + 1.0);
+        assert!(end_time(&chatters, 1, 0) > now && end_time(&chatters, 2, 0) < now);
+        assert!(end_time(&chatters, 0, 1) < now + 1.0);
     }
 
     /// Bounces between a ball and a cushion: each time the cushion throws the ball back, they start again, with shorter flights.
@@ -302,7 +304,7 @@ mod tests {
         });
         let (reported, now) = reported(&mut chatters, &Contact::of_balls(0, 1), flights);
         assert_eq!(reported, REPORTED_BOUNCES);
-        assert!(chatters.end_times(0, 0.0)[1] > now && chatters.end_times(0, 0.0)[1] < now + 0.2);
+        assert!(end_time(&chatters, 0, 1) > now && end_time(&chatters, 0, 1) < now + 0.2);
     }
 
     /// Two contacts alternately throw a ball back, each with two bounces, after ever shorter pauses.

@@ -60,7 +60,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let relative = first.position - second.position;
         let gap = relative.length() - self.constants.diameter;
         let moves = 0.5 * (self.constants.tolerance.micro_gap - gap) * relative.normalize();
-        first.position += moves;
-        second.position -= moves;
+        // A ball at a cushion stays there, or a series of bounces would push it outwards.
+        let reach = self.constants.reach;
+        first.position = (first.position + moves).clamp(-reach, reach);
+        second.position = (second.position - moves).clamp(-reach, reach);
     }
 }

@@ -117,7 +117,9 @@ pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], touching: bool, sca
     for power in 1..count {
         slope[power - 1] = power as f64 * work[power];
     }
-    first_crossing(|t| horner(work, t), &slope[..count - 1], horizon).map_or(Prediction::Nothing, Prediction::Impact)
+    let rounding = f64::EPSILON * work[0].abs();
+    first_crossing(|t| horner(work, t), &slope[..count - 1], horizon, rounding)
+        .map_or(Prediction::Nothing, Prediction::Impact)
 }
 
 /// Returns a segment's coefficients about the time `now`.

@@ -212,16 +212,16 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// chatters, is early enough. In micro-collisions, any event may make it bounce again.
     fn may_bounce(&self, index: usize) -> bool {
         let Some(chatters) = &self.chatters else { return false };
-        let (ends, own) = (chatters.end_times(index, self.longest_pause()), self.times[index]);
+        let own = self.times[index];
         if self.micro_collisions.is_some() {
-            return self.times.iter().any(|time| ends.iter().any(|end| time <= end));
+            let soonest = self.times.into_iter().fold(f64::INFINITY, f64::min);
+            return chatters.ends(index, self.longest_pause()).any(|(_, end)| soonest <= end);
         }
         let next = |other: usize| {
-            PAIRS_OF[other]
-                .iter()
-                .fold(own.min(self.times[other]), |next, (pair, _)| next.min(self.times[BALLS + pair]))
+            let with_others = PAIRS_OF[other].iter().filter(|_| other != index);
+            with_others.fold(own.min(self.times[other]), |next, (pair, _)| next.min(self.times[BALLS + pair]))
         };
-        own <= ends[index] || PAIRS_OF[index].iter().any(|&(_, other)| next(other) <= ends[other])
+        chatters.ends(index, f64::NEG_INFINITY).any(|(other, end)| next(other) <= end)
     }
 
     #[cold]

@@ -6,20 +6,25 @@ pub const MAX_DEGREE: usize = 10;
 /// Capacity for the roots of such a polynomial and the end of the interval.
 const MAX_ROOTS: usize = MAX_DEGREE + 1;
 
+/// Relative step at which the search of an extremum ends. The value at an extremum is then as accurate as at the exact one.
+const EXTREMUM_STEP: f64 = 1e-9;
+
 /// Returns the first `t` in `(0, end]` at which `value` falls from positive to below zero, given the coefficients of its derivative, lowest
 /// first.
 ///
 /// The roots of the derivative are found first, by the same method one degree lower. Between them `value` is monotone, so that a sign
-/// change is a single root and none can be missed. The root is accurate to the last bits of the rounding of `value` itself. An initial
-/// value at or below zero is treated as just above it.
-pub fn first_crossing(value: impl Fn(f64) -> f64, derivative: &[f64], end: f64) -> Option<f64> {
+/// change is a single root and none can be missed. `rounding` is the rounding error of `value` near its root: the root is as accurate as that
+/// allows. An initial value at or below zero is treated as just above it.
+pub fn first_crossing(value: impl Fn(f64) -> f64, derivative: &[f64], end: f64, rounding: f64) -> Option<f64> {
     let mut turns = [0.0; MAX_ROOTS];
     let count = roots(derivative, end, &mut turns);
     turns[count] = end;
     let mut low = 0.0;
     for &high in &turns[..=count] {
-        if value(high) < 0.0 {
-            return Some(bisect_newton(&value, |t| horner(derivative, t), low, high));
+        let value_there = value(high);
+        if value_there < 0.0 {
+            let accuracy = Accuracy { step: 0.5 * f64::EPSILON, value: rounding };
+            return Some(bisect_newton(&value, |t| horner(derivative, t), [low, high], value_there, accuracy));
         }
         low = high;
     }
@@ -80,7 +85,9 @@ fn roots_between_extrema(coefficients: &[f64], end: f64, found: &mut [f64; MAX_R
         let high_value = horner(coefficients, high);
         if (low_value < 0.0) != (high_value < 0.0) {
             let sign = if high_value < 0.0 { 1.0 } else { -1.0 };
-            found[count] = bisect_newton(|t| sign * horner(coefficients, t), |t| sign * horner(slope, t), low, high);
+            let (value, slope) = (|t| sign * horner(coefficients, t), |t| sign * horner(slope, t));
+            let accuracy = Accuracy { step: EXTREMUM_STEP, value: 0.0 };
+            found[count] = bisect_newton(value, slope, [low, high], -high_value.abs(), accuracy);
             count += 1;
         }
         (low, low_value) = (high, high_value);
@@ -120,14 +127,33 @@ fn quadratic(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
     Some([first.min(second), first.max(second)])
 }
 
-/// Returns the root of a function that falls from positive at `low` to negative at `high`: Newton's method, with bisection if a step leaves
-/// the bracket or shrinks it too slowly.
-fn bisect_newton(value: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    let mut t = 0.5 * (low + high);
-    let mut last_step = high - low;
+/// When a search ends.
+#[derive(Clone, Copy)]
+struct Accuracy {
+    /// Step relative to the root.
+    step: f64,
+    /// Value that counts as zero.
+    value: f64,
+}
+
+/// Returns the root of a function that falls from positive at `low` to `value_there` below zero at `high`: Newton's method, with bisection
+/// if a step leaves the bracket or shrinks too slowly. It starts from the root of the parabola that has the function's values at both ends
+/// and its slope at `low`.
+fn bisect_newton(
+    value: impl Fn(f64) -> f64,
+    slope: impl Fn(f64) -> f64,
+    [mut low, mut high]: [f64; 2],
+    value_there: f64,
+    accuracy: Accuracy,
+) -> f64 {
+    let (begin, slope_there, width) = (value(low).max(0.0), slope(low), high - low);
+    let bend = (value_there - begin - slope_there * width) / (width * width);
+    let ahead = 2.0 * begin / ((slope_there * slope_there - 4.0 * bend * begin).sqrt() - slope_there);
+    let mut t = if ahead > 0.0 && ahead < width { low + ahead } else { low + 0.5 * width };
+    let mut last_step = width;
     loop {
         let f = value(t);
-        if f == 0.0 {
+        if f.abs() <= accuracy.value {
             return t;
         }
         if f > 0.0 {
@@ -144,7 +170,7 @@ fn bisect_newton(value: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64, mut low
         };
         last_step = next - t;
         // Adjacent numbers, or a step below the last bit: no further progress is possible.
-        if next <= low || next >= high || last_step.abs() <= 0.5 * f64::EPSILON * t {
+        if next <= low || next >= high || last_step.abs() <= accuracy.step * t {
             return next.clamp(low, high);
         }
         t = next;
@@ -177,17 +203,33 @@ mod tests {
     fn two_roots_a_ten_millionth_apart_are_distinguished_from_none() {
         let touch = from_roots(&[0.5, 0.5 + 1e-7, -1.0, -2.0]);
         let value = |t: f64| (t - 0.5) * (t - 0.5 - 1e-7) * (t + 1.0) * (t + 2.0);
-        let t = first_crossing(value, &derivative(&touch), 1.0);
+        let t = first_crossing(value, &derivative(&touch), 1.0, 0.0);
         assert!((t.unwrap() - 0.5).abs() < 1e-12);
         let miss = |t: f64| (t - 0.5) * (t - 0.5) + 1e-12;
-        assert_eq!(first_crossing(miss, &[-1.0, 2.0], 1.0), None);
+        assert_eq!(first_crossing(miss, &[-1.0, 2.0], 1.0, 0.0), None);
     }
 
     #[test]
     fn root_at_the_interval_end_counts_and_later_ones_do_not() {
         let line = |t: f64| 1.0 - t;
-        assert_eq!(first_crossing(line, &[-1.0], 1.0 - 1e-9), None);
-        assert!((first_crossing(line, &[-1.0], 1.0 + 1e-9).unwrap() - 1.0).abs() < 1e-15);
+        assert_eq!(first_crossing(line, &[-1.0], 1.0 - 1e-9, 0.0), None);
+        assert!((first_crossing(line, &[-1.0], 1.0 + 1e-9, 0.0).unwrap() - 1.0).abs() < 1e-15);
+    }
+
+    /// Near its root the rounded value of a slow approach changes its sign many times: bisection would halve its bracket fifty times.
+    #[test]
+    fn a_search_ends_at_the_rounding_error_of_its_value() {
+        let evaluations = std::cell::Cell::new(0);
+        let (distance, speed) = (0.061, 1e-4);
+        let value = |t: f64| {
+            evaluations.set(evaluations.get() + 1);
+            let left = distance + 1e-5 - speed * t;
+            left * left - distance * distance
+        };
+        let derivative = [-2.0 * speed * (distance + 1e-5), 2.0 * speed * speed];
+        let t = first_crossing(value, &derivative, 0.4, f64::EPSILON * distance * distance);
+        assert!((t.unwrap() - 0.1).abs() < 1e-11, "{t:?}");
+        assert!(evaluations.get() < 10, "{}", evaluations.get());
     }
 
     proptest! {
@@ -196,7 +238,7 @@ mod tests {
             roots.sort_by(f64::total_cmp);
             prop_assume!(roots.windows(2).all(|w| w[1] - w[0] > 1e-4));
             let polynomial = from_roots(&roots);
-            let t = first_crossing(|t| horner(&polynomial, t), &derivative(&polynomial), 4.0).unwrap();
+            let t = first_crossing(|t| horner(&polynomial, t), &derivative(&polynomial), 4.0, 0.0).unwrap();
             prop_assert!((t - roots[0]).abs() < 1e-8, "{t} {roots:?}");
         }
 
@@ -206,7 +248,7 @@ mod tests {
                 gaps.iter().scan(0.0, |sum, gap| { *sum += gap; Some(*sum) }).collect();
             roots.push(-1.0);
             let polynomial: Vec<f64> = from_roots(&roots).iter().map(|c| -c).collect();
-            let t = first_crossing(|t| horner(&polynomial, t), &derivative(&polynomial), 2.0).unwrap();
+            let t = first_crossing(|t| horner(&polynomial, t), &derivative(&polynomial), 2.0, 0.0).unwrap();
             prop_assert!((t - roots[0]).abs() < 1e-5, "{t} {roots:?}");
         }
     }
