@@ -218,8 +218,12 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             return chatters.ends(index, self.longest_pause()).any(|(_, end)| soonest <= end);
         }
         let next = |other: usize| {
-            let with_others = PAIRS_OF[other].iter().filter(|_| other != index);
-            with_others.fold(own.min(self.times[other]), |next, (pair, _)| next.min(self.times[BALLS + pair]))
+            if other == index {
+                return own;
+            }
+            PAIRS_OF[other]
+                .iter()
+                .fold(own.min(self.times[other]), |next, (pair, _)| next.min(self.times[BALLS + pair]))
         };
         chatters.ends(index, f64::NEG_INFINITY).any(|(other, end)| next(other) <= end)
     }

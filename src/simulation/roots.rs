@@ -6,7 +6,7 @@ pub const MAX_DEGREE: usize = 10;
 /// Capacity for the roots of such a polynomial and the end of the interval.
 const MAX_ROOTS: usize = MAX_DEGREE + 1;
 
-/// Relative step at which the search of an extremum ends. The value at an extremum is then as accurate as at the exact one.
+/// Relative step at which the search for an extremum ends: the value there differs by less than rounding, because its slope is zero.
 const EXTREMUM_STEP: f64 = 1e-9;
 
 /// Returns the first `t` in `(0, end]` at which `value` falls from positive to below zero, given the coefficients of its derivative, lowest
@@ -21,10 +21,10 @@ pub fn first_crossing(value: impl Fn(f64) -> f64, derivative: &[f64], end: f64, 
     turns[count] = end;
     let mut low = 0.0;
     for &high in &turns[..=count] {
-        let value_there = value(high);
-        if value_there < 0.0 {
+        let value_at_high = value(high);
+        if value_at_high < 0.0 {
             let accuracy = Accuracy { step: 0.5 * f64::EPSILON, value: rounding };
-            return Some(bisect_newton(&value, |t| horner(derivative, t), [low, high], value_there, accuracy));
+            return Some(bisect_newton(&value, |t| horner(derivative, t), [low, high], value_at_high, accuracy));
         }
         low = high;
     }
@@ -127,7 +127,7 @@ fn quadratic(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
     Some([first.min(second), first.max(second)])
 }
 
-/// When a search ends.
+/// Accuracy at which a search ends.
 #[derive(Clone, Copy)]
 struct Accuracy {
     /// Step relative to the root.
@@ -136,19 +136,20 @@ struct Accuracy {
     value: f64,
 }
 
-/// Returns the root of a function that falls from positive at `low` to `value_there` below zero at `high`: Newton's method, with bisection
+/// Returns the root of a function that falls from positive at `low` to `value_at_high` below zero: Newton's method, with bisection
 /// if a step leaves the bracket or shrinks too slowly. It starts from the root of the parabola that has the function's values at both ends
 /// and its slope at `low`.
 fn bisect_newton(
     value: impl Fn(f64) -> f64,
     slope: impl Fn(f64) -> f64,
     [mut low, mut high]: [f64; 2],
-    value_there: f64,
+    value_at_high: f64,
     accuracy: Accuracy,
 ) -> f64 {
-    let (begin, slope_there, width) = (value(low).max(0.0), slope(low), high - low);
-    let bend = (value_there - begin - slope_there * width) / (width * width);
-    let ahead = 2.0 * begin / ((slope_there * slope_there - 4.0 * bend * begin).sqrt() - slope_there);
+    let (value_at_low, slope_at_low, width) = (value(low).max(0.0), slope(low), high - low);
+    let bend = (value_at_high - value_at_low - slope_at_low * width) / (width * width);
+    let discriminant = slope_at_low * slope_at_low - 4.0 * bend * value_at_low;
+    let ahead = 2.0 * value_at_low / (discriminant.sqrt() - slope_at_low);
     let mut t = if ahead > 0.0 && ahead < width { low + ahead } else { low + 0.5 * width };
     let mut last_step = width;
     loop {

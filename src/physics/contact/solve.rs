@@ -274,6 +274,7 @@ impl<'a> System<'a> {
         }
     }
 
+    /// Computes one rate, to the same bits.
     fn rate(&self, index: usize, values: &Values) -> f64 {
         self.bias[index] + self.row(index).iter().zip(values).map(|(w, x)| w * x).sum::<f64>()
     }
