@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::{
     Constants, Event, EventKind, Observer, Rail, Segment,
     chatter::Chatters,
-    guards::{AIR_BUDGET, BUDGET_WITHOUT_REST, MAX_ITERATIONS, MAX_ITERATIONS_WITHOUT_REST, RESTING_BUDGET},
+    guards::{AIR_BUDGET, BUDGET_WITHOUT_REST, ITERATION_COST, LAST_RESORT, RESTING_BUDGET},
     resting::Resting,
     savings::{AllSavings, Savings},
 };
@@ -132,12 +132,10 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     pub(super) next_step: f64,
     /// Whether a prediction has found balls that press on each other but are not yet in `resting`.
     pub(super) pressed: bool,
-    /// Iterations of the event loops so far: events and steps.
-    pub(super) iterations: u32,
     /// Time of the last impact, s, and the number of impacts at that moment.
     pub(super) last_impact: f64,
     pub(super) rounds: u32,
-    /// Work of chatters and resting contacts so far; after the switch to micro-collisions, work of bounces since then.
+    /// Work of the event loops, chatters and resting contacts so far; after the switch to micro-collisions, since then.
     pub(super) effort: Effort,
     /// Work of impacts in the air, which micro-collisions would not reduce.
     pub(super) effort_in_air: Effort,
@@ -165,7 +163,6 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             ended: None,
             next_step: f64::INFINITY,
             pressed: false,
-            iterations: 0,
             last_impact: f64::NEG_INFINITY,
             rounds: 0,
             effort: Effort::default(),
@@ -199,12 +196,10 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         if S::LONE_BALL && S::KEPT_PREDICTIONS && flow.is_continue() && self.is_only_moving_ball(0) {
             flow = self.play_lone_ball(0, &mut now);
         }
-        let mut max_iterations = MAX_ITERATIONS;
-        while flow.is_continue() && self.iterations < max_iterations {
-            self.iterations += 1;
+        while flow.is_continue() && self.effort.spent() + self.effort_in_air.spent() < LAST_RESORT {
+            self.effort.add(ITERATION_COST);
             if self.resting_budget_spent() {
                 flow = self.begin_micro_collisions(now);
-                max_iterations = MAX_ITERATIONS_WITHOUT_REST;
                 if flow.is_break() {
                     break;
                 }
@@ -292,7 +287,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         }
     }
 
-    /// Whether the work of resting contacts exceeds its budget.
+    /// Whether the work exceeds the budget for shots with resting contacts.
     pub(super) fn resting_budget_spent(&self) -> bool {
         self.micro_collisions.is_none() && self.effort.spent() > RESTING_BUDGET
     }

@@ -7,7 +7,7 @@ use super::{
     chatter::{Chatters, chatter_end},
     contacts::{PAIRS_OF, close_gaps, is_in_corner, move_to_cushion, touching},
     engine::{Ball, ContactMode, Engine, PairPrediction, SAME_TIME, only_ball},
-    guards::BOUNCE_COST,
+    guards::{BALL_BOUNCE_COST, RAIL_BOUNCE_COST},
     savings::Savings,
 };
 use crate::{
@@ -166,7 +166,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Resolves all contacts that close now together, if there are several. Returns whether they have collided.
     #[cold]
     pub(super) fn collide_simultaneously(&mut self, now: f64) -> ControlFlow<(), bool> {
-        self.effort.add(BOUNCE_COST);
+        self.effort.add(RAIL_BOUNCE_COST);
         let members = self.resting_members();
         let held = self.resting.as_ref().map(|resting| resting.after(self.table, now - resting.start));
         let mut states: [BallState; BALLS] = std::array::from_fn(|index| match &held {
@@ -239,7 +239,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Records a slow bounce: reports the beginning of a chatter once, and returns whether the bounce itself is reported.
     #[cold]
     pub(super) fn slow_bounce(&mut self, now: f64, contact: &Contact) -> ControlFlow<(), bool> {
-        self.effort.add(BOUNCE_COST);
+        self.effort.add(if contact.second.is_some() { BALL_BOUNCE_COST } else { RAIL_BOUNCE_COST });
         let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
         if !chatters.bounce(contact, now) && self.micro_collisions.is_none() {
             return ControlFlow::Continue(true);

@@ -13,7 +13,7 @@ use super::{
     contacts::{PAIRS_OF, is_in_corner, move_to_cushion},
     cushions::next_cushion_impact,
     engine::{Ball, ContactMode, Engine},
-    guards::MAX_ITERATIONS,
+    guards::ITERATION_COST,
     predict::Prediction,
     savings::Savings,
 };
@@ -37,8 +37,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let near = (constants.diameter + constants.tolerance.touching).powi(2);
         let mut ball = self.balls[index].to_free();
         loop {
-            self.iterations += 1;
-            if self.iterations > MAX_ITERATIONS {
+            self.effort.add(ITERATION_COST);
+            if self.resting_budget_spent() {
                 break;
             }
             let Ball { segment, duration, rail_after, rail, .. } = &ball;

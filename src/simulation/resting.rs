@@ -17,7 +17,7 @@ use super::{
     active_set::{Ended, find_active_set, remove_rounding, transient_pressing, without_ending_slips},
     contacts::{close_gaps, touching},
     extrapolation::{Phase, State, Step, extrapolate},
-    guards::{KNOWN_SET_COST, RESTING_BUDGET, STEP_BUDGET, STEP_COST},
+    guards::{RESTING_BUDGET, STEP_BUDGET, STEP_COST, known_set_cost},
     tolerance::Tolerance,
 };
 use crate::{
@@ -353,7 +353,7 @@ impl Resting {
             let held = if yields || has_no_forces {
                 None
             } else {
-                self.effort.add(KNOWN_SET_COST * self.contacts.len().pow(2) as u64);
+                self.effort.add(known_set_cost(self.contacts.len()));
                 self.scene(table, &phase.balls).accelerations(&self.first)
             };
             let (linear, angular) = held.unwrap_or_else(|| {
@@ -459,7 +459,7 @@ impl Resting {
         if scene.set.yields() || self.uses_solver() {
             return self.search_forces(scene, near, false);
         }
-        self.effort.add(KNOWN_SET_COST * self.contacts.len().pow(2) as u64);
+        self.effort.add(known_set_cost(self.contacts.len()));
         scene.forces(Some(&self.first)).unwrap_or_else(|| self.search_forces(scene, near, true))
     }
 

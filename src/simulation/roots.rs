@@ -1,5 +1,7 @@
 //! Root finding: the first time at which a gap closes, as a root of a polynomial of small degree, isolated between its extrema.
 
+use super::predict::lesser;
+
 /// Highest degree that [`first_crossing`] accepts: the gap of two balls with trajectories of degree five.
 pub const MAX_DEGREE: usize = 10;
 
@@ -12,10 +14,17 @@ const EXTREMUM_STEP: f64 = 1e-9;
 /// Returns the first `t` in `(0, end]` at which `value` falls from positive to below zero, given the coefficients of its derivative, lowest
 /// first.
 ///
-/// The roots of the derivative are found first, by the same method one degree lower. Between them `value` is monotone, so that a sign
-/// change is a single root and none can be missed. `rounding` is the rounding error of `value` near its root: the root is as accurate as that
-/// allows. An initial value at or below zero is treated as just above it.
+/// The Bernstein coefficients of `value` often tell that it has no root or a single one. Otherwise the roots of the derivative are found
+/// first, by the same method one degree lower. Between them `value` is monotone, so that a sign change is a single root and none can be
+/// missed. `rounding` is the rounding error of `value` near its root: the root is as accurate as that allows. An initial value at or below
+/// zero is treated as just above it.
 pub fn first_crossing(value: impl Fn(f64) -> f64, derivative: &[f64], end: f64, rounding: f64) -> Option<f64> {
+    let accuracy = Accuracy { step: 0.5 * f64::EPSILON, value: rounding };
+    match sign_changes(value(0.0), derivative, end, rounding) {
+        Some(0) => return None,
+        Some(1) => return Some(bisect_newton(&value, |t| horner(derivative, t), [0.0, end], value(end), accuracy)),
+        _ => {}
+    }
     let mut turns = [0.0; MAX_ROOTS];
     let count = roots(derivative, end, &mut turns);
     turns[count] = end;
@@ -23,12 +32,31 @@ pub fn first_crossing(value: impl Fn(f64) -> f64, derivative: &[f64], end: f64, 
     for &high in &turns[..=count] {
         let value_at_high = value(high);
         if value_at_high < 0.0 {
-            let accuracy = Accuracy { step: 0.5 * f64::EPSILON, value: rounding };
             return Some(bisect_newton(&value, |t| horner(derivative, t), [low, high], value_at_high, accuracy));
         }
         low = high;
     }
     None
+}
+
+/// Returns the number of sign changes in the Bernstein coefficients of a polynomial on `[0, end]`, given its positive value at zero and the
+/// coefficients of its derivative. With no change it has no root there, and with one change a single root (Descartes' rule). `None` if
+/// rounding decides a sign.
+fn sign_changes(start: f64, derivative: &[f64], end: f64, rounding: f64) -> Option<usize> {
+    let mut slopes = [0.0; MAX_DEGREE + 1];
+    let slopes = bernstein(derivative, end, &mut slopes);
+    let share = end / slopes.len() as f64;
+    let (mut value, mut size, mut least) = (start, start.abs(), start);
+    let (mut changes, mut is_positive) = (0, true);
+    for slope in slopes {
+        let change = share * slope;
+        value += change;
+        size += change.abs();
+        least = lesser(least, value.abs());
+        changes += usize::from((value > 0.0) != is_positive);
+        is_positive = value > 0.0;
+    }
+    (least > 8.0 * rounding + 16.0 * f64::EPSILON * size).then_some(changes)
 }
 
 /// Evaluates a polynomial with coefficients in ascending order of powers.
@@ -97,24 +125,44 @@ fn roots_between_extrema(coefficients: &[f64], end: f64, found: &mut [f64; MAX_R
 
 /// Whether all Bernstein coefficients on `[0, end]` have the same strict sign; they bound the polynomial.
 fn bernstein_shares_sign(coefficients: &[f64], end: f64) -> bool {
-    let degree = coefficients.len() - 1;
-    // b_j = sum_i C(j,i)/C(n,i) c_i end^i: scale once, then apply Pascal's scheme of sums.
     let mut b = [0.0; MAX_DEGREE + 1];
+    let b = bernstein(coefficients, end, &mut b);
+    b.iter().all(|x| *x > 0.0) || b.iter().all(|x| *x < 0.0)
+}
+
+/// Computes the Bernstein coefficients of a polynomial on `[0, end]`: `b_j = sum_i C(j,i) / C(n,i) c_i end^i`.
+#[inline]
+fn bernstein<'b>(coefficients: &[f64], end: f64, b: &'b mut [f64; MAX_DEGREE + 1]) -> &'b [f64] {
+    let degree = coefficients.len() - 1;
     let mut power = 1.0;
-    let mut binomial = 1.0;
-    for (i, c) in coefficients.iter().enumerate() {
-        b[i] = c * power / binomial;
+    for ((b, c), share) in b.iter_mut().zip(coefficients).zip(&INVERSE_BINOMIALS[degree]) {
+        *b = c * power * share;
         power *= end;
-        binomial = binomial * (degree - i) as f64 / (i + 1) as f64;
     }
+    // Pascal's scheme of sums.
     for level in 1..=degree {
         for j in (level..=degree).rev() {
             b[j] += b[j - 1];
         }
     }
-    let b = &b[..=degree];
-    b.iter().all(|x| *x > 0.0) || b.iter().all(|x| *x < 0.0)
+    &b[..=degree]
 }
+
+/// `1 / C(n, i)`, for all degrees `n`.
+const INVERSE_BINOMIALS: [[f64; MAX_DEGREE + 1]; MAX_DEGREE + 1] = {
+    let mut table = [[0.0; MAX_DEGREE + 1]; MAX_DEGREE + 1];
+    let mut n = 0;
+    while n <= MAX_DEGREE {
+        let (mut i, mut binomial) = (0, 1);
+        while i <= n {
+            table[n][i] = 1.0 / binomial as f64;
+            binomial = binomial * (n - i) / (i + 1);
+            i += 1;
+        }
+        n += 1;
+    }
+    table
+};
 
 /// Returns the real roots of `a t² + b t + c` in ascending order, without cancellation.
 fn quadratic(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
@@ -215,6 +263,14 @@ mod tests {
         let line = |t: f64| 1.0 - t;
         assert_eq!(first_crossing(line, &[-1.0], 1.0 - 1e-9, 0.0), None);
         assert!((first_crossing(line, &[-1.0], 1.0 + 1e-9, 0.0).unwrap() - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn sign_changes_count_the_roots_unless_rounding_decides() {
+        let changes = |polynomial: &[f64], end| sign_changes(polynomial[0], &derivative(polynomial), end, 0.0);
+        let two = from_roots(&[0.5, 0.9, -1.0, -2.0]);
+        assert_eq!([0.1, 0.7, 1.0].map(|end| changes(&two, end)), [Some(0), Some(1), Some(2)]);
+        assert_eq!(changes(&[0.5, -1.0], 0.5), None);
     }
 
     /// Near its root the rounded value of a slow approach changes its sign many times: bisection would halve its bracket fifty times.

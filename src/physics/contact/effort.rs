@@ -1,15 +1,15 @@
-//! Counter of the computational work of contacts and impacts, which limits a shot.
+//! Counter of the computational work of a shot, which limits it.
 
 use std::cell::Cell;
 
-/// Approximate number of multiplications: deterministic for a shot on every machine, and nearly proportional to its computing time.
+/// Estimated computing time, ns: a sum of constant costs, so that a shot has the same effort on every machine.
 #[derive(Clone, Debug, Default)]
 pub struct Effort(Cell<u64>);
 
 impl Effort {
     /// Adds to the count.
-    pub fn add(&self, multiplications: u64) {
-        self.0.set(self.0.get() + multiplications);
+    pub fn add(&self, cost: u64) {
+        self.0.set(self.0.get() + cost);
     }
 
     /// Moves the count of `other` to this counter.
