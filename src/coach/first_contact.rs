@@ -23,7 +23,7 @@ pub enum FirstContact {
 }
 
 /// Note on the reported stroke if no attempt begins as requested.
-pub const NO_MATCHING_ATTEMPT: &str = "no such attempt either; this is a plain stroke";
+pub const NO_MATCHING_ATTEMPT: &str = "no attempt begins that way; this is a plain stroke";
 
 /// Error: an unknown name of what is hit first.
 #[derive(Debug, thiserror::Error, PartialEq)]

@@ -25,14 +25,14 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if args.path {
         return Ok(writeln!(out, "{}", path.display())?);
     }
-    let (settings, complaints) = Settings::load(&path);
+    let (settings, mistakes) = Settings::load(&path);
     if !args.check {
         write!(out, "# {}\n{}", path.display(), settings.document())?;
     }
-    for complaint in &complaints {
-        print_note(format_args!("{}: {complaint}", path.display()));
+    for mistake in &mistakes {
+        print_note(format_args!("{}: {mistake}", path.display()));
     }
-    match complaints.len() {
+    match mistakes.len() {
         0 => Ok(()),
         count => Err(Failure::wrong_input(format_args!(
             "{} in {}: what is wrong there is not used",

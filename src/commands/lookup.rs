@@ -173,7 +173,7 @@ pub fn skill_by_name(name: &str) -> Result<Skill, Failure> {
     }
     name.parse().map_err(|error| match error {
         SkillError::Unknown(_) => {
-            Failure::wrong_input(format_args!("{error}; \"{OWN}\" is what carom drill skill --keep kept"))
+            Failure::wrong_input(format_args!("{error}; \"{OWN}\" is what carom drill skill --keep saved"))
         }
         SkillError::Range { .. } | SkillError::Average(_) => Failure::wrong_input(error),
     })

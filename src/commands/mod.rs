@@ -153,19 +153,19 @@ impl Cli {
             Failure::failed(format_args!("the player's folder {folder} cannot be made: {error}"))
         })?;
         let path = &seat.paths.settings;
-        let (settings, complaints) = Settings::load(path);
+        let (settings, mistakes) = Settings::load(path);
         let settings = seat.restrict_settings(settings);
         let table = named.map_or_else(|| input::table_by_name(&settings.table), Ok)?;
         if self.plain {
             if let Some(news) = notice(&seat.paths) {
                 print_note(format_args!("note: {news}"));
             }
-            for complaint in &complaints {
-                print_note(format_args!("{}: {complaint}", path.display()));
+            for mistake in &mistakes {
+                print_note(format_args!("{}: {mistake}", path.display()));
             }
             return refused_lines_result(crate::terminal::run_plain(table, &settings, &seat.paths).map_err(failure)?);
         }
-        crate::terminal::run(table, &settings, &complaints, seat).map_err(failure)
+        crate::terminal::run(table, &settings, &mistakes, seat).map_err(failure)
     }
 
     /// Runs the command.

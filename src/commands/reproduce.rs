@@ -18,7 +18,7 @@ use crate::{
 
 /// Train the thesis' agents again and draw its learning curves.
 ///
-/// These are figures 21 to 25 and 28 to 30, Q-learning, and DDPG with r2. Each is drawn for three readings of the word "episode": one shot,
+/// These are figures 21 to 25 and 28 to 30, Q-learning, and DDPG with r2. Each is drawn for three meanings of the word "episode": one shot,
 /// 20 shots, or until a miss. Two more figures use several seeds. Figure "noise" compares exploration noise of DDPG with three seeds from
 /// --seed on. Figure "future-work" covers the thesis' future work, hindsight and demonstrations, with the five seeds after these (4 to 8
 /// for --seed 1: seeds 1 to 3 were used to choose its settings).

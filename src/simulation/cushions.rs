@@ -82,11 +82,18 @@ fn next_cushion_impact_of_rolling<S: Savings>(
     }
 }
 
-/// Returns when a ball of constant speed closes a gap, s; infinity if it touches the cushion and does not move towards it.
+/// Returns when a ball of constant speed closes a gap, s; infinity if it touches the cushion and does not move towards it. If rounding
+/// decides whether it does, it bounces before it is noticeably behind the cushion.
 #[inline(always)]
 fn at_full_speed(tolerance: &Tolerance, gap: f64, speed: f64) -> f64 {
     let open = if gap > 0.0 { gap } else { 0.0 };
-    if speed > tolerance.opening || (speed > 0.0 && gap > tolerance.touching) { open / speed } else { f64::INFINITY }
+    if speed > tolerance.opening || (speed > 0.0 && gap > tolerance.touching) {
+        open / speed
+    } else if speed > 0.0 {
+        (open + tolerance.coupled_gap) / speed
+    } else {
+        f64::INFINITY
+    }
 }
 
 /// First cushion impact of a trajectory on one axis of the table.
@@ -139,7 +146,12 @@ fn gap_closes(tolerance: &Tolerance, gap: f64, speed: f64, half_acceleration: f6
         return if speed > tolerance.opening {
             0.0
         } else if 2.0 * half_acceleration <= tolerance.pressing {
-            f64::INFINITY
+            // A ball that creeps into the cushion bounces before it is noticeably behind it.
+            if speed > 0.0 {
+                first_closes(gap + tolerance.coupled_gap, speed, half_acceleration)
+            } else {
+                f64::INFINITY
+            }
         } else if speed >= -tolerance.opening {
             PRESSED
         } else {
@@ -191,6 +203,18 @@ mod tests {
             assert_eq!(rail, expected);
             let gap = rail.normal().abs().dot(constants.reach) + at.dot(rail.normal());
             assert!(gap.abs() < 1e-15, "{gap}");
+        }
+    }
+
+    #[test]
+    fn ball_that_creeps_into_a_cushion_bounces_before_it_is_behind_it() {
+        let constants = Constants::of(&Table::default());
+        let creeps = DVec2::new(0.5, 1e-11);
+        let rolls = crate::physics::rolling_spin(constants.radius, creeps).extend(0.0);
+        for spin in [rolls, DVec3::new(0.0, -400.0, 0.0)] {
+            let (ahead, rail, at) = first_cushion(DVec2::new(-0.5, constants.reach.y), creeps, spin);
+            assert!(matches!(ahead, Prediction::Impact(time) if time > 0.1) && rail == Rail::Top, "{ahead:?} {rail:?}");
+            assert!(at.y - constants.reach.y < 1.1 * constants.tolerance.coupled_gap, "{at}");
         }
     }
 

@@ -44,7 +44,7 @@ pub use app::{
 };
 pub use capabilities::{Capabilities, Depth, Glyphs};
 pub use config::{
-    Change, Complaint, Settings, SettingsFile, SettingsReport, SettingsTask, draft::StrokeDraft,
+    Change, Mistake, Settings, SettingsFile, SettingsReport, SettingsTask, draft::StrokeDraft,
     saved_session::SavedSession,
 };
 pub use effect::{Effect, PageId};
@@ -104,12 +104,12 @@ pub enum TerminalError {
     Io(#[from] io::Error),
 }
 
-/// Opens the coach on `table` with the settings of the player at `seat`, until they quit. The `complaints` about the settings are shown as
+/// Opens the coach on `table` with the settings of the player at `seat`, until they quit. The `mistakes` about the settings are shown as
 /// toasts.
 ///
 /// # Errors
 /// [`TerminalError`]: there is no terminal, or it fails.
-pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Seat) -> Result<(), TerminalError> {
+pub fn run(table: Table, settings: &Settings, mistakes: &[Mistake], seat: Seat) -> Result<(), TerminalError> {
     require_terminal(seat.is_guest)?;
     let layout = Layout::opening(&table);
     let paths = &seat.paths;
@@ -119,7 +119,7 @@ pub fn run(table: Table, settings: &Settings, complaints: &[Complaint], seat: Se
         .with_settings(settings)
         .with_notice(storage::notice(paths))
         .with_notice(seat.warning().as_deref());
-    let app = with_saved_state(app, paths).with_complaints(&paths.settings, complaints);
+    let app = with_saved_state(app, paths).with_mistakes(&paths.settings, mistakes);
     Ok(host::runner::run(app, seat.paths)?)
 }
 
@@ -201,12 +201,12 @@ pub fn follow(name: &str, folder: &Path, settings: &Settings, seat: Seat) -> Res
 /// [`TerminalError`]: there is no terminal, or it fails.
 pub fn watch(run: Option<&Path>, list: Option<&Path>) -> Result<(), TerminalError> {
     require_terminal(false)?;
-    let (settings, complaints) = Settings::load(&Settings::path());
+    let (settings, mistakes) = Settings::load(&Settings::path());
     let paths = DataPaths::of_this_user();
     let app = App::watching(detect(&settings), run.map(Path::to_owned), list.map(Path::to_owned))?
         .with_detection(detect)
         .with_settings(&settings);
     // The coach can be opened from there, and then saves this session in place of the last one.
-    let app = with_saved_state(app, &paths).with_complaints(&Settings::path(), &complaints);
+    let app = with_saved_state(app, &paths).with_mistakes(&Settings::path(), &mistakes);
     Ok(host::runner::run(app, paths)?)
 }

@@ -1,6 +1,6 @@
 //! The view of the coach's table that a player shares: a small file in its own folder, present while the player allows it.
 //!
-//! Onlookers read only that file, and validate everything in it, since somebody else has written it.
+//! Viewers read only that file, and validate everything in it, since somebody else has written it.
 
 use std::{
     fs, io,
@@ -102,7 +102,7 @@ pub struct SharedShot {
     pub speed: f64,
     /// Whether the playback is running.
     pub playing: bool,
-    /// Whether the shot has played to its end. The file stores directions in degrees, which changes their last digit: for an onlooker the
+    /// Whether the shot has played to its end. The file stores directions in degrees, which changes their last digit: for a viewer the
     /// same shot may end at a slightly different time.
     #[serde(default)]
     pub over: bool,
@@ -115,10 +115,10 @@ impl SharedShot {
     }
 }
 
-/// What an onlooker finds in a player's folder.
+/// What a viewer finds in a player's folder.
 #[derive(Clone, Debug)]
 pub enum SharedTableState<T> {
-    /// No table: the player shows none or is absent. Onlookers do not learn which.
+    /// No table: the player shows none or is absent. Viewers do not learn which.
     Nothing,
     /// A file that cannot be read.
     Damaged,
@@ -137,7 +137,7 @@ impl SharedTable {
         Self { version: VERSION, doing, table, layout, cue_ball, rule, skill, selected, shot }
     }
 
-    /// Whether `now` has to be written for onlookers who have seen `self` the time `since` ago. A shot that only plays on does not count as
+    /// Whether `now` has to be written for viewers who have seen `self` the time `since` ago. A shot that only plays on does not count as
     /// a change.
     pub fn is_outdated_by(&self, since: Duration, now: &Self) -> bool {
         /// Largest accepted difference between two clocks, seconds of real time.

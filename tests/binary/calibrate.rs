@@ -149,9 +149,9 @@ fn a_session_reports_saved_marks_missing_marks_and_their_meaning() {
     let message = String::from_utf8_lossy(&output.get_output().stderr).into_owned();
     assert!(message.contains("on one line"), "{message}");
     assert!(message.contains("mark    rails: how many short rails it has met, if not 0"), "{message}");
-    let first = "kept: slow-roll, stroke 1: time 9.1; without stop, drift (undo takes it back)\n";
+    let first = "saved: slow-roll, stroke 1: time 9.1; without stop, drift (undo removes it)\n";
     assert!(message.contains(first), "{message}");
-    assert!(message.contains("kept: slow-roll, stroke 2: time 9.2, stop 5.3, drift 2\n"), "{message}");
+    assert!(message.contains("saved: slow-roll, stroke 2: time 9.2, stop 5.3, drift 2\n"), "{message}");
 }
 
 #[test]
@@ -168,10 +168,10 @@ fn a_session_saves_every_entry_and_can_be_resumed() {
     // An impossible mark is refused, and a program that pipes it in learns that from the exit code at the end.
     let printed = play("9.6 5.4 2\n9 99 2\n9.4 5.3\nskip\nlap 4.4 rest 8 stop 3.5\nundo\n4.4 8 3.5 2\n", 2);
     assert!(
-        printed.contains("slow-roll: stop = 99: no ball can be there") && printed.contains("nothing was kept"),
+        printed.contains("slow-roll: stop = 99: no ball can be there") && printed.contains("nothing was saved"),
         "{printed}"
     );
-    assert!(printed.contains("the last entry (lag) is taken back") && printed.contains("mu_r"), "{printed}");
+    assert!(printed.contains("the last entry (lag) was removed") && printed.contains("mu_r"), "{printed}");
     let kept = fs::read_to_string(&file).unwrap();
     assert_eq!(kept.matches("[[trial]]").count(), 3, "{kept}");
     let printed = play("again\n9.9 - 2\ndone\n", 0);

@@ -231,7 +231,7 @@ fn an_unmet_first_contact_wish_is_reported() {
     let (keeps_wish, message) = recommend("0");
     assert!(!keeps_wish && message.contains("with cushion first in "), "{message}");
     assert!(
-        message.contains("; no such attempt either; this is a plain stroke, a larger --simulations may help"),
+        message.contains("; no attempt begins that way; this is a plain stroke, a larger --simulations may help"),
         "{message}"
     );
     let (keeps_wish, message) = recommend("4");

@@ -173,18 +173,18 @@ fn jobs_is_refused_when_resuming_a_single_run() {
 fn a_refused_undo_does_not_block_other_programs() {
     let home = folder();
     let output = drill(home.path(), &["log", "mine", "undo"]);
-    assert!(output.code == Some(1) && output.err.contains("no attempt at mine to take back"), "{}", output.err);
+    assert!(output.code == Some(1) && output.err.contains("no attempt at mine to undo"), "{}", output.err);
     let mut log = command(home.path(), &["drill", "log", "mine"]);
     let mut log = KillOnDrop(log.stdin(Stdio::piped()).spawn().unwrap());
     let mut words = log.stdin.take().unwrap();
     words.write_all(b"undo\n").unwrap();
     let mut answer = String::new();
     BufReader::new(log.stderr.take().unwrap()).read_line(&mut answer).unwrap();
-    assert!(answer.contains("to take back"), "{answer}");
+    assert!(answer.contains("to undo"), "{answer}");
     let other = drill(home.path(), &["log", "mine", "make"]);
     assert_eq!(other.code, Some(0), "{}", other.err);
     drop(words);
-    assert_eq!(log.wait().unwrap().code(), Some(1), "nothing was taken back");
+    assert_eq!(log.wait().unwrap().code(), Some(1), "nothing was undone");
 }
 
 #[test]

@@ -106,7 +106,7 @@ fn doubt(args: &Args, table: &Table) -> Result<TableDoubt, Failure> {
         _ if !args.daily => Ok(prior(table)),
         Some(doubt) => Ok(next_day_doubt(table, doubt)),
         None => Err(Failure::wrong_input(format_args!(
-            "a check of the day needs a table that was calibrated before, and \"{}\" was not; give its file with --table",
+            "a daily check needs a table that was calibrated before, and \"{}\" was not; give its file with --table",
             table.name
         ))),
     }

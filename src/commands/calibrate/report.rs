@@ -93,7 +93,7 @@ impl<'a> Report<'a> {
         let most_useful: Vec<String> =
             found.next.iter().take(NEXT).map(|next| format!("{} ({:.1} bits)", next.test, next.bits)).collect();
         print_line(format_args!(
-            "next, one more stroke of these tests helps most (1 bit halves a doubt): {}",
+            "next, one more stroke of these tests helps most (each bit halves an uncertainty): {}",
             most_useful.join(", ")
         ))
     }

@@ -26,7 +26,7 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
     let path = if args.daily { places.daily_check } else { places.calibration };
     let mut session = Session::open(path, args.daily)?;
     print_note(HELP);
-    print_note(format_args!("entries are kept in {}", session.path.display()));
+    print_note(format_args!("entries are saved in {}", session.path.display()));
     let (mut shown, mut refused) = (None, 0);
     while let Some(test) = session.next() {
         if shown != Some((test.name, session.entries.trials.len())) {
@@ -55,11 +55,11 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
                 Ok(entry) => {
                     let kept = entry_summary(test, &entry);
                     session.add(entry)?;
-                    print_note(format_args!("kept: {}, stroke {}: {kept}", test.name, session.count(test)));
+                    print_note(format_args!("saved: {}, stroke {}: {kept}", test.name, session.count(test)));
                 }
                 Err(what) => {
                     refused += 1;
-                    print_note(format_args!("{}: {what}; nothing was kept", test.name));
+                    print_note(format_args!("{}: {what}; nothing was saved", test.name));
                 }
             },
         }
@@ -102,7 +102,7 @@ fn entry_summary(test: &Test, entry: &Entry) -> String {
     let is_open = |name: &&str| !has(name) && (*name != RAILS || test.rails.is_none());
     match test.field_names().filter(is_open).collect::<Vec<_>>().join(", ") {
         open if open.is_empty() => named,
-        open => format!("{named}; without {open} (undo takes it back)"),
+        open => format!("{named}; without {open} (undo removes it)"),
     }
 }
 
@@ -173,11 +173,11 @@ impl Session {
 
     fn undo(&mut self) -> Result<(), Failure> {
         let Some(entry) = self.entries.trials.last().cloned() else {
-            print_note("there is nothing to take back");
+            print_note("there is nothing to undo");
             return Ok(());
         };
         self.skipped.retain(|name| *name != entry.test);
-        let said = format!("the last entry ({}) is taken back", entry.test);
+        let said = format!("the last entry ({}) was removed", entry.test);
         self.edit(&Edit::Remove(self.entries.trials.len() - 1, entry))?;
         print_note(said);
         Ok(())

@@ -18,7 +18,7 @@ pub fn run(table: &Table, doubt: &TableDoubt, tables: u32, seed: u64, is_json: b
     if is_json {
         return Ok(json_line(&json!({ "tables": tables, "seed": seed, "strokes": strokes, "constants": constants }))?);
     }
-    let heads = ["constant", "95 % intervals that hold", "deviation before", "after", "error"];
+    let heads = ["constant", "95 % intervals with the truth", "deviation before", "after", "error"];
     let row = |one: &Coverage| {
         let share = 100.0 * one.held as f64 / f64::from(tables);
         [

@@ -54,12 +54,12 @@ struct Report {
 impl Report {
     fn of_this_machine() -> Self {
         let paths = DataPaths::of_this_user();
-        let (settings, complaints) = Settings::load(&paths.settings);
+        let (settings, mistakes) = Settings::load(&paths.settings);
         let mut report = Self {
             program: Program { version: VERSION, source: COMMIT, target: TARGET, machine: Machine::this() },
             places: stored_data::folders(&paths),
             screen: Screen::detect(&settings),
-            kept: StoredData::inspect(&paths, &complaints),
+            kept: StoredData::inspect(&paths, &mistakes),
             self_test: SelfTest::run(),
             problems: Vec::new(),
         };

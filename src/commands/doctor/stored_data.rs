@@ -10,7 +10,7 @@ use crate::{
     drills::Store,
     learning::run::list::{Listing, runs_in},
     storage::{DataPaths, folder_state, without_error_numbers},
-    terminal::{Complaint, SavedSession},
+    terminal::{Mistake, SavedSession},
 };
 
 /// Free disk space below which the disk counts as full, bytes: enough for the last checkpoints of a run and a few sessions.
@@ -103,14 +103,14 @@ impl StoredItems {
 
 impl StoredData {
     /// Checks all stored data.
-    pub fn inspect(paths: &DataPaths, complaints: &[Complaint]) -> Self {
+    pub fn inspect(paths: &DataPaths, mistakes: &[Mistake]) -> Self {
         let store = Store::new(paths);
         let (sessions, positions, own) = (store.sessions(), store.positions(), store.own_skill());
         Self {
             settings: StoredItems {
                 path: paths.settings.clone(),
                 count: usize::from(paths.settings.is_file()),
-                wrong: Complaint::sentences(&paths.settings, complaints),
+                wrong: Mistake::sentences(&paths.settings, mistakes),
             },
             tables: tables(paths),
             runs: runs(&paths.runs),

@@ -126,7 +126,7 @@ impl Log {
     }
 
     fn nothing_to_undo(&self) -> String {
-        format!("there is no attempt at {} to take back", self.name)
+        format!("there is no attempt at {} to undo", self.name)
     }
 
     /// Removes the last attempt. If this session has none, it removes that of the last session at a real table, which is then continued.
@@ -192,7 +192,7 @@ impl Log {
             return Ok(json_line(&Logged { session: &self.session.id, score: record.into() })?);
         }
         if record.tried == 0 {
-            return print_line("taken back; this session has no other attempts");
+            return print_line("undone; this session has no other attempts");
         }
         print_line(words(&record))
     }
@@ -224,7 +224,7 @@ impl Log {
         }
         refused_lines_result(refused)?;
         if lacked_undo && !io::stdin().is_terminal() {
-            return Err(Failure::failed("an undo had nothing to take back, as reported above"));
+            return Err(Failure::failed("an undo found nothing to undo, as reported above"));
         }
         Ok(())
     }

@@ -13,7 +13,7 @@ use crate::{
 
 /// The message if the results give only a bound.
 const NO_SKILL: &str =
-    "this is only a bound, not a skill that can be kept: results at exercises of other grades tell more";
+    "this is only a bound, not a skill that can be saved: results at exercises of other grades tell more";
 
 /// Estimate the player's skill from the results at a real table.
 ///
@@ -75,7 +75,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         ));
     }
     if kept {
-        print_line("kept: --skill own is this player")?;
+        print_line("saved: --skill own is this player")?;
     }
     Ok(())
 }

@@ -5,7 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde_json::Value;
 
-use super::figures::{Figure, Measure, Reading};
+use super::figures::{Figure, Measure, Variant};
 use crate::{
     game::Reward,
     learning::{
@@ -76,9 +76,9 @@ pub struct Training {
 
 impl Training {
     /// Creates the training of one curve of a figure.
-    pub fn of(figure: &Figure, reading: Reading, shots: u64, seed: u64) -> Self {
-        let shots = reading.shots(shots);
-        Self { agent: figure.agent, reward: figure.reward, settings: reading.settings(shots), shots, seed }
+    pub fn of(figure: &Figure, variant: Variant, shots: u64, seed: u64) -> Self {
+        let shots = variant.shots(shots);
+        Self { agent: figure.agent, reward: figure.reward, settings: variant.settings(shots), shots, seed }
     }
 
     /// Runs the training. `played` receives the number of shots after each iteration and returns whether to continue; `None` if
@@ -139,13 +139,13 @@ pub fn random_play(table: &Table, reward: Reward, seed: u64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::reproduction::figures::READINGS;
+    use crate::study::reproduction::figures::VARIANTS;
 
     #[test]
     fn curve_has_a_point_per_interval_and_is_reproducible() {
         let table = Table::preset("thesis").unwrap();
         let figure = Figure::named("q-learning").unwrap();
-        let training = |seed| Training::of(&figure, READINGS[0], 12_000, seed);
+        let training = |seed| Training::of(&figure, VARIANTS[0], 12_000, seed);
         let curve = |seed| training(seed).run(&table, &|_| true).unwrap().unwrap();
         let one = curve(1);
         assert_eq!(one.points.iter().map(|point| point.shots).collect::<Vec<_>>(), [10_000, 12_000]);

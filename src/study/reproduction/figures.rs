@@ -49,7 +49,7 @@ pub struct Figure {
     /// Final value of the thesis' curve; `None` if the thesis does not state it.
     pub thesis: Option<f64>,
     /// Its curves.
-    pub readings: &'static [Reading],
+    pub variants: &'static [Variant],
     /// Range of seeds of each curve, relative to the seed of the session.
     pub seeds: [u64; 2],
 }
@@ -62,7 +62,7 @@ const fn figure(
     shots: u64,
     thesis: Option<f64>,
 ) -> Figure {
-    Figure { name, title, agent, reward, measure, shots, thesis, readings: &READINGS, seeds: [0, 1] }
+    Figure { name, title, agent, reward, measure, shots, thesis, variants: &VARIANTS, seeds: [0, 1] }
 }
 
 /// All figures in the thesis' order, followed by DDPG with r1 and different noise, and the thesis' future work.
@@ -88,12 +88,12 @@ pub const FIGURES: [Figure; 12] = {
         figure(("29", "Figure 29: DDPG, r3"), DDPG, Reward::R3, MeanReward, 200_000, Some(0.05)),
         figure(("30", "Figure 30: DDPG, r4"), DDPG, Reward::R4, MeanReward, 200_000, None),
         Figure {
-            readings: &NOISES,
+            variants: &NOISES,
             seeds: [0, 3],
             ..figure(("noise", "DDPG, r1, by noise"), DDPG, Reward::R1, MeanReward, 400_000, Some(0.8))
         },
         Figure {
-            readings: &FUTURE_WORK,
+            variants: &FUTURE_WORK,
             // Seeds 1 to 3 were used to choose the settings.
             seeds: [3, 8],
             ..figure(("future-work", "DDPG, r3, with lessons"), DDPG, Reward::R3, MeanReward, 400_000, Some(0.05))
@@ -102,10 +102,10 @@ pub const FIGURES: [Figure; 12] = {
 };
 
 impl Figure {
-    /// Returns the reading and the seed of every curve; the seed is relative to the seed of the session.
-    pub fn curves(&self) -> impl Iterator<Item = (&'static Reading, u64)> + use<> {
+    /// Returns the variant and the seed of every curve; the seed is relative to the seed of the session.
+    pub fn curves(&self) -> impl Iterator<Item = (&'static Variant, u64)> + use<> {
         let [first, end] = self.seeds;
-        self.readings.iter().flat_map(move |reading| (first..end).map(move |seed| (reading, seed)))
+        self.variants.iter().flat_map(move |variant| (first..end).map(move |seed| (variant, seed)))
     }
 
     /// Returns the figure called `name`.
@@ -181,9 +181,9 @@ impl Change {
     }
 }
 
-/// A reading of the word "episode", which the thesis does not define, or another change to its agent.
+/// A variant of the thesis' agent: a meaning of the word "episode", which the thesis does not define, or another change.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reading {
+pub struct Variant {
     /// Its name in the legend and in the table.
     pub name: &'static str,
     /// Colour of its curve.
@@ -194,17 +194,17 @@ pub struct Reading {
     pub change: Change,
 }
 
-const fn reading(name: &'static str, color: RGBColor, episode: Episode) -> Reading {
-    Reading { name, color, episode, change: Change::None }
+const fn variant(name: &'static str, color: RGBColor, episode: Episode) -> Variant {
+    Variant { name, color, episode, change: Change::None }
 }
 
-const fn changed(name: &'static str, color: RGBColor, change: Change) -> Reading {
-    Reading { name, color, episode: Episode::OneShot, change }
+const fn changed(name: &'static str, color: RGBColor, change: Change) -> Variant {
+    Variant { name, color, episode: Episode::OneShot, change }
 }
 
 /// Noise on DDPG's actions: 0.03, which the thesis' source uses when an episode is one shot, 0.1, and 0.1 decaying; then 0.03
 /// again in the canonical frame and in relative coordinates.
-const NOISES: [Reading; 5] = [
+const NOISES: [Variant; 5] = [
     changed("0.03", CRIMSON, Change::None),
     changed("0.1", AZURE, Change::StrongNoise),
     changed("0.1 falling to 0.005", FOREST, Change::FallingNoise),
@@ -213,7 +213,7 @@ const NOISES: [Reading; 5] = [
 ];
 
 /// The thesis' future work: the thesis' agent, without the relative coordinates of the others; neither extension; each alone; both.
-const FUTURE_WORK: [Reading; 5] = [
+const FUTURE_WORK: [Variant; 5] = [
     changed("the thesis' agent", INK, Change::None),
     changed("neither", CRIMSON, Change::Relative),
     changed("hindsight", AZURE, Change::Lessons { hindsight: 1.0, demonstrations: 0.0 }),
@@ -222,14 +222,14 @@ const FUTURE_WORK: [Reading; 5] = [
 ];
 
 /// One shot; a game of 20 shots; a game until the first miss, of at most 20 shots.
-pub const READINGS: [Reading; 3] = [
-    reading("one shot", CRIMSON, Episode::OneShot),
-    reading("20 shots", AZURE, Episode::Shots(20)),
-    reading("until a miss", FOREST, Episode::UntilMiss(20)),
+pub const VARIANTS: [Variant; 3] = [
+    variant("one shot", CRIMSON, Episode::OneShot),
+    variant("20 shots", AZURE, Episode::Shots(20)),
+    variant("until a miss", FOREST, Episode::UntilMiss(20)),
 ];
 
-impl Reading {
-    /// Returns the number of shots for a reading if one-shot episodes play `shots`. Games play a quarter: their shots are
+impl Variant {
+    /// Returns the number of shots for a variant if one-shot episodes play `shots`. Games play a quarter: their shots are
     /// simulated until all balls are at rest, which takes up to ten times as long.
     pub const fn shots(&self, shots: u64) -> u64 {
         match self.episode {
@@ -238,7 +238,7 @@ impl Reading {
         }
     }
 
-    /// Returns the agent's settings for this reading and number of shots; all others keep the agent's defaults.
+    /// Returns the agent's settings for this variant and number of shots; all others keep the agent's defaults.
     pub fn settings(&self, shots: u64) -> Value {
         let mut settings = self.change.settings(shots);
         settings["episode"] = json!(self.episode);
@@ -251,15 +251,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_figure_has_a_name_and_accepts_every_reading() {
+    fn every_figure_has_a_name_and_accepts_every_variant() {
         use crate::{learning::learner, table::Table};
         for figure in FIGURES {
             assert_eq!(Figure::named(figure.name), Ok(figure));
             let agent = learner::AgentKind::named(figure.agent).unwrap();
-            for reading in figure.readings {
+            for variant in figure.variants {
                 let plan = learner::TrainingPlan { reward: figure.reward, seed: 1, shots: 1 };
-                let learner = (agent.start)(plan, Table::default(), &reading.settings(1)).unwrap();
-                for (name, value) in reading.settings(1).as_object().unwrap() {
+                let learner = (agent.start)(plan, Table::default(), &variant.settings(1)).unwrap();
+                for (name, value) in variant.settings(1).as_object().unwrap() {
                     assert_eq!(learner.settings()[name], *value, "{name}");
                 }
             }

@@ -6,6 +6,6 @@ mod picture;
 mod session;
 
 pub use curves::{Curve, EVALUATION_LAYOUTS, INTERVAL, Point, Training, random_play};
-pub use figures::{Change, FIGURES, Figure, Measure, READINGS, Reading, UnknownFigure};
+pub use figures::{Change, FIGURES, Figure, Measure, UnknownFigure, VARIANTS, Variant};
 pub use picture::picture;
 pub use session::{ReproducedFigure, Session, SessionError, csv, summary};

@@ -8,7 +8,7 @@ use crate::study::chart::{Axis, Chart, GREY, Mark, Panel, RUST, Series, Spot};
 /// Width and height in pixels, without the legend.
 const SIZE: [u32; 2] = [1280, 640];
 
-/// Draws the figure with a curve for every reading and seed, next to the reward of random play and the thesis' value.
+/// Draws the figure with a curve for every variant and seed, next to the reward of random play and the thesis' value.
 ///
 /// # Errors
 /// Fails if the figure cannot be drawn.
@@ -22,12 +22,12 @@ pub fn picture(figure: &Figure, curves: &[&Curve], random: Option<f64>) -> io::R
     let lowest = values.into_iter().fold(0.0, f64::min);
 
     let mut series = Vec::new();
-    for ((reading, seed), curve) in figure.curves().zip(curves) {
+    for ((variant, seed), curve) in figure.curves().zip(curves) {
         let ending = if curve.breakdown.is_some() { " (broke down)" } else { "" };
         let spot = |x, y| Spot { x, y, ..Spot::default() };
         let points = curve.points.iter().map(|point| spot(point.shots as f64 / 1000.0, point.of(figure.measure)));
-        let name = if seed == figure.seeds[0] { format!("{}{ending}", reading.name) } else { String::new() };
-        series.push(Series { name, color: reading.color, mark: Mark::Line, points: points.collect() });
+        let name = if seed == figure.seeds[0] { format!("{}{ending}", variant.name) } else { String::new() };
+        series.push(Series { name, color: variant.color, mark: Mark::Line, points: points.collect() });
     }
     for (value, color, name) in [(random, GREY, "random play"), (figure.thesis, RUST, "the thesis")] {
         let Some(y) = value else { continue };

@@ -8,7 +8,7 @@ use std::{
 
 use super::{
     curves::{Curve, Point, Training, random_play},
-    figures::{Figure, Measure, Reading},
+    figures::{Figure, Measure, Variant},
 };
 use crate::{learning::learner::StartError, platform::parallel, statistics::mean_and_deviation, table::Table};
 
@@ -41,10 +41,10 @@ pub struct ReproducedFigure {
 }
 
 impl ReproducedFigure {
-    /// Returns every curve with its reading and its seed.
-    fn curves(&self) -> impl Iterator<Item = (&'static Reading, u64, &Curve)> {
+    /// Returns every curve with its variant and its seed.
+    fn curves(&self) -> impl Iterator<Item = (&'static Variant, u64, &Curve)> {
         let named = self.figure.curves().zip(&self.curves);
-        named.map(|((reading, more), curve)| (reading, self.seed.wrapping_add(more), curve))
+        named.map(|((variant, more), curve)| (variant, self.seed.wrapping_add(more), curve))
     }
 }
 
@@ -75,7 +75,7 @@ impl Session {
 
     fn trainings_of(&self, figure: &Figure) -> impl Iterator<Item = Training> {
         let (figure, shots, seed) = (*figure, self.shots.unwrap_or(figure.shots), self.seed);
-        figure.curves().map(move |(reading, more)| Training::of(&figure, *reading, shots, seed.wrapping_add(more)))
+        figure.curves().map(move |(variant, more)| Training::of(&figure, *variant, shots, seed.wrapping_add(more)))
     }
 
     /// Returns the number of shots of all trainings together.
@@ -137,10 +137,10 @@ impl Session {
 /// Returns all points of a figure's curves as CSV.
 pub fn csv(drawn: &ReproducedFigure) -> String {
     let mut text = "curve,seed,shots,mean_reward,mean_q,loss\n".to_owned();
-    for (reading, seed, curve) in drawn.curves() {
+    for (variant, seed, curve) in drawn.curves() {
         for Point { shots, mean_reward, mean_q, loss } in &curve.points {
             // Writing to a string cannot fail.
-            let _ = writeln!(text, "{},{seed},{shots},{mean_reward:.5},{mean_q:.5},{loss:.6}", reading.name);
+            let _ = writeln!(text, "{},{seed},{shots},{mean_reward:.5},{mean_q:.5},{loss:.6}", variant.name);
         }
     }
     text
@@ -151,9 +151,9 @@ pub fn csv(drawn: &ReproducedFigure) -> String {
 pub fn summary(drawn: &ReproducedFigure) -> Vec<String> {
     let ReproducedFigure { figure, random, .. } = drawn;
     let held_out = |curve: &Curve| curve.held_out.filter(|_| figure.measure == Measure::MeanReward);
-    let of_curve = |(reading, seed, curve): (&Reading, u64, &Curve)| {
+    let of_curve = |(variant, seed, curve): (&Variant, u64, &Curve)| {
         let last = curve.points.last().map_or(f64::NAN, |point| point.of(figure.measure));
-        let (title, name, measure) = (figure.title, reading.name, figure.measure.label());
+        let (title, name, measure) = (figure.title, variant.name, figure.measure.label());
         let mut line = format!("{title}, {name}, seed {seed}: final {measure} {last:.3}");
         if let Some(reward) = held_out(curve) {
             let _ = write!(line, ", {reward:.3} without exploration, random play {random:.3}");
@@ -163,17 +163,17 @@ pub fn summary(drawn: &ReproducedFigure) -> Vec<String> {
         }
         line
     };
-    let of_seeds = |reading: &Reading| {
-        let of_reading = drawn.curves().filter(|(other, ..)| other.name == reading.name);
-        let rewards: Vec<f64> = of_reading.filter_map(|(.., curve)| held_out(curve)).collect();
+    let of_seeds = |variant: &Variant| {
+        let of_variant = drawn.curves().filter(|(other, ..)| other.name == variant.name);
+        let rewards: Vec<f64> = of_variant.filter_map(|(.., curve)| held_out(curve)).collect();
         let (mean, deviation) = mean_and_deviation(&rewards);
         let deviation = deviation?;
-        let (title, name, seeds) = (figure.title, reading.name, rewards.len());
+        let (title, name, seeds) = (figure.title, variant.name, rewards.len());
         Some(format!(
             "{title}, {name}, {seeds} seeds: mean {mean:.3} without exploration, standard deviation {deviation:.3}"
         ))
     };
-    drawn.curves().map(of_curve).chain(figure.readings.iter().filter_map(of_seeds)).collect()
+    drawn.curves().map(of_curve).chain(figure.variants.iter().filter_map(of_seeds)).collect()
 }
 
 #[cfg(test)]

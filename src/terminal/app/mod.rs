@@ -30,8 +30,8 @@ use crate::{
     storage::DataPaths,
     table::{Layout, LayoutError, Table},
     terminal::{
-        Action, CalibrationAction, Capabilities, CoachAction, CommandPalette, Complaint, DrillAction, Effect, Glyphs,
-        Keys, MAX_GUEST_THINK_MS, PageId, SavedSession, Seat, Settings, SettingsAction, SettingsPage, StrokeDraft,
+        Action, CalibrationAction, Capabilities, CoachAction, CommandPalette, DrillAction, Effect, Glyphs, Keys,
+        MAX_GUEST_THINK_MS, Mistake, PageId, SavedSession, Seat, Settings, SettingsAction, SettingsPage, StrokeDraft,
         Subscriptions, ThemeName, Toasts, TrainingAction,
         pages::{
             Page,
@@ -247,8 +247,8 @@ impl App {
 
     /// Shows what is wrong with the settings.
     #[must_use]
-    pub fn with_complaints(mut self, file: &Path, complaints: &[Complaint]) -> Self {
-        self.toasts.push_first(&Complaint::sentences(file, complaints));
+    pub fn with_mistakes(mut self, file: &Path, mistakes: &[Mistake]) -> Self {
+        self.toasts.push_first(&Mistake::sentences(file, mistakes));
         self
     }
 

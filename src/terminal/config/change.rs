@@ -141,8 +141,8 @@ mod tests {
         let first = changed(None, &Change::Value("mouse", "false".to_owned())).unwrap();
         assert!(first.starts_with(FIRST_LINE) && !read(&first).0.mouse, "{first}");
         let commented = changed(Some("# only this\n[keys]\nx = \"u\"\n"), &Change::Value("plan", "false".to_owned()));
-        let (settings, complaints) = read(&commented.unwrap());
-        assert!(!settings.plan && settings.keys.target_of(key("x")) == Some(key("u")) && complaints.is_empty());
+        let (settings, mistakes) = read(&commented.unwrap());
+        assert!(!settings.plan && settings.keys.target_of(key("x")) == Some(key("u")) && mistakes.is_empty());
     }
 
     #[test]

@@ -8,7 +8,7 @@ use std::{
 use crate::{
     storage::{self, DataPaths, write_atomic},
     terminal::{
-        Change, Complaint, Settings,
+        Change, Mistake, Settings,
         config::{
             change::{changed, is_changeable},
             read::{line_at, read},
@@ -70,7 +70,7 @@ impl SettingsFile {
             Ok(found) => found,
             Err(error) if change.is_some() => return unwritten(None, error.to_string()),
             Err(error) => {
-                let sentence = format!("{}: {}", path.display(), Complaint::of_file(&error));
+                let sentence = format!("{}: {}", path.display(), Mistake::of_file(&error));
                 return report(None, false, vec![sentence]);
             }
         };
@@ -119,8 +119,8 @@ fn settings(bytes: Option<&[u8]>) -> Settings {
 
 /// The mistakes in the file.
 fn troubles(path: &Path, bytes: Option<&[u8]>) -> Vec<String> {
-    let (_, complaints) = read(&String::from_utf8_lossy(bytes.unwrap_or_default()));
-    Complaint::sentences(path, &complaints)
+    let (_, mistakes) = read(&String::from_utf8_lossy(bytes.unwrap_or_default()));
+    Mistake::sentences(path, &mistakes)
 }
 
 #[cfg(test)]

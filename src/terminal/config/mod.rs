@@ -25,7 +25,7 @@ use crate::{
 pub use change::Change;
 pub use entries::{ENTRIES, Entry, quoted};
 pub use file::{SettingsFile, SettingsReport, SettingsTask};
-pub use read::Complaint;
+pub use read::Mistake;
 
 /// The settings of the program.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,11 +92,11 @@ impl Settings {
     }
 
     /// Loads the settings, with the defaults for a missing file and for missing or wrong keys, and the list of mistakes.
-    pub fn load(path: &Path) -> (Self, Vec<Complaint>) {
+    pub fn load(path: &Path) -> (Self, Vec<Mistake>) {
         match storage::read(path, storage::MAX_SMALL_FILE) {
             Ok(bytes) => read::read(&String::from_utf8_lossy(&bytes)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => (Self::default(), Vec::new()),
-            Err(error) => (Self::default(), vec![Complaint::of_file(&error)]),
+            Err(error) => (Self::default(), vec![Mistake::of_file(&error)]),
         }
     }
 

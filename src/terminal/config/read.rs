@@ -27,26 +27,26 @@ const MAX_MISTAKES: usize = 50;
 
 /// A mistake in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Complaint {
+pub struct Mistake {
     /// The line, counted from 1; `None` if the whole file cannot be read.
     pub line: Option<usize>,
     /// What is wrong, and what would be accepted.
     pub text: String,
 }
 
-impl Complaint {
+impl Mistake {
     /// The mistake that the file cannot be read.
     pub fn of_file(error: &io::Error) -> Self {
         Self { line: None, text: format!("it cannot be read: {error}; the defaults are used") }
     }
 
     /// One sentence for each mistake in the file at `path`.
-    pub fn sentences(path: &Path, complaints: &[Self]) -> Vec<String> {
-        complaints.iter().map(|complaint| format!("{}: {complaint}", path.display())).collect()
+    pub fn sentences(path: &Path, mistakes: &[Self]) -> Vec<String> {
+        mistakes.iter().map(|mistake| format!("{}: {mistake}", path.display())).collect()
     }
 }
 
-impl fmt::Display for Complaint {
+impl fmt::Display for Mistake {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(line) = self.line {
             write!(formatter, "line {line}: ")?;
@@ -56,52 +56,50 @@ impl fmt::Display for Complaint {
 }
 
 /// Parses the settings in `text`, with defaults for what is missing or wrong.
-pub fn read(text: &str) -> (Settings, Vec<Complaint>) {
+pub fn read(text: &str) -> (Settings, Vec<Mistake>) {
     let mut settings = Settings::default();
-    let (text, mut complaints) = without_mistakes(text);
+    let (text, mut mistakes) = without_mistakes(text);
     let text = text.as_str();
     let line = |start: usize| Some(line_at(text, start));
     let table = DeTable::parse_recoverable(text).0;
     for (key, value) in table.get_ref() {
-        let mut complain = |text| complaints.push(Complaint { line: line(key.span().start), text });
+        let mut add = |text| mistakes.push(Mistake { line: line(key.span().start), text });
         let name = key.get_ref().as_ref();
         if name == KEYS {
             match value.get_ref().as_table() {
                 Some(keys) => read_keys(&mut settings, keys, |at, text| {
-                    complaints.push(Complaint { line: line(at), text });
+                    mistakes.push(Mistake { line: line(at), text });
                 }),
                 None => {
-                    complain(
-                        "keys is not a section; write [keys] and below it lines like \"x\" = \"Enter\"".to_owned(),
-                    );
+                    add("keys is not a section; write [keys] and below it lines like \"x\" = \"Enter\"".to_owned());
                 }
             }
         } else if let Some(entry) = ENTRIES.iter().find(|entry| entry.key == name) {
             if (entry.set)(&mut settings, value.get_ref()).is_none() {
                 let (given, default) = (shown(text, value), (entry.get)(&Settings::default()));
-                complain(format!("{name} = {given}; accepted is {}. It is taken as {default}", entry.accepted));
+                add(format!("{name} = {given}; accepted is {}. It is taken as {default}", entry.accepted));
             } else if name == TABLE
                 && let Err(sentence) = settings.table()
             {
                 settings.table = Settings::default().table;
-                complain(format!("{sentence}. The table is taken as \"{}\"", settings.table));
+                add(format!("{sentence}. The table is taken as \"{}\"", settings.table));
             }
         } else {
             let known: Vec<&str> = ENTRIES.iter().map(|entry| entry.key).chain([KEYS]).collect();
-            complain(format!("there is no setting \"{name}\"; there are {}", known.join(", ")));
+            add(format!("there is no setting \"{name}\"; there are {}", known.join(", ")));
         }
     }
-    complaints.sort_by_key(|complaint| complaint.line);
-    (settings, complaints)
+    mistakes.sort_by_key(|mistake| mistake.line);
+    (settings, mistakes)
 }
 
 /// Replaces each line that is not valid TOML by blanks, and lists the mistakes. Otherwise one broken line would make the parser drop all
 /// lines after it.
-fn without_mistakes(text: &str) -> (String, Vec<Complaint>) {
-    let (mut text, mut complaints) = (text.to_owned(), Vec::new());
+fn without_mistakes(text: &str) -> (String, Vec<Mistake>) {
+    let (mut text, mut mistakes) = (text.to_owned(), Vec::new());
     loop {
         let errors = DeTable::parse_recoverable(&text).1;
-        let Some(error) = errors.first() else { return (text, complaints) };
+        let Some(error) = errors.first() else { return (text, mistakes) };
         let place = error.span().map_or(0, |span| span.start).min(text.len());
         let number = line_at(&text, place);
         let start = text.as_bytes()[..place].iter().rposition(|byte| *byte == b'\n').map_or(0, |newline| newline + 1);
@@ -111,12 +109,12 @@ fn without_mistakes(text: &str) -> (String, Vec<Complaint>) {
         let text_of = |what: &str| {
             format!("{what} is not taken: {reason}; accepted are lines like name = value, with words in quotes")
         };
-        if written.is_empty() || complaints.len() == MAX_MISTAKES {
+        if written.is_empty() || mistakes.len() == MAX_MISTAKES {
             // Something above is not closed, or the file is not a settings file.
-            complaints.push(Complaint { line: Some(number), text: text_of("the file") });
-            return (String::new(), complaints);
+            mistakes.push(Mistake { line: Some(number), text: text_of("the file") });
+            return (String::new(), mistakes);
         }
-        complaints.push(Complaint { line: Some(number), text: text_of(&written) });
+        mistakes.push(Mistake { line: Some(number), text: text_of(&written) });
         text.replace_range(start..end, &" ".repeat(end - start));
     }
 }
@@ -136,21 +134,21 @@ pub fn line_at(text: &str, place: usize) -> usize {
     text.bytes().take(place).filter(|byte| *byte == b'\n').count() + 1
 }
 
-/// Reads the section of keys; `complain` receives the byte offset of each mistake.
-fn read_keys(settings: &mut Settings, keys: &DeTable, mut complain: impl FnMut(usize, String)) {
+/// Reads the section of keys; `add` receives the byte offset of each mistake.
+fn read_keys(settings: &mut Settings, keys: &DeTable, mut add: impl FnMut(usize, String)) {
     for (key, value) in keys {
         let place = key.span().start;
         let written = key.get_ref().as_ref();
         let Some(pressed) = chord(written) else {
-            complain(place, refused(written));
+            add(place, refused(written));
             continue;
         };
         match value.get_ref().as_str() {
             Some(text) => match chord(text) {
                 Some(meant) => settings.keys.add(pressed, meant),
-                None => complain(place, refused(text)),
+                None => add(place, refused(text)),
             },
-            None => complain(place, format!("\"{written}\" needs the name of another key in quotes, like \"Enter\"")),
+            None => add(place, format!("\"{written}\" needs the name of another key in quotes, like \"Enter\"")),
         }
     }
 }
@@ -185,11 +183,11 @@ mod tests {
     #[test]
     fn every_wrong_line_is_reported_and_the_others_apply() {
         let text = "theme = \"light\"\nspeed = 9.5\nskill = 3\n\ntempo = 1\nthink_ms = 0.5\n[keys]\n\"Hyper-x\" = \"Enter\"\n\"x\" = \"Enter\"\n";
-        let (settings, complaints) = read(text);
+        let (settings, mistakes) = read(text);
         assert_eq!((settings.theme, settings.speed, settings.skill), (ThemeName::Light, 1.0, Skill::EXPERT));
         assert_ne!(settings.keys, Settings::default().keys);
-        let said: Vec<String> = complaints.iter().map(ToString::to_string).collect();
-        assert_eq!(complaints.iter().map(|complaint| complaint.line).collect::<Vec<_>>(), [2, 3, 5, 6, 8].map(Some));
+        let said: Vec<String> = mistakes.iter().map(ToString::to_string).collect();
+        assert_eq!(mistakes.iter().map(|mistake| mistake.line).collect::<Vec<_>>(), [2, 3, 5, 6, 8].map(Some));
         assert!(said[0].contains("speed = 9.5") && said[0].contains("4 or 8"), "{said:?}");
         assert!(said[2].contains("tempo") && said[2].contains("think_ms"), "{said:?}");
         assert!(said[4].contains("Hyper-x"), "{said:?}");
@@ -211,27 +209,26 @@ mod tests {
         let path = folder.path().join("mine.toml");
         let text = toml::to_string(&Table::default()).unwrap().replacen("mu_s = ", "mu_s = -", 1);
         std::fs::write(&path, text).unwrap();
-        let (settings, complaints) = read(&format!("plan = false\ntable = '{}'\n", path.display()));
-        assert_eq!((settings.table.as_str(), settings.plan, complaints.len()), ("match", false, 1));
-        let said = complaints[0].to_string();
+        let (settings, mistakes) = read(&format!("plan = false\ntable = '{}'\n", path.display()));
+        assert_eq!((settings.table.as_str(), settings.plan, mistakes.len()), ("match", false, 1));
+        let said = mistakes[0].to_string();
         assert!(said.starts_with("line 2") && said.contains("mine.toml") && said.contains("mu_s = -"), "{said}");
     }
 
     #[test]
     fn a_file_without_settings_is_given_up_soon() {
-        let (settings, complaints) = read(&"no settings at all\n".repeat(50_000));
-        assert_eq!((settings, complaints.len()), (Settings::default(), MAX_MISTAKES + 1));
+        let (settings, mistakes) = read(&"no settings at all\n".repeat(50_000));
+        assert_eq!((settings, mistakes.len()), (Settings::default(), MAX_MISTAKES + 1));
     }
 
     #[test]
     fn a_syntax_mistake_costs_only_its_line() {
         for wrong in ["theme = dark light", "theme", "theme: \"light\"", "theme = light", "= 3", "\u{20ac}", "[theme"] {
-            let (settings, complaints) =
-                read(&format!("speed = 2.0\n{wrong}\nrule = \"one-cushion\"\njumps = false\n"));
+            let (settings, mistakes) = read(&format!("speed = 2.0\n{wrong}\nrule = \"one-cushion\"\njumps = false\n"));
             assert_eq!((settings.speed, settings.rule, settings.jumps), (2.0, Rule::OneCushion, false), "{wrong}");
             assert_eq!(settings.theme, Settings::default().theme, "{wrong}");
-            let [complaint] = &complaints[..] else { panic!("{wrong}: {complaints:?}") };
-            assert!(complaint.line == Some(2) && complaint.text.contains(wrong), "{complaints:?}");
+            let [mistake] = &mistakes[..] else { panic!("{wrong}: {mistakes:?}") };
+            assert!(mistake.line == Some(2) && mistake.text.contains(wrong), "{mistakes:?}");
         }
     }
 }

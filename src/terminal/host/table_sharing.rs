@@ -14,7 +14,7 @@ use crate::{
     },
 };
 
-/// Smallest interval between two writes; onlookers do not read more often.
+/// Smallest interval between two writes; viewers do not read more often.
 const INTERVAL: Duration = Duration::from_millis(100);
 
 /// Writer of the shared table.

@@ -251,7 +251,7 @@ impl Conversation {
             Command::Films => film::list(),
             Command::Film(number) => film::describe(number, self.units.length)?,
             Command::Undo if self.balls.undo() => self.drop_shots(self.positions()),
-            Command::Undo => return Err("There is nothing to take back.".to_owned()),
+            Command::Undo => return Err("There is nothing to undo.".to_owned()),
             Command::Help => command::help(),
             Command::Quit => String::new(),
         })

@@ -192,7 +192,7 @@ fn impossible_commands_are_reported_and_the_conversation_continues() {
         &[
             "no shot yet",
             "no other shot",
-            "nothing to take back",
+            "nothing to undo",
             "fly",
             "0.0000 m apart",
             "It stops there, in contact with yellow.",

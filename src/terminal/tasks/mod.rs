@@ -124,9 +124,7 @@ impl Tasks {
         })?;
         restart_if_changed(&mut self.followed_table, [&before.followed_table, &now.followed_table], |folder| {
             let mut watcher = TableWatcher::new(folder);
-            Poll::start("onlooker", FOLLOW_INTERVAL, to_screen.clone(), move || {
-                watcher.poll().map(Event::FollowedTable)
-            })
+            Poll::start("viewer", FOLLOW_INTERVAL, to_screen.clone(), move || watcher.poll().map(Event::FollowedTable))
         })?;
         for (n, slot) in FollowSlot::ALL.into_iter().enumerate() {
             restart_if_changed(&mut self.followed[n], [&before.followed[n], &now.followed[n]], |folder| {

@@ -151,7 +151,7 @@ mod tests {
     #[test]
     fn toasts_expire_and_answers_disappear_with_the_next_key() {
         let mut toasts = Toasts::default();
-        toasts.push("there is nothing to take back".to_owned(), true);
+        toasts.push("there is nothing to undo".to_owned(), true);
         toasts.push("the disk is full".to_owned(), false);
         toasts.tick(toasts.time_left().unwrap());
         assert_eq!(texts(&toasts), ["the disk is full"]);

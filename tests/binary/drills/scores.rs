@@ -38,7 +38,7 @@ fn logged_results_are_scored_correctly() {
     assert!(text.contains("not tried yet"), "{text}");
     assert_eq!(undo(1), Some(1));
     let refused = run_with_input(command(folder.path(), &["drill", "log", "mine"]), "undo\n");
-    assert!(refused.code == Some(1) && refused.err.contains("to take back"), "{}", refused.err);
+    assert!(refused.code == Some(1) && refused.err.contains("to undo"), "{}", refused.err);
     // A session without any remaining attempt is not exported.
     let file = folder.path().join("all.json");
     let written = drill(folder.path(), &["export", file.to_str().unwrap()]);
@@ -51,8 +51,8 @@ fn surplus_undos_are_refused_after_the_possible_ones() {
     drill(folder.path(), &["log", "mine", "make", "miss"]);
     let undone = drill(folder.path(), &["log", "mine", "undo", "undo", "undo"]);
     assert_eq!(undone.code, Some(1));
-    assert!(undone.out.contains("taken back; this session has no other attempts"), "{}", undone.out);
-    assert!(undone.err.contains("there is no attempt at mine to take back"), "{}", undone.err);
+    assert!(undone.out.contains("undone; this session has no other attempts"), "{}", undone.out);
+    assert!(undone.err.contains("there is no attempt at mine to undo"), "{}", undone.err);
 }
 
 #[test]

@@ -18,7 +18,7 @@ fn entered_strokes_survive_a_kill() {
         session
     };
     let mut first = start();
-    first.wait_for("1 halves a doubt)");
+    first.wait_for("five-plain helps most (3.8 bits)");
     first.send("\r9.6\r5.4\r725 mm\r\r");
     first.wait_for("1/2");
     first.wait_for("mu_r");

@@ -141,8 +141,8 @@ fn settings_apply_immediately_and_toasts_expire() {
     session.send("\x1bOQ");
     session.wait_for(START_TEXT);
     session.send("u");
-    session.wait_for("there is nothing to take back");
-    session.wait_until("the toast goes", |screen| !screen.contents().contains("there is nothing to take back"));
+    session.wait_for("there is nothing to undo");
+    session.wait_until("the toast goes", |screen| !screen.contents().contains("there is nothing to undo"));
     assert!(session.screen().contents().contains(START_TEXT));
     session.wait_until_quiet(QUIET_TIME);
     assert_eq!(session.count_bytes(Duration::from_millis(500)), 0, "and nothing is left to wake up for");

@@ -195,7 +195,7 @@ fn strokes_can_be_edited_deleted_and_restored() {
     assert!(saved_entries(&none).trials.is_empty());
     none.press("u").warns("nothing to undo yet");
     let anew = measured().press("N y");
-    anew.says("u takes this back");
+    anew.says("u undoes this");
     assert!(saved_entries(&anew).trials.is_empty() && anew.path("calibration.before.toml").exists());
     assert_eq!(saved_entries(&anew.press("u")).trials.len(), 2);
 }
@@ -291,7 +291,7 @@ fn a_table_is_saved_selected_and_checked_daily() {
     checked.says("today a lag rolls");
     assert!(saved_entries(&checked).trials.len() == 2 && checked.path("calibration-daily.toml").exists());
     checked.press("d").shows(&["slow-roll"]);
-    Player::new().press("F7 d").warns("a check of the day needs a calibrated table");
+    Player::new().press("F7 d").warns("a daily check needs a calibrated table");
 }
 
 #[test]

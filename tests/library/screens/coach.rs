@@ -280,7 +280,7 @@ fn undo_and_redo_walk_through_all_changes() {
     let back = moved.press("u u u");
     assert_eq!(*back.app.coach.layout(), start);
     let refused = back.press("u");
-    refused.warns("there is nothing to take back");
+    refused.warns("there is nothing to undo");
     assert_eq!(*refused.press("U U C-r").app.coach.layout(), end);
 }
 

@@ -22,10 +22,10 @@ fn typing_filters_commands_and_enter_runs_the_selected_one() {
     player.shows(&["Placing the balls: undo the last change"]).does_not_show("ask the coach");
     let moved = *player.app.coach.layout();
     let player = player.press("Enter");
-    assert_ne!(*player.app.coach.layout(), moved, "the move was taken back");
+    assert_ne!(*player.app.coach.layout(), moved, "the move was undone");
     assert_eq!(player.app.command_palette.as_ref().map(|_| ()), None);
     let player = player.press("C-p r e c o m m Esc u");
-    player.warns("there is nothing to take back");
+    player.warns("there is nothing to undo");
     assert!(player.press("C-p C-p").app.command_palette.is_none(), "the same key closes the palette");
 }
 

@@ -24,7 +24,7 @@ fn an_unchanged_stroke_needs_a_second_press() {
 #[test]
 fn the_first_note_explains_venue_and_undo() {
     let noted = Player::practising(TRUE_COLOUR).press("n");
-    noted.says("noted for a real table: missed, 0 of 1 now; u takes it back");
+    noted.says("noted for a real table: missed, 0 of 1 now; u undoes it");
     noted.press("m").says("noted: made, 1 of 2 now");
 }
 

@@ -207,10 +207,10 @@ fn results_from_a_real_table_are_noted_and_undone() {
     assert_eq!((sessions.len(), sessions[0].venue, sessions[0].attempts.len()), (1, Venue::Table, 4));
     assert!(sessions[0].attempts.iter().all(|attempt| attempt.advised.is_some() && attempt.played.is_none()));
     let back = player.press("u u");
-    back.says("2 of 2 made").says("taken back: missed, 2 of 2 now");
+    back.says("2 of 2 made").says("undone: missed, 2 of 2 now");
     assert_eq!(back.store().sessions().items[0].attempts.len(), 2);
     let none = back.press("u u u");
-    none.says("no attempt yet").says("no note from a real table can be taken back");
+    none.says("no attempt yet").says("there is no note from a real table to undo");
     // A stroke that is played in the simulator counts separately.
     let played = none.press("m Space Space").wait(60.0);
     assert_eq!(played.store().sessions().items.len(), 2);

@@ -57,7 +57,7 @@ fn a_drag_moves_a_ball_and_is_one_undo_step() {
     assert_eq!(mapping().to_cell(player.app.coach.layout().balls[2]), end, "the ball was released");
     let player = player.press("u");
     assert_eq!(*player.app.coach.layout(), start);
-    assert!(player.press("u").text(120, 40).contains("there is nothing to take back"));
+    assert!(player.press("u").text(120, 40).contains("there is nothing to undo"));
 }
 
 #[test]

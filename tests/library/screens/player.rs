@@ -103,11 +103,11 @@ impl Player {
     /// At the coach, on this table.
     pub fn at_table(caps: Capabilities, table: &Table, folder: TempDir) -> Self {
         let file = folder.path().join("config.toml");
-        let (settings, complaints) = Settings::load(&file);
+        let (settings, mistakes) = Settings::load(&file);
         let app = App::new(table.clone(), Layout::opening(table), caps, 7).unwrap();
         let told = DataPaths { settings: "/home/player/.config/carom/config.toml".into(), ..places(folder.path()) };
         Self {
-            app: app.with_paths(told).with_settings(&settings).with_complaints(&file, &complaints),
+            app: app.with_paths(told).with_settings(&settings).with_mistakes(&file, &mistakes),
             advice_job: None,
             analysis_job: None,
             success_rate_job: None,

@@ -57,8 +57,8 @@ fn a_changed_value_takes_effect_and_is_saved() {
     assert_eq!((query.rule, query.plan, query.jumps), (Rule::ThreeCushion, false, false));
     assert!(player.text(80, 24).contains("jumps") && player.settings_text().contains("jumps = false\n"));
     assert_eq!((player.app.coach.step_mm(), player.app.coach.playback.speed(), player.app.mouse), (50.0, 2.0, false));
-    let (settings, complaints) = Settings::load(&player.path("config.toml"));
-    assert_eq!((settings.think_ms, settings.rule, complaints.len()), (500, Rule::ThreeCushion, 0));
+    let (settings, mistakes) = Settings::load(&player.path("config.toml"));
+    assert_eq!((settings.think_ms, settings.rule, mistakes.len()), (500, Rule::ThreeCushion, 0));
     // Back to the defaults, each in its place.
     let player = player.press(
         "Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Delete Up Up Up Delete",
@@ -361,11 +361,11 @@ proptest! {
             }
         }
         player.picture(width, height);
-        let (settings, complaints) = Settings::load(&player.path("config.toml"));
+        let (settings, mistakes) = Settings::load(&player.path("config.toml"));
         let screen = &player.app.settings;
         prop_assert_eq!(Some(&settings), screen.file.as_ref());
         prop_assert_eq!(&settings.keys, &screen.settings.keys);
-        prop_assert_eq!(complaints.len(), 2);
+        prop_assert_eq!(mistakes.len(), 2);
         let text = player.settings_text();
         prop_assert!(text.starts_with("# mine\nodd = 1\nplan = ") && text.contains(" # behind\n"), "{}", text);
     }

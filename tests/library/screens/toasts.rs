@@ -29,7 +29,7 @@ fn toasts_overlay_the_picture_and_wrap() {
     assert!((0..24).any(|y| picture[(79, y)].fg == warning && picture[(79, y)].symbol() == "│"));
     for caps in [NO_COLOUR, ASCII] {
         let player = with_refusals(Player::with(caps), &[0, 5]).press("u");
-        player.is_plain().shows(&["the weights are damaged", "there is nothing to take back"]);
+        player.is_plain().shows(&["the weights are damaged", "there is nothing to undo"]);
     }
     let long = with_refusals(Player::new(), &[60]);
     assert!(long.text(80, 24).contains("F6 shows all of it"));
@@ -38,7 +38,7 @@ fn toasts_overlay_the_picture_and_wrap() {
 #[test]
 fn toasts_expire_and_answers_vanish_with_the_next_key() {
     let player = Player::new().press("u");
-    player.warns("there is nothing to take back");
+    player.warns("there is nothing to undo");
     assert_eq!(player.app.frame_interval(), None, "nothing moves while it is read");
     let time = player.app.toasts.time_left().unwrap();
     assert!((4.0..8.0).contains(&time), "{time}");
@@ -46,7 +46,7 @@ fn toasts_expire_and_answers_vanish_with_the_next_key() {
     assert_eq!((gone.app.toasts.time_left(), gone.app.toasts.shown.len()), (None, 0));
     assert_eq!(gone.picture(80, 24), Player::new().picture(80, 24), "nothing is left of it");
     let player = with_refusals(gone.press("u"), &[0]).press("Left");
-    assert!(!player.has_toast("there is nothing to take back"));
+    assert!(!player.has_toast("there is nothing to undo"));
     player.warns("the weights are damaged");
     assert!(player.press("Esc").app.toasts.shown.iter().all(|toast| !toast.text.contains("weights")));
 }

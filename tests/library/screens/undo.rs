@@ -36,7 +36,7 @@ fn balls_from_another_table_are_one_undo_step() {
     assert_eq!(place(&back), ("match".to_owned(), Layout::opening(back.app.coach.table())));
     let again = back.press("U");
     assert_eq!(place(&again), taken);
-    again.press("u u").says("there is nothing to take back");
+    again.press("u u").says("there is nothing to undo");
 }
 
 #[test]
@@ -80,14 +80,14 @@ fn undoing_a_change_of_terms_restores_the_shot() {
     ] {
         let changed = Player::new().press("Enter").answer().press(key);
         assert_eq!(cue(&changed), None, "{key}");
-        changed.says("Enter asks the coach, u takes it back");
+        changed.says("Enter asks the coach, u undoes it");
         let back = changed.press("u");
         assert_eq!(cue(&back), Some(known), "{key}");
         assert_eq!(back.app.coach.mode, Mode::Watching, "{key}: told as it was");
         back.says(message);
         let again = back.press("U");
         assert_eq!(cue(&again), None, "{key}");
-        again.press("u u").says("there is nothing to take back");
+        again.press("u u").says("there is nothing to undo");
     }
 }
 

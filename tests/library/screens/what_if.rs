@@ -204,7 +204,7 @@ fn a_stroke_in_words_changes_only_the_stated_values() {
     player.warns("\"softly\" is not understood; accepted are");
     player.shows(&["softly", "Enter take it"]);
     let player = player.press("Esc u");
-    assert_eq!(player.app.coach.watched().unwrap().cue, softer, "one undo takes back all values of one text");
+    assert_eq!(player.app.coach.watched().unwrap().cue, softer, "one undo restores all values of one text");
     let drill = Player::practising(TRUE_COLOUR).press("t").type_in("yellow 1/2 left, 2 up, soft").press("Enter");
     assert!((drill.app.drills.turn.as_ref().unwrap().stroke().b - 0.2).abs() < 1e-9);
     drill.shows(&["50 % full"]);

@@ -86,7 +86,7 @@ const CALIBRATION_NOTES: [&str; 5] = [
      expected. Yours may be elsewhere: how hard you really struck is worked out from them.",
     "A number is a place by eye, right to 0.1 diamonds; 725 mm is one by tape, right to 5 mm; 5.3 ~ 0.2 says how sure you are. \
      Nothing, or -, stands for what you do not know.",
-    "Bits say how much one more stroke of a test should teach: each bit halves a doubt. The second number of a value is one standard deviation.",
+    "Bits say how much one more stroke of a test should teach: each bit halves an uncertainty. The second number of a value is one standard deviation.",
     "Every entry is on the disk at once, in the file that carom calibrate goes on with as well. Both may be open at the same time.",
 ];
 

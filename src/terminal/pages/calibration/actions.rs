@@ -48,7 +48,7 @@ impl CalibrationPage {
                 (self.saved.is_some(), "save the table first (s), or choose a saved one by name in F5")
             }
             Condition::CalibratedTable => {
-                (self.table.doubt.is_some(), "a check of the day needs a calibrated table: save one and play on it")
+                (self.table.doubt.is_some(), "a daily check needs a calibrated table: save one and play on it")
             }
         };
         (!can).then_some(reason)
@@ -78,7 +78,7 @@ impl CalibrationPage {
             Action::DeleteStroke => {
                 let (place, entry) = self.sheet().marked_stroke()?;
                 let edit = Edit::Remove(place, entry.clone());
-                self.message = Some(Message::plain(format!("a stroke of {} is deleted; u takes it back", entry.test)));
+                self.message = Some(Message::plain(format!("a stroke of {} is deleted; u undoes it", entry.test)));
                 return Some(self.edit(edit, false));
             }
             Action::Undo => {
@@ -169,7 +169,7 @@ impl CalibrationPage {
             Question::StartOver => {
                 let count = self.sheet().entries.as_ref().map_or(0, |entries| entries.trials.len());
                 let strokes = if count == 1 { "1 stroke is".to_owned() } else { format!("{count} strokes are") };
-                let text = format!("{strokes} kept as {}; u takes this back", self.backup_file().display());
+                let text = format!("{strokes} kept as {}; u undoes this", self.backup_file().display());
                 self.message = Some(Message::plain(text));
                 Some(self.edit(Edit::ReplaceAll(Entries::default()), false))
             }
@@ -194,7 +194,7 @@ impl CalibrationPage {
                     });
                 }
                 Err(what) => {
-                    let text = format!("{}: {what}; nothing was kept yet", form.test.name);
+                    let text = format!("{}: {what}; nothing is saved yet", form.test.name);
                     self.message = Some(Message::warning(text));
                 }
             }

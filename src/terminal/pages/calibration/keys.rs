@@ -38,7 +38,7 @@ pub enum CalibrationAction {
     Undo,
     /// Switches between the test and the calibrated values.
     ToggleValues,
-    /// Switches between the check of the day and the full calibration.
+    /// Switches between the daily check and the full calibration.
     ToggleDaily,
     /// Asks for the table's name, to save it.
     SaveTable,
@@ -118,7 +118,7 @@ pub const TESTS: &[Binding<A, W>] = &[
     bind(Calibration, W::Always, &[letter('x', A::ToggleLeftOut)], Some(("leave out", 1)), "leave the test out with its strokes, take it in again"),
     bind(Calibration, W::HasResult, &[letter('s', A::SaveTable)], Some(("save", 1)), "save the table under a name"),
     bind(Calibration, W::HasSavedTable, &[letter('p', A::UseTable)], Some(("play on it", 1)), "play on the saved table, here and at every start"),
-    bind(Calibration, W::CalibratedTable, &[letter('d', A::ToggleDaily)], Some(("check of the day", 1)), "two strokes that show how the table plays today; back to all tests"),
+    bind(Calibration, W::CalibratedTable, &[letter('d', A::ToggleDaily)], Some(("daily check", 1)), "two strokes that show how the table plays today; back to all tests"),
     bind(Calibration, W::HasEntries, &[letter('N', A::StartOver)], None, "start again; the entries are kept next to the file"),
     bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the coach"),
 ];
@@ -126,7 +126,7 @@ pub const TESTS: &[Binding<A, W>] = &[
 /// Key bindings of the form for a stroke.
 #[rustfmt::skip]
 pub const FORM: &[Binding<A, W>] = &[
-    bind(Marks, W::Always, &[key(Enter, A::Answer(true))], Some(("next, keep", 1)), "go to the next mark; after the last one keep the stroke"),
+    bind(Marks, W::Always, &[key(Enter, A::Answer(true))], Some(("next, save", 1)), "go to the next mark; after the last one save the stroke"),
     bind(Marks, W::Always, &[key(Down, A::MoveField(1)), key(Up, A::MoveField(-1)), key(Tab, A::MoveField(1)), key(BackTab, A::MoveField(-1))],
         Some(("mark", 2)), "type another mark").each(&["type the next mark", "type the previous mark"]),
     bind(Marks, W::Always, &[ctrl('t', A::ToggleTape)], Some(("by tape", 1)), "this place was measured with a tape, to 5 mm; again for by eye"),

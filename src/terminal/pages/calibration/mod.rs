@@ -112,7 +112,7 @@ impl CalibrationPage {
     pub fn set_table(&mut self, table: &Table) {
         self.table.clone_from(table);
         if self.is_daily && table.doubt.is_none() {
-            // A check of the day needs a calibrated table. An incomplete form is kept.
+            // A daily check needs a calibrated table. An incomplete form is kept.
             self.close_question();
             self.is_daily = false;
         }
@@ -132,7 +132,7 @@ impl CalibrationPage {
         }
     }
 
-    /// The current sheet: that of the full calibration or of the check of the day.
+    /// The current sheet: that of the full calibration or of the daily check.
     pub const fn sheet(&self) -> &Sheet {
         if self.is_daily { &self.daily } else { &self.all }
     }

@@ -1,5 +1,5 @@
 //! A calibration sheet: the strokes entered for the tests, and the values that result. There is one sheet for the full calibration
-//! and one for the check of the day.
+//! and one for the daily check.
 
 use std::path::PathBuf;
 
@@ -28,7 +28,7 @@ pub enum UndoStep {
 pub struct Sheet {
     /// The file.
     pub path: PathBuf,
-    /// Whether this is the sheet of the check of the day.
+    /// Whether this is the sheet of the daily check.
     pub is_daily: bool,
     /// The entries; `None` until the file has been read, or if it cannot be read.
     pub entries: Option<Entries>,

@@ -49,7 +49,7 @@ impl CoachPage {
                 self.current_advice().is_none_or(|advised| advised.choices.len() < 2),
                 "there is no other shot to choose",
             ),
-            CoachCondition::Undoable => refuse(!self.history.can_undo(), "there is nothing to take back"),
+            CoachCondition::Undoable => refuse(!self.history.can_undo(), "there is nothing to undo"),
             CoachCondition::Resumable => refuse(
                 self.earlier_sessions.is_empty() && self.unfinished_exams.is_empty(),
                 "no unfinished exam or earlier session; F3 shows what you practise",

@@ -251,7 +251,7 @@ impl CoachPage {
             self.watch_from_start();
             "its shot is shown"
         } else if had_shot {
-            "Enter asks the coach, u takes it back"
+            "Enter asks the coach, u undoes it"
         } else {
             "Enter asks the coach"
         };

@@ -100,7 +100,7 @@ impl DrillsPage {
                 self.player.own_skill = Some(skill);
                 self.player.choose(skill);
                 self.message = Some(Message::good("this is your skill now: you are the player \"me by my notes\""));
-                self.warn_unsaved(kept, "the skill is taken, but not kept for the next time");
+                self.warn_unsaved(kept, "the skill is used now, but it could not be saved");
                 return self.change_player();
             }
         }
@@ -152,10 +152,10 @@ impl DrillsPage {
             tried => format!("{} of {tried} now", record.made),
         };
         self.message = Some(match (taken_back, session.attempts.last()) {
-            (Some(attempt), _) => Message::plain(format!("taken back: {}, {now}", what(&attempt))),
+            (Some(attempt), _) => Message::plain(format!("undone: {}, {now}", what(&attempt))),
             // The first record may be a mistake, because earlier strokes were played in the program.
             (None, Some(first)) if record.tried == 1 => {
-                Message::plain(format!("noted for a real table: {}, {now}; u takes it back", what(first)))
+                Message::plain(format!("noted for a real table: {}, {now}; u undoes it", what(first)))
             }
             (None, Some(last)) if last.made => Message::good(format!("noted: made, {now}")),
             (None, Some(_)) => Message::plain(format!("noted: missed, {now}")),

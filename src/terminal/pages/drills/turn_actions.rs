@@ -108,7 +108,7 @@ impl Turn {
             (_, Condition::StrokeUndoable | Condition::StrokeSet | Condition::StrokeRedoable) => {
                 self.disabled_reason(Condition::Aiming)
             }
-            (_, Condition::Undoable) => refuse(!self.can_undo(), "no note from a real table can be taken back"),
+            (_, Condition::Undoable) => refuse(!self.can_undo(), "there is no note from a real table to undo"),
             _ => None,
         }
     }

@@ -21,43 +21,43 @@ pub enum Layer {
     /// Grid lines at the ticks.
     Lines,
     /// Raw values of the compared run, behind its mean.
-    OtherBand,
+    ComparedBand,
     /// Raw values of the run itself, behind its mean.
-    OwnBand,
+    MainBand,
     /// The compared run.
-    Other,
+    Compared,
     /// The run itself.
-    Own,
+    Main,
 }
 
 impl Layer {
-    const ALL: [Self; 5] = [Self::Lines, Self::OtherBand, Self::OwnBand, Self::Other, Self::Own];
+    const ALL: [Self; 5] = [Self::Lines, Self::ComparedBand, Self::MainBand, Self::Compared, Self::Main];
 
     fn color(self, theme: &Theme) -> Color {
         match self {
             Self::Lines => theme.grid,
-            Self::OtherBand => theme.bands[1],
-            Self::OwnBand => theme.bands[0],
-            Self::Other => theme.curves[1],
-            Self::Own => theme.curves[0],
+            Self::ComparedBand => theme.bands[1],
+            Self::MainBand => theme.bands[0],
+            Self::Compared => theme.curves[1],
+            Self::Main => theme.curves[0],
         }
     }
 
     /// Style for character sets that show one layer per cell.
     fn style(self, theme: &Theme) -> Style {
         let style = theme.text().fg(self.color(theme));
-        if theme.is_mono() && self != Self::Own { style.add_modifier(Modifier::DIM) } else { style }
+        if theme.is_mono() && self != Self::Main { style.add_modifier(Modifier::DIM) } else { style }
     }
 
     /// The character if a cell is one dot; `None` for layers that could be taken for a curve.
     const fn mark(self, unicode: bool) -> Option<char> {
         match (self, unicode) {
-            (Self::Own, true) => Some('•'),
-            (Self::Other, true) => Some('·'),
-            (Self::Own, false) => Some('*'),
-            (Self::Other, false) => Some('.'),
-            (Self::OwnBand, _) => Some(':'),
-            (Self::OtherBand | Self::Lines, _) => None,
+            (Self::Main, true) => Some('•'),
+            (Self::Compared, true) => Some('·'),
+            (Self::Main, false) => Some('*'),
+            (Self::Compared, false) => Some('.'),
+            (Self::MainBand, _) => Some(':'),
+            (Self::ComparedBand | Self::Lines, _) => None,
         }
     }
 }
@@ -224,10 +224,10 @@ mod tests {
         let caps = Capabilities::TRUE_COLOUR;
         let (theme, area) = (Theme::new(Depth::True), Rect::new(0, 0, 2, 1));
         let mut grid = Grid::new(area, caps, &theme);
-        grid.set_run(Layer::Own, 0, 0, 0);
-        grid.set_run(Layer::Other, 1, -5, 100);
-        grid.set_run(Layer::Other, 3, 3, 3);
-        grid.set_run(Layer::Own, 4, 0, 0);
+        grid.set_run(Layer::Main, 0, 0, 0);
+        grid.set_run(Layer::Compared, 1, -5, 100);
+        grid.set_run(Layer::Compared, 3, 3, 3);
+        grid.set_run(Layer::Main, 4, 0, 0);
         let buffer = drawn(area, caps, |ui| grid.paint(ui));
         assert_eq!((buffer[(0, 0)].symbol(), buffer[(0, 0)].fg), ("⠁", theme.curves[0]));
         assert_eq!((buffer[(1, 0)].symbol(), buffer[(1, 0)].fg), ("⢀", theme.curves[1]));

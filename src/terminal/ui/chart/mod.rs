@@ -34,11 +34,11 @@ const MIN_PLOT_WIDTH: u16 = 6;
 
 /// Which run a curve belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SeriesId {
+pub enum CurveRole {
     /// The run itself.
-    Own,
+    Main,
     /// The run compared with it.
-    Other,
+    Compared,
 }
 
 /// The values of one run.
@@ -49,7 +49,7 @@ pub struct Curve<'a> {
     /// Counts of the non-finite values of the quantity, shown in the title.
     pub non_finite: NonFinite,
     /// The run they belong to.
-    pub whose: SeriesId,
+    pub role: CurveRole,
 }
 
 /// The data and options of a chart.
@@ -80,8 +80,8 @@ pub struct Chart<'a> {
 impl Chart<'_> {
     /// The curves in drawing order, the uppermost last.
     fn ordered(&self) -> impl DoubleEndedIterator<Item = &Curve<'_>> {
-        let of = |whose| self.curves.iter().filter(move |curve| curve.whose == whose);
-        of(SeriesId::Other).chain(of(SeriesId::Own))
+        let of = |role| self.curves.iter().filter(move |curve| curve.role == role);
+        of(CurveRole::Compared).chain(of(CurveRole::Main))
     }
 
     /// Smoothing length in shots, or `None` if the curves are not smoothed.
@@ -133,10 +133,10 @@ pub fn whole(shots: u64, planned: Option<u64>) -> (f64, f64) {
 }
 
 /// A sample of a curve for a legend.
-pub fn curve_mark(whose: SeriesId, theme: &Theme, caps: Capabilities) -> Span<'static> {
-    let layer = match whose {
-        SeriesId::Own => Layer::Own,
-        SeriesId::Other => Layer::Other,
+pub fn curve_mark(role: CurveRole, theme: &Theme, caps: Capabilities) -> Span<'static> {
+    let layer = match role {
+        CurveRole::Main => Layer::Main,
+        CurveRole::Compared => Layer::Compared,
     };
     grid::sample(layer, caps, theme)
 }
@@ -194,9 +194,9 @@ fn sound(shots: (f64, f64)) -> (f64, f64) {
 fn draw_curves(chart: &Chart, scale: Scale, grid: &mut Grid) {
     let frame = Frame { shots: chart.shots, scale };
     for curve in chart.ordered() {
-        let (line, band) = match curve.whose {
-            SeriesId::Own => (Layer::Own, Layer::OwnBand),
-            SeriesId::Other => (Layer::Other, Layer::OtherBand),
+        let (line, band) = match curve.role {
+            CurveRole::Main => (Layer::Main, Layer::MainBand),
+            CurveRole::Compared => (Layer::Compared, Layer::ComparedBand),
         };
         let length = chart.length();
         frame.draw_values(curve.points, if length.is_some() { band } else { line }, grid);

@@ -54,13 +54,13 @@ fn chart<'a>(title: &'a str, curves: &'a [Curve<'a>]) -> Chart<'a> {
     }
 }
 
-fn curve(points: &[Point], whose: SeriesId) -> Curve<'_> {
+fn curve(points: &[Point], role: CurveRole) -> Curve<'_> {
     let add = |sum: NonFinite, next: NonFinite| NonFinite {
         nan: sum.nan + next.nan,
         above: sum.above + next.above,
         below: sum.below + next.below,
     };
-    Curve { points, non_finite: points.iter().map(|point| point.non_finite).fold(NonFinite::default(), add), whose }
+    Curve { points, non_finite: points.iter().map(|point| point.non_finite).fold(NonFinite::default(), add), role }
 }
 
 fn draw(chart: &Chart, area: Rect, theme: &Theme, caps: Capabilities, buffer: &mut Buffer) {
@@ -86,7 +86,7 @@ fn picture(chart: &Chart, size: (u16, u16), caps: Capabilities) -> String {
 fn a_falling_loss_beside_another_run() {
     let own: Vec<_> = (1..=80).map(|n| line(10 * n, (-(n as f64) / 20.0).exp())).collect();
     let other: Vec<_> = (1..=40).map(|n| line(25 * n, 0.5 + 0.1 * (n as f64 / 3.0).sin())).collect();
-    let curves = [curve(&own, SeriesId::Own), curve(&other, SeriesId::Other)];
+    let curves = [curve(&own, CurveRole::Main), curve(&other, CurveRole::Compared)];
     insta::assert_snapshot!(picture(&chart("3 critic loss", &curves), (44, 9), Capabilities::ASCII), @r"
     - 3 critic loss -------------------- 0.0183
        1.0+**
@@ -119,7 +119,7 @@ fn gaps_are_named_and_interrupt_the_curve() {
     (30..40).for_each(|n| points[n] = line(10 * n as u64, f64::NAN));
     points[70] = stretch((700, 709), &[f64::INFINITY, 0.9]);
     points[99] = line(990, f64::NEG_INFINITY);
-    let curves = [curve(&points, SeriesId::Own)];
+    let curves = [curve(&points, CurveRole::Main)];
     insta::assert_snapshot!(picture(&chart("1 mean reward", &curves), (50, 8), Capabilities::ASCII), @r"
     - 1 mean reward ---- NaN x10 inf x1 -inf x1  -inf
          1+    *****                  ******
@@ -157,7 +157,7 @@ fn a_run_without_data_and_one_with_a_single_point() {
           │
      shots 0              0.5k          1.0k
     ");
-    let curves = [curve(&point, SeriesId::Own)];
+    let curves = [curve(&point, CurveRole::Main)];
     insta::assert_snapshot!(picture(&chart("4 held-out success", &curves), (26, 5), Capabilities::TRUE_COLOUR), @r"
     ─ 4 held-out success ─────
          0┤⠁ ⠁ ⠁ ⠁ ⠁ ⠁ ⠁ ⠁ ⠁ ⠁
@@ -187,7 +187,7 @@ fn rows_in(buffer: &Buffer, column: u16) -> Vec<u16> {
 fn a_peak_of_one_record_in_millions_stays_visible() {
     let values = |n: u64| if n == 1234 { vec![0.0, 1.0] } else { vec![0.0, 0.01] };
     let points: Vec<_> = (0..2000).map(|n| stretch((n * 1000, n * 1000 + 900), &values(n))).collect();
-    let curves = [curve(&points, SeriesId::Own)];
+    let curves = [curve(&points, CurveRole::Main)];
     let chart = Chart { shots: whole(2_000_000, None), ..chart("spike", &curves) };
     for glyphs in [Glyphs::Sextant, Glyphs::Half, Glyphs::Letters] {
         let buffer = drawn(&chart, (107, 12), Capabilities { glyphs, ..Capabilities::TRUE_COLOUR });
@@ -200,7 +200,7 @@ fn a_peak_of_one_record_in_millions_stays_visible() {
 #[test]
 fn neighbours_are_joined_however_far_apart() {
     let points = [line(0, 0.0), line(10, 1.0), line(500, 0.0), line(1000, 1.0)];
-    let curves = [curve(&points, SeriesId::Own)];
+    let curves = [curve(&points, CurveRole::Main)];
     let buffer = drawn(
         &chart("zigzag", &curves),
         (67, 22),
@@ -217,7 +217,7 @@ fn neighbours_are_joined_however_far_apart() {
 fn a_range_of_a_curve_is_drawn_like_the_whole_curve() {
     let all: Vec<_> = (0..400).map(|n| line(25 * n, (n as f64 / 30.0).sin())).collect();
     let frame = |points: &[Point]| {
-        let curves = [curve(points, SeriesId::Own)];
+        let curves = [curve(points, CurveRole::Main)];
         picture(&Chart { shots: (3000.0, 5000.0), ..chart("", &curves) }, (60, 12), Capabilities::TRUE_COLOUR)
     };
     // One point beyond either end, as the history returns them.
@@ -244,7 +244,7 @@ proptest! {
             stretch((end - shots / 2, end), &[*value, value / 2.0])
         };
         let points: Vec<_> = values.iter().map(step).collect();
-        let curves = [curve(&points, SeriesId::Own), curve(&points[points.len() / 2..], SeriesId::Other)];
+        let curves = [curve(&points, CurveRole::Main), curve(&points[points.len() / 2..], CurveRole::Compared)];
         let depth = [Depth::True, Depth::Indexed, Depth::Ansi, Depth::Mono][depth];
         let caps = Capabilities { depth, glyphs: [Glyphs::Sextant, Glyphs::Half, Glyphs::Letters][glyphs], unicode };
         let mut buffer = Buffer::filled(Rect::new(0, 0, 70, 24), ratatui::buffer::Cell::new("~"));
@@ -285,7 +285,7 @@ fn bytes_of_frames() -> Vec<usize> {
         let draw = |frame: &mut ratatui::Frame| {
             for (n, quantity) in Quantity::ALL.into_iter().take(4).enumerate() {
                 let points = history.points(quantity, shots.0..=shots.1);
-                let curves = [curve(&points, SeriesId::Own)];
+                let curves = [curve(&points, CurveRole::Main)];
                 let area = Rect::new(60 * (n as u16 % 2), 11 * (n as u16 / 2), 60, 11);
                 let smoothing = if n % 2 == 0 { 0.0 } else { 0.03 };
                 let chart = Chart { shots, smoothing, with_shots: n > 1, ..chart(quantity.name(), &curves) };

@@ -12,7 +12,7 @@ use crate::{
         Capabilities,
         ui::{
             Theme, Ui,
-            chart::{Chart, Curve, SeriesId, label::compact},
+            chart::{Chart, Curve, CurveRole, label::compact},
             separator,
         },
     },
@@ -101,17 +101,17 @@ fn left(chart: &Chart, theme: &Theme, caps: Capabilities) -> Vec<Part> {
 fn right(chart: &Chart, theme: &Theme, caps: Capabilities) -> Vec<Part> {
     let mut parts = Vec::new();
     for curve in chart.ordered().rev() {
-        let style = match (curve.whose, theme.is_mono()) {
-            (SeriesId::Own, _) => theme.warning(),
-            (SeriesId::Other, false) => theme.text().fg(theme.curves[1]),
-            (SeriesId::Other, true) => theme.text().add_modifier(Modifier::DIM),
+        let style = match (curve.role, theme.is_mono()) {
+            (CurveRole::Main, _) => theme.warning(),
+            (CurveRole::Compared, false) => theme.text().fg(theme.curves[1]),
+            (CurveRole::Compared, true) => theme.text().add_modifier(Modifier::DIM),
         };
         let mut add =
             |priority, text: String| parts.extend((!text.is_empty()).then_some(Part { priority, text, style }));
         add(Priority::NotPositive, not_positive_words(curve, chart, caps));
         add(Priority::NonFinite, non_finite_words(curve.non_finite, caps));
     }
-    let own = chart.curves.iter().find(|curve| curve.whose == SeriesId::Own);
+    let own = chart.curves.iter().find(|curve| curve.role == CurveRole::Main);
     let last = own.and_then(|own| own.points.iter().rfind(|point| point.shots.0 as f64 <= chart.shots.1));
     if let Some((text, style)) = last.map(|last| value(last, theme, caps)) {
         parts.push(Part { priority: Priority::Value, text, style });

@@ -124,7 +124,7 @@ fn attempts_noted_by_another_program_are_not_overwritten() {
         noted = noted.press(key);
         assert_eq!(noted.attempt_count(), if key == "m" { 4 } else { 3 });
     }
-    noted.says("taken back: made, 3 of 3 now");
+    noted.says("undone: made, 3 of 3 now");
 }
 
 #[test]

@@ -88,10 +88,10 @@ fn status_line(page: &CalibrationPage) -> Message {
     match sheet.best_next_test() {
         _ if sheet.is_evaluating() => Message::plain("evaluating the marks"),
         Some(best) if entered == 0 => {
-            Message::plain(format!("play a test, then Enter; {} helps most ({})", best.test, bits_words(best.bits)))
+            Message::plain(format!("play a test, then Enter; {} helps most ({:.1} bits)", best.test, best.bits))
         }
         Some(best) if entered < wanted => {
-            Message::plain(format!("next: {} helps most ({})", best.test, bits_words(best.bits)))
+            Message::plain(format!("next: {} helps most ({:.1} bits)", best.test, best.bits))
         }
         Some(best) => Message::good(format!(
             "all is entered: s saves the table; {} would still help most ({:.1} bits)",
@@ -105,11 +105,6 @@ fn status_line(page: &CalibrationPage) -> Message {
         }
         None => Message::plain("choose a test, play it, and enter what was marked"),
     }
-}
-
-/// The information gain of a stroke in words, with an explanation of the unit.
-fn bits_words(bits: f64) -> String {
-    format!("{bits:.1} bits; 1 halves a doubt")
 }
 
 /// Draws the part of the first row after the tabs: what is measured, the table it starts from, and the number of entered strokes.

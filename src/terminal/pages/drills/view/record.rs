@@ -21,7 +21,7 @@ use crate::{
         },
         ui::{
             Message, Ui,
-            chart::{Chart, Curve, SeriesId, curve_mark, draw_chart},
+            chart::{Chart, Curve, CurveRole, curve_mark, draw_chart},
             draw_lines, draw_title, pair, shorten, split, wrap, write_paragraphs, write_right,
         },
         words::chance_words,
@@ -53,7 +53,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
     draw_numbers(rows, skill.as_ref(), scope, numbers, ui);
     let curves: Vec<Curve> = parts
         .iter()
-        .map(|part| Curve { points: &part.points, non_finite: NonFinite::default(), whose: part.whose })
+        .map(|part| Curve { points: &part.points, non_finite: NonFinite::default(), role: part.role })
         .collect();
     let tried = parts.iter().map(|part| part.record.tried).max().unwrap_or(0);
     let chart_of = Chart {
@@ -86,7 +86,7 @@ struct Part {
     venue: Venue,
     record: Record,
     points: Vec<Point>,
-    whose: SeriesId,
+    role: CurveRole,
 }
 
 /// The results at each venue with attempts. The first one has the upper curve.
@@ -96,10 +96,10 @@ fn parts(sessions: &[&Session], scope: Option<&str>) -> Vec<Part> {
         let counts = |_: &Session, attempt: &Attempt| scope.is_none_or(|name| attempt.exercise == name);
         let record = Record::of(sessions.iter().copied(), counts);
         let points = points(&sessions, scope);
-        (record.tried > 0).then_some(Part { venue, record, points, whose: SeriesId::Own })
+        (record.tried > 0).then_some(Part { venue, record, points, role: CurveRole::Main })
     };
     let mut parts: Vec<Part> = Venue::ALL.into_iter().filter_map(part).collect();
-    parts.iter_mut().skip(1).for_each(|part| part.whose = SeriesId::Other);
+    parts.iter_mut().skip(1).for_each(|part| part.role = CurveRole::Compared);
     parts
 }
 
@@ -110,10 +110,10 @@ fn number_rows(parts: &[Part], ui: &Ui) -> Vec<Line<'static>> {
         return vec![row("attempts", "0".to_owned())];
     }
     let mut rows = Vec::new();
-    for Part { venue, record, whose, .. } in parts {
+    for Part { venue, record, role, .. } in parts {
         let made = format!("{} of {}, {}", record.made, record.tried, chance_words(&record.rate));
         if parts.len() > 1 {
-            let mark = curve_mark(*whose, ui.theme, ui.caps);
+            let mark = curve_mark(*role, ui.theme, ui.caps);
             let width = NAMES.saturating_sub(mark.width() + 1);
             let name = Span::styled(format!(" {:<width$}", venue.word()), mark.style);
             rows.push(Line::from(vec![mark, name, Span::styled(made, ui.theme.text())]));

@@ -10,7 +10,7 @@ use crate::{
         pages::training::{Watch, view::panes::grid},
         ui::{
             Ui,
-            chart::{Chart, Curve, SeriesId, draw_chart},
+            chart::{Chart, Curve, CurveRole, draw_chart},
         },
     },
 };
@@ -39,12 +39,16 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
         let other = watch.other.as_ref().map(|other| points(&other.run, quantity, &range));
         let mut curves = Vec::new();
         if let (Some(other), Some(points)) = (&watch.other, &other) {
-            curves.push(Curve { points, non_finite: other.run.history.non_finite(quantity), whose: SeriesId::Other });
+            curves.push(Curve {
+                points,
+                non_finite: other.run.history.non_finite(quantity),
+                role: CurveRole::Compared,
+            });
         }
         curves.push(Curve {
             points: &own,
             non_finite: watch.own.run.history.non_finite(quantity),
-            whose: SeriesId::Own,
+            role: CurveRole::Main,
         });
         let chart = Chart {
             title: &title,

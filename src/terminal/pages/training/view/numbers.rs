@@ -14,7 +14,7 @@ use crate::{
         pages::training::{NamedRun, TrainingPage, Watch},
         ui::{
             Ui,
-            chart::{SeriesId, curve_mark},
+            chart::{CurveRole, curve_mark},
             draw_lines, draw_title, write_right,
         },
         words::{count, time_words},
@@ -61,8 +61,8 @@ pub fn draw(training: &TrainingPage, watch: &Watch, area: Rect, ui: &mut Ui) {
 /// Draws the legend of a comparison: the sign of each run's curve, and the progress of the other run. Returns the rest of the panel.
 fn draw_legend(watch: &Watch, area: Rect, ui: &mut Ui) -> Rect {
     let Some(other) = &watch.other else { return area };
-    let named = |whose, named: &NamedRun| {
-        let mark = curve_mark(whose, ui.theme, ui.caps);
+    let named = |role, named: &NamedRun| {
+        let mark = curve_mark(role, ui.theme, ui.caps);
         let name = Span::styled(format!(" {}", named.name), mark.style);
         Line::from(vec![mark, name])
     };
@@ -73,7 +73,7 @@ fn draw_legend(watch: &Watch, area: Rect, ui: &mut Ui) -> Rect {
         count(other.run.shots())
     );
     let far = Line::styled(format!("   {far}"), ui.theme.text());
-    let lines = [named(SeriesId::Own, &watch.own), named(SeriesId::Other, other), far];
+    let lines = [named(CurveRole::Main, &watch.own), named(CurveRole::Compared, other), far];
     let rows = (lines.len() as u16).min(area.height);
     draw_lines(lines, Rect { x: area.x + 1, width: area.width.saturating_sub(1), ..area }, ui);
     Rect { y: area.y + rows, height: area.height - rows, ..area }
