@@ -1,6 +1,5 @@
-//! Root finding: the first time at which a gap closes, as a root of a polynomial of small degree, isolated between its extrema.
-
-use super::predict::lesser;
+//! Root finding: the first time at which a gap closes, as a root of a polynomial of small degree, isolated by Descartes' rule or between
+//! extrema.
 
 /// Highest degree that [`first_crossing`] accepts: the gap of two balls with trajectories of degree five.
 pub const MAX_DEGREE: usize = 10;
@@ -52,7 +51,7 @@ fn sign_changes(start: f64, derivative: &[f64], end: f64, rounding: f64) -> Opti
         let change = share * slope;
         value += change;
         size += change.abs();
-        least = lesser(least, value.abs());
+        least = least.min(value.abs());
         changes += usize::from((value > 0.0) != is_positive);
         is_positive = value > 0.0;
     }
