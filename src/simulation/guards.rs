@@ -3,7 +3,7 @@
 //! The work is an estimate of the computing time, not a measurement, so that a shot is the same on every machine. The costs, in nanoseconds
 //! of a core of an AMD EPYC, follow from the times of 5,700 slow shots of the stability cases (least squares, then raised where it
 //! underestimated the slowest shots; 2026-11-30). For nine in ten of these shots the estimate is 0.9 to 2 times the time, and at least 0.6
-//! times for shots of more than 20 ms. Searches for roots are counted only in the average of their events.
+//! times for shots of more than 20 ms. Searches for roots are not counted separately.
 
 /// Cost of an iteration of the event loops, ns: the end of a motion phase, an impact, or a step of resting contacts.
 pub const ITERATION_COST: u64 = 100;

@@ -19,21 +19,22 @@ const EXTREMUM_STEP: f64 = 1e-9;
 /// zero is treated as just above it.
 pub fn first_crossing(value: impl Fn(f64) -> f64, derivative: &[f64], end: f64, rounding: f64) -> Option<f64> {
     let accuracy = Accuracy { step: 0.5 * f64::EPSILON, value: rounding };
-    match sign_changes(value(0.0), derivative, end, rounding) {
+    let root = |bracket, values| bisect_newton(&value, |t| horner(derivative, t), bracket, values, accuracy);
+    let (mut low, mut value_at_low) = (0.0, value(0.0));
+    match sign_changes(value_at_low, derivative, end, rounding) {
         Some(0) => return None,
-        Some(1) => return Some(bisect_newton(&value, |t| horner(derivative, t), [0.0, end], value(end), accuracy)),
+        Some(1) => return Some(root([low, end], [value_at_low, value(end)])),
         _ => {}
     }
     let mut turns = [0.0; MAX_ROOTS];
     let count = roots(derivative, end, &mut turns);
     turns[count] = end;
-    let mut low = 0.0;
     for &high in &turns[..=count] {
         let value_at_high = value(high);
         if value_at_high < 0.0 {
-            return Some(bisect_newton(&value, |t| horner(derivative, t), [low, high], value_at_high, accuracy));
+            return Some(root([low, high], [value_at_low, value_at_high]));
         }
-        low = high;
+        (low, value_at_low) = (high, value_at_high);
     }
     None
 }
@@ -114,7 +115,7 @@ fn roots_between_extrema(coefficients: &[f64], end: f64, found: &mut [f64; MAX_R
             let sign = if high_value < 0.0 { 1.0 } else { -1.0 };
             let (value, slope) = (|t| sign * horner(coefficients, t), |t| sign * horner(slope, t));
             let accuracy = Accuracy { step: EXTREMUM_STEP, value: 0.0 };
-            found[count] = bisect_newton(value, slope, [low, high], -high_value.abs(), accuracy);
+            found[count] = bisect_newton(value, slope, [low, high], [sign * low_value, sign * high_value], accuracy);
             count += 1;
         }
         (low, low_value) = (high, high_value);
@@ -183,17 +184,17 @@ struct Accuracy {
     value: f64,
 }
 
-/// Returns the root of a function that falls from positive at `low` to `value_at_high` below zero: Newton's method, with bisection
-/// if a step leaves the bracket or shrinks too slowly. It starts from the root of the parabola that has the function's values at both ends
-/// and its slope at `low`.
+/// Returns the root of a function that falls from positive to negative between two points with these values: Newton's method, with bisection
+/// if a step leaves the bracket or shrinks too slowly. It starts from the root of the parabola that has both values and the slope at the
+/// first point.
 fn bisect_newton(
     value: impl Fn(f64) -> f64,
     slope: impl Fn(f64) -> f64,
     [mut low, mut high]: [f64; 2],
-    value_at_high: f64,
+    [value_at_low, value_at_high]: [f64; 2],
     accuracy: Accuracy,
 ) -> f64 {
-    let (value_at_low, slope_at_low, width) = (value(low).max(0.0), slope(low), high - low);
+    let (value_at_low, slope_at_low, width) = (value_at_low.max(0.0), slope(low), high - low);
     let bend = (value_at_high - value_at_low - slope_at_low * width) / (width * width);
     let discriminant = slope_at_low * slope_at_low - 4.0 * bend * value_at_low;
     let ahead = 2.0 * value_at_low / (discriminant.sqrt() - slope_at_low);
