@@ -21,7 +21,7 @@ use crate::{
     game::Rule,
     learning::Policy,
     physics::{CueInputs, signed_angle},
-    platform::parallel,
+    platform::parallel::Team,
     statistics::SuccessRate,
     table::{Layout, LayoutError, Table},
 };
@@ -126,9 +126,19 @@ impl Coach {
         &self,
         layout: &Layout,
         request: &Request,
-        mut on_improvement: impl FnMut(&Improvement),
+        on_improvement: impl FnMut(&Improvement),
     ) -> Result<Recommendation, LayoutError> {
         layout.validate(&self.table)?;
+        Ok(Team::awake(request.threads, |team| self.answer(layout, request, team, on_improvement)))
+    }
+
+    fn answer(
+        &self,
+        layout: &Layout,
+        request: &Request,
+        team: &Team,
+        mut on_improvement: impl FnMut(&Improvement),
+    ) -> Recommendation {
         let clock = Clock::start(request.budget, request.simulations, &request.cancel);
         let doubt = request.shooter().effective_doubt();
         let [worlds, level] = [Worlds::new, Worlds::level].map(|worlds| worlds(&self.table, layout, doubt));
@@ -145,14 +155,15 @@ impl Coach {
             max_contact_steps: CONTACT_STEPS,
         };
         let policy = self.policy(request.rule, &request.skill);
-        let proposals = policy.map_or_else(Vec::new, |policy| policy.proposals(&self.table, layout, &request.skill));
+        let proposals =
+            policy.map_or_else(Vec::new, |policy| policy.proposals_by(team, &self.table, layout, &request.skill));
         let strokes: Vec<CueInputs> = proposals.iter().map(|proposal| proposal.cue).collect();
         let found = FirstShotSearch::new(task).run(&strokes, &request.former, request.seed);
         let answer = if request.skill.is_perfect() || found.solutions.is_empty() {
             first_point_answer(&found)
         } else {
             let mut last_reported = None;
-            let search = Search::new(task, request.plan, request.threads, request.seed);
+            let search = Search::new(task, request.plan, team, request.seed);
             let pool = search.run(&strokes, &found.solutions, &mut |leader| {
                 // The same shot with more attempts is not an improvement.
                 if last_reported.replace(leader.shot.cue) != Some(leader.shot.cue) {
@@ -165,9 +176,10 @@ impl Coach {
                 pool,
                 &Task { worlds: &worlds, max_contact_steps: UNLIMITED_STEPS, deadline, ..task },
                 request,
+                team,
             )
         };
-        Ok(Recommendation { simulations: clock.simulations(), elapsed: clock.elapsed(), ..answer })
+        Recommendation { simulations: clock.simulations(), elapsed: clock.elapsed(), ..answer }
     }
 }
 
@@ -175,7 +187,13 @@ impl Coach {
 /// other kinds by errors that took no part in the choice.
 /// A search with few attempts may choose wrongly: if another shot seems to be made more often, both are judged by as
 /// many attempts, and the better one is the answer.
-fn robust_answer(found: &FirstShots, mut pool: Vec<Candidate>, task: &Task, request: &Request) -> Recommendation {
+fn robust_answer(
+    found: &FirstShots,
+    mut pool: Vec<Candidate>,
+    task: &Task,
+    request: &Request,
+    team: &Team,
+) -> Recommendation {
     retain_one_of_each_kind(&mut pool, task.skill, task.table.radius);
     pool.truncate(1 + ALTERNATIVES);
     // Each piece is drawn by the first thread that needs it, so that no time is spent on pieces that are never used.
@@ -185,7 +203,7 @@ fn robust_answer(found: &FirstShots, mut pool: Vec<Candidate>, task: &Task, requ
         candidates.iter().flat_map(|candidate| pieces.clone().map(|piece| (*candidate, piece))).collect()
     };
     let judged = |pieces: &[(usize, usize)]| {
-        parallel::map(request.threads, pieces, |&(index, piece)| {
+        team.map(pieces, |&(index, piece)| {
             let draw = || judging_draws(task.worlds, request.seed, piece);
             (index, task.attempts(&pool[index].shot.cue, attempts[piece].get_or_init(draw).iter()))
         })
@@ -243,7 +261,7 @@ fn robust_answer(found: &FirstShots, mut pool: Vec<Candidate>, task: &Task, requ
         kind: Some(best.kind),
         make_probability: rates[0],
         judged_from,
-        risk: risk(&best.shot.cue, task, request, judging_seed(request.seed)),
+        risk: risk(&best.shot.cue, task, request, team),
         next_probability: known_next(best.next),
         is_planned: request.plan,
         alternatives,
@@ -264,15 +282,15 @@ fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>]) -> Vec<usi
 }
 
 /// Estimates how often each cause alone misses a shot; `None` if nothing is in doubt, or time runs out.
-fn risk(cue: &CueInputs, task: &Task, request: &Request, seed: u64) -> Option<Risk> {
+fn risk(cue: &CueInputs, task: &Task, request: &Request, team: &Team) -> Option<Risk> {
     if task.worlds.is_certain() || task.clock.is_past(task.deadline) {
         return None;
     }
-    let missed = parallel::map(request.threads.min(Cause::ALL.len()), &Cause::ALL, |cause| {
+    let missed = team.map(&Cause::ALL, |cause| {
         let (doubt, errs) = cause.isolated(request.doubt);
         let worlds = Worlds::new(task.table, task.layout, doubt);
         let skill = if errs { task.skill } else { Skill::PERFECT };
-        let draws = Draws::independent(ATTEMPTS_PER_CAUSE, &worlds, seed);
+        let draws = Draws::independent(ATTEMPTS_PER_CAUSE, &worlds, judging_seed(request.seed));
         let task = Task { worlds: &worlds, skill, ..*task };
         let Attempts { tried, made } = task.attempts(cue, draws.iter());
         (tried == ATTEMPTS_PER_CAUSE).then(|| 1.0 - made as f64 / ATTEMPTS_PER_CAUSE as f64)

@@ -8,7 +8,7 @@ use super::{
     pool::{ATTEMPTS_PER_BLOCK, Candidate, Race, assign_worst_next_value},
     trial::Task,
 };
-use crate::{physics::CueInputs, platform::parallel};
+use crate::{physics::CueInputs, platform::parallel::Team};
 
 /// Strokes that are intended within this distance of each other, in standard errors, are merged: they would climb to
 /// the same optimum.
@@ -39,9 +39,6 @@ pub const MIN_IMPROVEMENT: f64 = 0.02;
 
 /// Blocks in one work item of a thread.
 const CHUNK_SIZE: usize = 4;
-
-/// Blocks of evidence from which on the climb uses several threads; below, waking them takes longer.
-const MIN_PARALLEL_BLOCKS: usize = 2000;
 
 /// Attempts after which a stroke that has never missed, within [`CERTAIN_MISS_RATE`], is good enough to end the search early.
 const CERTAIN_ATTEMPTS: f64 = 576.0;
@@ -101,8 +98,8 @@ fn keep_former(climbers: &mut [Climber], live: usize) -> usize {
 pub struct Refinement<'a> {
     /// The problem for which strokes are tried.
     pub task: Task<'a>,
-    /// Number of worker threads.
-    pub threads: usize,
+    /// The threads that work.
+    pub team: &'a Team,
     /// The share of the budget at which it ends.
     pub end: f64,
     /// Whether the next point counts too.
@@ -198,9 +195,7 @@ impl Refinement<'_> {
     fn climb(&self, climbers: &mut [Climber], each: usize) {
         let Self { task, race, .. } = self;
         let points = (ATTEMPTS_PER_BLOCK * each / ATTEMPTS_PER_POINT).clamp(MIN_POINTS, MAX_POINTS);
-        let evidence: usize = climbers.iter().map(|climber| climber.blocks).sum();
-        let threads = if self.plan || evidence >= MIN_PARALLEL_BLOCKS { self.threads } else { 1 };
-        let moved = parallel::map(threads, climbers, |climber| {
+        let moved = self.team.map(climbers, |climber| {
             let Climber { best, distribution, evidence, .. } = climber;
             let source = if best.shot.source == Source::Search { Source::Search } else { Source::Variation };
             let ways = evidence.improved_strokes(task.table, task.skill, distribution);
@@ -234,9 +229,9 @@ impl Refinement<'_> {
                 blocks.step_by(CHUNK_SIZE).map(move |begin| (index, begin..(begin + CHUNK_SIZE).min(end)))
             })
             .collect();
-        let tried = parallel::map(self.threads, &pieces, |(index, blocks)| {
-            race.attempts(task, &climbers[*index].best.shot.cue, blocks.clone())
-        });
+        let tried = self
+            .team
+            .map(&pieces, |(index, blocks)| race.attempts(task, &climbers[*index].best.shot.cue, blocks.clone()));
         let tried: Vec<_> =
             pieces.into_iter().zip(tried).filter_map(|((index, _), tried)| Some((index, tried?))).collect();
         for (index, climber) in climbers.iter_mut().enumerate() {
@@ -313,7 +308,7 @@ mod tests {
         let turned = |n: i32| CueInputs { phi: found.phi + 0.1 * f64::from(n) * skill.at(&found).phi, ..found };
         let made = (-40..=0).filter_map(|n| Candidate::new(&task, turned(n), Source::Search, 0.0));
         let pool: Vec<_> = made.take(2).map(|candidate| race.advance(&task, &candidate, 8).unwrap()).collect();
-        let refinement = Refinement { task, threads: 2, end: 1.0, plan: false, weight: 0.0, race };
+        let refinement = Refinement { task, team: &Team::of(2), end: 1.0, plan: false, weight: 0.0, race };
         let merged = refinement.merged(&pool);
         assert_eq!((merged.len(), merged[0].blocks), (1, 8));
         assert!(merged[0].best.own_rate.attempts > 40.0, "both have 24: {:?}", merged[0].best);

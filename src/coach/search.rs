@@ -14,7 +14,7 @@ use super::{
     refinement::Refinement,
     trial::Task,
 };
-use crate::{game::Tally, physics::CueInputs, platform::parallel};
+use crate::{game::Tally, physics::CueInputs, platform::parallel::Team};
 
 /// Blocks of errors at which sampled shots are tried: first all shots, then those that still rank well.
 const FIRST_PASS_BLOCKS: usize = 2;
@@ -68,7 +68,7 @@ const CHUNK_SIZE: usize = 32;
 /// The state of a search.
 pub struct Search<'a> {
     task: Task<'a>,
-    threads: usize,
+    team: &'a Team,
     /// The end times of the two stages, as shares of the whole budget.
     sampling_end: f64,
     refinement_end: f64,
@@ -79,15 +79,15 @@ pub struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// Creates a search for `task` on this number of threads. With `plan`, the next point counts too. The time that is
+    /// Creates a search for `task` on the threads of `team`. With `plan`, the next point counts too. The time that is
     /// left now is divided among the stages.
-    pub fn new(task: Task<'a>, plan: bool, threads: usize, seed: u64) -> Self {
+    pub fn new(task: Task<'a>, plan: bool, team: &'a Team, seed: u64) -> Self {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let race = Race::new(rng.random());
         let begins = task.clock.used_share().min(1.0);
         let [sampling_end, refinement_end] =
             [SAMPLING_END, REFINEMENT_END].map(|share| begins + share * (1.0 - begins));
-        Self { task, threads, sampling_end, refinement_end, rng, plan, race, pool: Vec::new() }
+        Self { task, team, sampling_end, refinement_end, rng, plan, race, pool: Vec::new() }
     }
 
     /// Searches from the successful shots in `found` and from variations of `proposals`. Returns the candidates, best
@@ -112,7 +112,7 @@ impl<'a> Search<'a> {
         self.race.extend_to(self.task.worlds, SECOND_PASS_BLOCKS);
         let raced =
             |candidate: &Candidate| self.race.advance(&self.task, candidate, SECOND_PASS_BLOCKS).unwrap_or(*candidate);
-        self.pool = parallel::map(self.threads, &found, raced);
+        self.pool = self.team.map(&found, raced);
         self.sample(proposals, on_leader);
         self.refine(on_leader)
     }
@@ -185,7 +185,7 @@ impl<'a> Search<'a> {
             if candidate.score() < bar { Some(candidate) } else { race.advance(task, &candidate, SECOND_PASS_BLOCKS) }
         };
         let is_time_left = || !task.clock.is_past(task.deadline);
-        let found = parallel::map(self.threads, &pieces, |piece| {
+        let found = self.team.map(&pieces, |piece| {
             if !is_time_left() {
                 return Vec::new();
             }
@@ -202,8 +202,8 @@ impl<'a> Search<'a> {
         let size = Refinement::size(self.task.clock.remaining_simulations(self.refinement_end), SHORTLIST);
         retain_best(&mut self.pool, size, KEPT_OF_EACH_KIND);
         let weight = self.weight();
-        let Self { task, threads, refinement_end: end, plan, race, pool, .. } = self;
-        Refinement { task, threads, end, plan, weight, race }.run(&pool, on_leader)
+        let Self { task, team, refinement_end: end, plan, race, pool, .. } = self;
+        Refinement { task, team, end, plan, weight, race }.run(&pool, on_leader)
     }
 
     fn report_leader(&self, on_leader: &mut dyn FnMut(&Candidate)) {
@@ -241,13 +241,13 @@ mod tests {
 
     #[test]
     fn sampling_leaves_simulations_for_the_refinement() {
-        let (table, cancel) = (Table::default(), AtomicBool::new(false));
+        let (table, cancel, team) = (Table::default(), AtomicBool::new(false), Team::of(2));
         let layout = Layout::opening(&table);
         let worlds = Worlds::new(&table, &layout, Doubt::NONE);
         for (rule, simulations) in Rule::ALL.into_iter().flat_map(|rule| [4_000, 10_000, 25_000].map(|n| (rule, n))) {
             let clock = Clock::start(Duration::from_secs(600), simulations, &cancel);
             let task = expert(&table, &layout, rule, &worlds, &clock);
-            let mut search = Search::new(task, false, 2, 1);
+            let mut search = Search::new(task, false, &team, 1);
             search.task.deadline = clock.deadline(search.sampling_end);
             search.race.extend_to(task.worlds, SECOND_PASS_BLOCKS);
             search.sample(&[], &mut |_| ());
@@ -259,6 +259,7 @@ mod tests {
     #[test]
     fn late_search_divides_the_remaining_time() {
         let (table, cancel, budget) = (Table::default(), AtomicBool::new(false), Duration::from_secs(2));
+        let team = Team::of(2);
         let layout = Layout::opening(&table);
         let worlds = Worlds::new(&table, &layout, Doubt::NONE);
         let clock = Clock::start(budget, u64::MAX, &cancel);
@@ -267,12 +268,12 @@ mod tests {
         // Simulates a first shot that was hard to find.
         thread::sleep(budget.mul_f64(0.5).saturating_sub(clock.elapsed()));
         let mut reported = 0;
-        let pool = Search::new(task, false, 2, 1).run(&[], &found.solutions, &mut |_| reported += 1);
+        let pool = Search::new(task, false, &team, 1).run(&[], &found.solutions, &mut |_| reported += 1);
         assert!(pool[0].own_rate.attempts > 100.0 && reported > 1, "{reported} {:?}", pool[0]);
         assert!(pool.iter().any(|candidate| candidate.shot != found.solutions[0].0), "{pool:?}");
         // Without any time left, the result is what was found before.
         cancel.store(true, std::sync::atomic::Ordering::Relaxed);
-        let pool = Search::new(task, true, 2, 1).run(&[], &found.solutions, &mut |_| panic!("nothing is known"));
+        let pool = Search::new(task, true, &team, 1).run(&[], &found.solutions, &mut |_| panic!("nothing is known"));
         assert_eq!(pool.iter().map(|candidate| candidate.shot).collect::<Vec<_>>(), [found.solutions[0].0]);
         assert_eq!(pool[0].next.known(), None);
     }

@@ -3,49 +3,169 @@
 use std::{
     convert::Infallible,
     sync::{
-        Mutex, OnceLock, PoisonError,
-        atomic::{AtomicUsize, Ordering},
+        Mutex, PoisonError,
+        atomic::{AtomicBool, AtomicUsize, Ordering},
     },
+    thread,
+    time::{Duration, Instant},
 };
 
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use rayon::{ThreadPool, ThreadPoolBuilder, Yield};
 
 use super::thread_count;
 
-/// Worker threads in addition to the calling thread, shared by all calls that may use every thread of this process. They sleep when idle.
-static SHARED_WORKERS: OnceLock<Option<ThreadPool>> = OnceLock::new();
+/// Sleeping workers of earlier teams, for the next one.
+static IDLE: Mutex<Vec<ThreadPool>> = Mutex::new(Vec::new());
 
-/// Number of shared workers that are busy.
-static BUSY_WORKERS: AtomicUsize = AtomicUsize::new(0);
+/// Number of busy workers in teams that may use every thread of this process.
+static BUSY: AtomicUsize = AtomicUsize::new(0);
 
-/// A reserved shared worker; dropping this releases it.
-struct ReservedWorker;
+/// Time without work after which a worker that is kept awake naps, and how long. To wake a sleeping thread takes the operating system up to
+/// 0.2 ms: a worker that sleeps between the steps of a search of 30 ms misses a third of the short ones.
+const STAYS_AWAKE: Duration = Duration::from_millis(1);
+const NAP: Duration = Duration::from_micros(100);
 
-impl ReservedWorker {
-    /// Reserves all free workers among `count`. It never waits for a busy one, which may be occupied for hours by a whole training run.
-    fn reserve_free(count: usize) -> Vec<Self> {
-        let busy = BUSY_WORKERS.fetch_max(count, Ordering::Relaxed);
-        (busy..count).map(|_| Self).collect()
-    }
+/// The calling thread and the workers that help it.
+pub struct Team {
+    pool: Option<ThreadPool>,
+    helpers: usize,
+    /// The helpers that count as [`BUSY`].
+    counted: usize,
 }
 
-impl Drop for ReservedWorker {
+impl Drop for Team {
     fn drop(&mut self) {
-        BUSY_WORKERS.fetch_sub(1, Ordering::Relaxed);
+        BUSY.fetch_sub(self.counted, Ordering::Relaxed);
+        if let Some(pool) = self.pool.take() {
+            IDLE.lock().unwrap_or_else(PoisonError::into_inner).push(pool);
+        }
     }
 }
 
-/// Applies `work` to every item on up to `count` threads, including the calling one; on the calling thread alone if no others can be
-/// started.
+impl Team {
+    /// The calling thread alone.
+    pub const ALONE: Self = Self { pool: None, helpers: 0, counted: 0 };
+
+    /// Returns a team of up to `count` threads, including the calling one, which is alone if no others can be started. If `count` is
+    /// [`thread_count`], the workers of other such teams are missing. It never waits for them: they may be occupied for hours by a whole
+    /// training run.
+    pub fn of(count: usize) -> Self {
+        if count <= 1 {
+            return Self::ALONE;
+        }
+        let all = thread_count();
+        let counted =
+            if count == all { (count - 1).saturating_sub(BUSY.fetch_max(count - 1, Ordering::Relaxed)) } else { 0 };
+        let helpers = if count == all { counted } else { count - 1 };
+        let mut team = Self { pool: None, helpers, counted };
+        if helpers > 0 {
+            let mut idle = IDLE.lock().unwrap_or_else(PoisonError::into_inner);
+            let suits = idle.iter().position(|pool| pool.current_num_threads() >= helpers);
+            team.pool = suits.map(|index| idle.swap_remove(index));
+            drop(idle);
+            team.pool = team.pool.take().or_else(|| start(helpers.max(all - 1)));
+        }
+        team
+    }
+
+    /// Runs `lead` on the calling thread with a team of up to `count` threads, which stay awake while it lasts.
+    pub fn awake<R>(count: usize, lead: impl FnOnce(&Self) -> R) -> R {
+        let team = Self::of(count);
+        let Some(pool) = &team.pool else { return lead(&team) };
+        let is_over = AtomicBool::new(false);
+        pool.in_place_scope(|scope| {
+            for _ in 0..team.helpers {
+                scope.spawn(|_| wait_awake(&is_over));
+            }
+            // Also if `lead` panics: the scope waits for its workers.
+            let _end = OnDrop(|| is_over.store(true, Ordering::Relaxed));
+            lead(&team)
+        })
+    }
+
+    /// Number of threads.
+    pub const fn size(&self) -> usize {
+        1 + self.helpers
+    }
+
+    /// Applies `work` to every item.
+    pub fn map<T: Sync, R: Send>(&self, items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+        let Ok(results) = self.try_map(items, |item| Ok::<_, Infallible>(work(item)));
+        results
+    }
+
+    /// Like [`map`](Self::map) for work that can fail: after a failure, no further item is started.
+    ///
+    /// The calling thread works, too. If it only woke the others and slept, the operating system would have to find a free processor for
+    /// each: in every fourth search of 30 ms on two processors, one processor stayed idle to the end.
+    fn try_map<T: Sync, R: Send, E: Send>(
+        &self,
+        items: &[T],
+        work: impl Fn(&T) -> Result<R, E> + Sync,
+    ) -> Result<Vec<R>, E> {
+        let (next, all) = (AtomicUsize::new(0), Mutex::new(Ok(Vec::with_capacity(items.len()))));
+        let take_over = || {
+            let mut own = Vec::new();
+            let result = loop {
+                let index = next.fetch_add(1, Ordering::Relaxed);
+                match items.get(index).map(&work) {
+                    None => break Ok(()),
+                    Some(Ok(result)) => own.push((index, result)),
+                    Some(Err(failure)) => {
+                        next.store(items.len(), Ordering::Relaxed);
+                        break Err(failure);
+                    }
+                }
+            };
+            let mut all = all.lock().unwrap_or_else(PoisonError::into_inner);
+            match (result, all.as_mut()) {
+                (Ok(()), Ok(all)) => all.extend(own),
+                (Err(failure), Ok(_)) => *all = Err(failure),
+                (_, Err(_)) => {}
+            }
+        };
+        match &self.pool {
+            Some(pool) => pool.in_place_scope(|scope| {
+                for _ in 1..self.size().min(items.len()) {
+                    scope.spawn(|_| take_over());
+                }
+                take_over();
+            }),
+            None => take_over(),
+        }
+        let mut all = all.into_inner().unwrap_or_else(PoisonError::into_inner)?;
+        all.sort_unstable_by_key(|(index, _)| *index);
+        Ok(all.into_iter().map(|(_, result)| result).collect())
+    }
+}
+
+/// Calls a function when it is dropped.
+struct OnDrop<F: Fn()>(F);
+
+impl<F: Fn()> Drop for OnDrop<F> {
+    fn drop(&mut self) {
+        (self.0)();
+    }
+}
+
+/// Does the work of the pool of this thread until there is no more.
+fn wait_awake(is_over: &AtomicBool) {
+    let mut worked = Instant::now();
+    while !is_over.load(Ordering::Relaxed) {
+        match rayon::yield_now() {
+            Some(Yield::Executed) => worked = Instant::now(),
+            _ if worked.elapsed() < STAYS_AWAKE => thread::yield_now(),
+            _ => thread::sleep(NAP),
+        }
+    }
+}
+
+/// Applies `work` to every item on up to `count` threads, including the calling one.
 pub fn map<T: Sync, R: Send>(count: usize, items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
-    let Ok(results) = try_map(count, items, |item| Ok::<_, Infallible>(work(item)));
-    results
+    Team::of(count.min(items.len())).map(items, work)
 }
 
 /// Like [`map`] for work that can fail: after a failure, no further item is started.
-///
-/// The calling thread works, too. If it only woke the others and slept, the operating system would have to find a free processor for each:
-/// in every fourth search of 30 ms on two processors, one processor stayed idle to the end.
 ///
 /// # Errors
 /// Returns one of the failures.
@@ -54,52 +174,7 @@ pub fn try_map<T: Sync, R: Send, E: Send>(
     items: &[T],
     work: impl Fn(&T) -> Result<R, E> + Sync,
 ) -> Result<Vec<R>, E> {
-    let (next, all) = (AtomicUsize::new(0), Mutex::new(Ok(Vec::with_capacity(items.len()))));
-    let take_over = &|| {
-        let mut own = Vec::new();
-        let result = loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            match items.get(index).map(&work) {
-                None => break Ok(()),
-                Some(Ok(result)) => own.push((index, result)),
-                Some(Err(failure)) => {
-                    next.store(items.len(), Ordering::Relaxed);
-                    break Err(failure);
-                }
-            }
-        };
-        let mut all = all.lock().unwrap_or_else(PoisonError::into_inner);
-        match (result, all.as_mut()) {
-            (Ok(()), Ok(all)) => all.extend(own),
-            (Err(failure), Ok(_)) => *all = Err(failure),
-            (_, Err(_)) => {}
-        }
-    };
-    let share_out = |others: &ThreadPool, helpers: Vec<Option<ReservedWorker>>| {
-        others.in_place_scope(|scope| {
-            for helper in helpers {
-                scope.spawn(move |_| {
-                    take_over();
-                    drop(helper);
-                });
-            }
-            take_over();
-        });
-    };
-    match count.min(items.len()) {
-        0 | 1 => take_over(),
-        count if count == thread_count() => match SHARED_WORKERS.get_or_init(|| start(count - 1)) {
-            Some(others) => share_out(others, ReservedWorker::reserve_free(count - 1).into_iter().map(Some).collect()),
-            None => take_over(),
-        },
-        count => match start(count - 1) {
-            Some(own) => share_out(&own, (1..count).map(|_| None).collect()),
-            None => take_over(),
-        },
-    }
-    let mut all = all.into_inner().unwrap_or_else(PoisonError::into_inner)?;
-    all.sort_unstable_by_key(|(index, _)| *index);
-    Ok(all.into_iter().map(|(_, result)| result).collect())
+    Team::of(count.min(items.len())).try_map(items, work)
 }
 
 /// Runs `work` on one thread, including the parts that libraries would otherwise spread over several threads.
@@ -119,9 +194,8 @@ mod tests {
     use super::*;
     use std::{
         collections::HashSet,
+        panic::catch_unwind,
         sync::{Barrier, atomic::AtomicU64, mpsc},
-        thread,
-        time::Duration,
     };
 
     #[test]
@@ -149,16 +223,31 @@ mod tests {
 
     #[test]
     fn busy_workers_are_not_waited_for() {
-        let count = thread_count().max(2);
-        let Some(others) = SHARED_WORKERS.get_or_init(|| start(count - 1)) else { return };
-        let helpers = ReservedWorker::reserve_free(count - 1);
         let (done, ends) = mpsc::channel();
-        let (told, outcome) = mpsc::channel();
-        others.spawn(move || told.send(ends.recv_timeout(Duration::from_secs(20)).is_ok()).unwrap());
-        assert_eq!(map(thread_count(), &[1, 2, 3], |n| n * n), [1, 4, 9]);
-        done.send(()).unwrap();
-        assert!(outcome.recv().unwrap(), "the other work was over before");
-        drop(helpers);
+        let ends = Mutex::new(ends);
+        let in_time = map(thread_count() + 1, &[true, false], |waits| {
+            if *waits {
+                ends.lock().unwrap().recv_timeout(Duration::from_secs(20)).is_ok()
+            } else {
+                let squares = map(thread_count(), &[1, 2, 3], |n| n * n);
+                done.send(()).unwrap();
+                squares == [1, 4, 9]
+            }
+        });
+        assert_eq!(in_time, [true, true]);
+    }
+
+    #[test]
+    fn workers_that_stay_awake_take_part_in_every_task() {
+        let count = thread_count() + 1;
+        let together = Barrier::new(count);
+        let tasks = Team::awake(count, |team| {
+            assert_eq!(team.size(), count);
+            let task = || team.map(&vec![(); count], |()| together.wait().is_leader());
+            (0..50).map(|_| task()).collect::<Vec<_>>()
+        });
+        assert!(tasks.iter().all(|led| led.iter().filter(|is_leader| **is_leader).count() == 1));
+        assert!(catch_unwind(|| Team::awake(count, |_| panic!("as if the lead failed"))).is_err(), "and it ended");
     }
 
     #[test]

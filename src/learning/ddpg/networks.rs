@@ -113,12 +113,17 @@ impl Networks {
             let all = Observation::all(table, layout, inputs.rails_first).into_iter();
             all.map(move |observation| Situation { observation, table: Arc::clone(table), errors })
         });
-        let observed = ObservationBatch::new(inputs, situations.collect())?;
+        let all = self.proposals_in(inputs, situations.collect())?;
+        Ok(all.chunks(all.len() / layouts).map(<[_]>::to_vec).collect())
+    }
+
+    /// Returns the proposals of all heads in these situations: the observation, the action and the critic's logit.
+    pub fn proposals_in(&self, inputs: Inputs, situations: Vec<Situation>) -> Result<Vec<(Observation, Action, f32)>> {
+        let observed = ObservationBatch::new(inputs, situations)?;
         let (actions, logits) = self.propose_with_logits(&observed)?;
-        let (heads, each) = (actions.len() / observed.situations.len(), actions.len() / layouts);
+        let heads = actions.len() / observed.situations.len();
         let all = actions.into_iter().zip(logits).enumerate();
-        let all = all.map(|(row, (action, logit))| (observed.situations[row / heads].observation, action, logit));
-        Ok(all.collect::<Vec<_>>().chunks(each).map(<[_]>::to_vec).collect())
+        Ok(all.map(|(row, (action, logit))| (observed.situations[row / heads].observation, action, logit)).collect())
     }
 
     /// Squashes the actor's outputs (observations x outputs) to the heads' actions: between -1 and 1, with every head's speed within its

@@ -13,15 +13,16 @@ use crate::{
     game::Reward,
     learning::{
         ddpg::{
-            action::Action,
             context::is_known_table,
             networks::Networks,
             observation::Observation,
+            observation_batch::Situation,
             paths::{cue_inputs, playable},
         },
         evaluation::{CONTACT_STEPS, Score},
     },
     physics::CueInputs,
+    platform::parallel::Team,
     player::Skill,
     table::{Layout, Table},
 };
@@ -76,54 +77,52 @@ impl Policy {
     /// far as rails and balls require. Strokes without room at any elevation have a probability of 0 and come last.
     ///
     /// # Panics
-    /// Never, for the reason given at [`Policy::proposals_for`].
+    /// Never: the networks' sizes are checked at loading, and candle has no other reason to fail.
     pub fn proposals(&self, table: &Table, layout: &Layout, skill: &Skill) -> Vec<Proposal> {
-        let mut all = self.proposals_for(table, std::slice::from_ref(layout), skill);
-        all.pop().expect("a layout has proposals")
+        self.proposals_by(&Team::ALONE, table, layout, skill)
     }
 
-    /// Returns [`Policy::proposals`] for many layouts in one pass.
+    /// As [`Policy::proposals`], computed by several threads.
     ///
     /// # Panics
-    /// Never: the networks' sizes are checked at loading, and candle has no other reason to fail.
-    pub fn proposals_for(&self, table: &Table, layouts: &[Layout], skill: &Skill) -> Vec<Vec<Proposal>> {
+    /// Never, like [`Policy::proposals`].
+    pub fn proposals_by(&self, team: &Team, table: &Table, layout: &Layout, skill: &Skill) -> Vec<Proposal> {
         let (shared, inputs, errors) = (Arc::new(table.clone()), self.origin.hyperparameters.inputs(), skill.scale());
-        let proposals = self.networks.proposals(inputs, layouts.iter().map(|layout| (&shared, layout, errors)));
-        let proposals = proposals.expect("the sizes of the networks were checked when they were loaded");
+        let observations = Observation::all(table, layout, inputs.rails_first);
+        let parts: Vec<&[Observation]> = observations.chunks(observations.len().div_ceil(team.size())).collect();
+        let proposals = team.map(&parts, |part| {
+            let situation =
+                |observation: &Observation| Situation { observation: *observation, table: Arc::clone(&shared), errors };
+            let proposals = self.networks.proposals_in(inputs, part.iter().map(situation).collect());
+            proposals.expect("the sizes of the networks were checked when they were loaded")
+        });
         let success = |logit: f32| {
             let success = self.origin.calibration.probability(f64::from(logit), errors);
             // NaN must neither win nor disturb the order.
             if success.is_nan() { 0.0 } else { success }
         };
-        let best = |(layout, proposals): (&Layout, Vec<(Observation, Action, f32)>)| {
-            let rated = proposals.into_iter().map(|(observation, action, logit)| (observation, action, success(logit)));
-            let mut rated: Vec<_> = rated.collect();
-            rated.sort_by(|(.., a), (.., b)| b.total_cmp(a));
-            rated.truncate(MAX_PROPOSALS);
-            let strokes = rated.into_iter().map(|(observation, action, success)| {
-                match playable(table, layout, &observation, action) {
-                    Ok(cue) => Proposal { cue, success },
-                    Err(_) => Proposal { cue: cue_inputs(table, &observation, action), success: 0.0 },
-                }
+        let rated = proposals.into_iter().flatten();
+        let mut rated: Vec<_> =
+            rated.map(|(observation, action, logit)| (observation, action, success(logit))).collect();
+        rated.sort_by(|(.., a), (.., b)| b.total_cmp(a));
+        rated.truncate(MAX_PROPOSALS);
+        let mut strokes =
+            team.map(&rated, |(observation, action, success)| match playable(table, layout, observation, *action) {
+                Ok(cue) => Proposal { cue, success: *success },
+                Err(_) => Proposal { cue: cue_inputs(table, observation, *action), success: 0.0 },
             });
-            let mut strokes: Vec<Proposal> = strokes.collect();
-            strokes.sort_by(|a, b| b.success.total_cmp(&a.success));
-            strokes
-        };
-        layouts.iter().zip(proposals).map(best).collect()
+        strokes.sort_by(|a, b| b.success.total_cmp(&a.success));
+        strokes
     }
 
     /// Plays one shot on every layout and returns the score.
     pub(in crate::learning) fn score(&self, table: &Table, reward: Reward, layouts: &[Layout]) -> Score {
-        let mut played = Vec::with_capacity(layouts.len());
-        // Small batches stay in the processor's cache.
-        for layouts in layouts.chunks(64) {
-            for (layout, proposals) in layouts.iter().zip(self.proposals_for(table, layouts, &Skill::PERFECT)) {
-                let first = reward.of_playable(table, layout, &proposals[0].cue, u32::MAX);
-                played.push((first, any_scores(table, reward, layout, first, &proposals[1..])));
-            }
-        }
-        Score::of(&played)
+        let play = |layout| {
+            let proposals = self.proposals(table, layout, &Skill::PERFECT);
+            let first = reward.of_playable(table, layout, &proposals[0].cue, u32::MAX);
+            (first, any_scores(table, reward, layout, first, &proposals[1..]))
+        };
+        Score::of(&layouts.iter().map(play).collect::<Vec<_>>())
     }
 }
 
@@ -156,9 +155,10 @@ mod tests {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(11);
         let layouts: Vec<_> = (0..20).map(|_| Layout::random(&table, &mut rng)).collect();
         let policy = bundled();
-        for (layout, together) in layouts.iter().zip(policy.proposals_for(&table, &layouts, &Skill::PERFECT)) {
+        for layout in &layouts {
             let proposals = policy.proposals(&table, layout, &Skill::PERFECT);
-            assert_eq!(proposals, together, "a layout's proposals do not depend on its neighbours");
+            let together = policy.proposals_by(&Team::of(3), &table, layout, &Skill::PERFECT);
+            assert_eq!(proposals, together, "the proposals do not depend on the number of threads");
             assert_eq!(proposals[0].cue, policy.propose(&table, layout, &Skill::PERFECT));
             assert!(proposals.is_sorted_by(|a, b| a.success >= b.success));
             for proposal in proposals {
