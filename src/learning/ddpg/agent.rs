@@ -14,7 +14,7 @@ use super::{
     networks::Networks,
     observation::Observation,
     observation_batch::{ObservationBatch, action_rows},
-    randomized_tables::Conditions,
+    randomized_tables::Context,
 };
 use crate::learning::{
     learner::UpdateStats,
@@ -28,11 +28,11 @@ const SATURATED: f64 = 2.0;
 /// speed seldom does.
 const IMITATION_WEIGHTS: [f32; ACTIONS] = [4.0, 1.0, 1.0, 1.0, 1.0];
 
-/// One shot in the replay buffer: observation, conditions, action and success. A shot is a whole episode, so there is no next state.
+/// One shot in the replay buffer: observation, context, action and success. A shot is a whole episode, so there is no next state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transition {
     pub observation: Observation,
-    pub conditions: Conditions,
+    pub context: Context,
     pub action: Action,
     /// Reward of the action as a share of the highest possible reward.
     pub success: f32,
@@ -307,7 +307,7 @@ mod tests {
         }
         let observed = observed(&mut rng);
         let (actions, logits) = agent.target.propose_with_logits(&observed).unwrap();
-        let heads = actions.len() / observed.situations.len();
+        let heads = actions.len() / observed.observations.len();
         for (actions, logits) in actions.chunks(heads).zip(logits.chunks(heads)) {
             let best = (0..heads).max_by(|a, b| logits[*a].total_cmp(&logits[*b])).unwrap();
             let errors = [0, 1].map(|k| (actions[best][k] - BEST[k]).abs());

@@ -12,7 +12,7 @@ use super::{
     networks::Networks,
     observation::Observation,
     observation_batch::{ObservationBatch, action_rows},
-    randomized_tables::{Conditions, RandomizedTables},
+    randomized_tables::{Context, RandomizedTables},
 };
 use crate::{game::Reward, statistics::normal_pair, table::Layout};
 
@@ -50,7 +50,7 @@ const LOG_SPEED: [f64; 2] = [0.85, 0.5];
 /// Lowest tip position, as a number of the action: hardly any of those strokes is lower.
 const LOWEST_TIP: f32 = -0.3;
 
-/// A search on one layout under given conditions.
+/// A search on one layout in a given context.
 #[derive(Clone, Copy, Debug)]
 pub struct Expert<'a> {
     pub tables: &'a RandomizedTables,
@@ -59,7 +59,7 @@ pub struct Expert<'a> {
     /// Networks whose critic screens the strokes before any attempt.
     pub networks: &'a Networks,
     pub layout: &'a Layout,
-    pub conditions: Conditions,
+    pub context: Context,
 }
 
 /// A stroke in successive halving.
@@ -109,12 +109,12 @@ impl Expert<'_> {
     pub fn search(&self, proposals: &[(Observation, Action)], rng: &mut (impl Rng + ?Sized)) -> Result<SearchResult> {
         let seed = rng.random();
         let tried = (0..RANDOM_STROKES).map(|_| {
-            let table = self.tables.table(self.conditions);
+            let table = self.tables.table(self.context);
             (Observation::random(table, self.layout, self.inputs.rails_first, rng), self.random_stroke(rng))
         });
         let all: Vec<_> = proposals.iter().copied().chain(tried).collect();
         // Keeps the strokes that make the point without errors.
-        let without_errors = Conditions { errors: 0.0, ..self.conditions };
+        let without_errors = Context { errors: 0.0, ..self.context };
         let mut makes_point = |(observation, action): &(Observation, Action)| {
             self.tables.attempt(self.reward, self.layout, (observation, *action), without_errors, rng) >= 1.0
         };
@@ -150,12 +150,7 @@ impl Expert<'_> {
             let mut again = [Candidate::new(candidate.observation, candidate.action)];
             self.halving_round(&mut again, attempts, !seed);
             let success = (again[0].mean() / self.reward.max_value()) as f32;
-            Transition {
-                observation: candidate.observation,
-                conditions: self.conditions,
-                action: candidate.action,
-                success,
-            }
+            Transition { observation: candidate.observation, context: self.context, action: candidate.action, success }
         };
         let Some(winner) = candidates.first().copied().filter(|winner| winner.earned > 0.0) else {
             return Ok(SearchResult::default());
@@ -177,10 +172,10 @@ impl Expert<'_> {
         if candidates.is_empty() {
             return Ok(());
         }
-        let situations =
-            candidates.iter().map(|candidate| self.tables.situation(candidate.observation, self.conditions)).collect();
+        let observations =
+            candidates.iter().map(|candidate| self.tables.contextual(candidate.observation, self.context)).collect();
         let actions: Vec<Action> = candidates.iter().map(|candidate| candidate.action).collect();
-        let observed = ObservationBatch::new(self.inputs, situations)?;
+        let observed = ObservationBatch::new(self.inputs, observations)?;
         let rows = action_rows(self.inputs.space, &actions)?;
         let logits =
             self.networks.critic.forward_frozen(&observed.with_actions(&rows)?)?.flatten_all()?.to_vec1::<f32>()?;
@@ -197,7 +192,7 @@ impl Expert<'_> {
             for attempt in candidate.attempts..attempts {
                 let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed.wrapping_add(attempt as u64));
                 let shot = (&candidate.observation, candidate.action);
-                candidate.earned += self.tables.attempt(self.reward, self.layout, shot, self.conditions, &mut rng);
+                candidate.earned += self.tables.attempt(self.reward, self.layout, shot, self.context, &mut rng);
             }
             candidate.attempts = candidate.attempts.max(attempts);
         }
@@ -253,8 +248,8 @@ mod tests {
         let [mut proposed, mut found] = [0.0; 2];
         for _ in 0..12 {
             let layout = Layout::random(&table, &mut rng);
-            let conditions = Conditions { table: 0, errors: 3.7 };
-            let expert = Expert { tables: &tables, reward, inputs, networks, layout: &layout, conditions };
+            let context = Context { table: 0, errors: 3.7 };
+            let expert = Expert { tables: &tables, reward, inputs, networks, layout: &layout, context };
             let proposal = Candidate::new(Observation::new(&layout, 0), expert.random_stroke(&mut rng));
             let strokes = expert.search(&[(proposal.observation, proposal.action)], &mut rng).unwrap();
             let winner = strokes.best.first().unwrap();

@@ -10,7 +10,7 @@ use super::{
     context::Inputs,
     hyperparameters::Hyperparameters,
     observation::Observation,
-    observation_batch::{ObservationBatch, Situation, actions_in},
+    observation_batch::{ContextualObservation, ObservationBatch, actions_in},
 };
 use crate::{
     learning::nn::{
@@ -103,27 +103,31 @@ impl Networks {
     pub fn proposals<'a>(
         &self,
         inputs: Inputs,
-        scenes: impl ExactSizeIterator<Item = (&'a Arc<Table>, &'a Layout, f64)>,
+        layouts: impl ExactSizeIterator<Item = (&'a Arc<Table>, &'a Layout, f64)>,
     ) -> Result<Vec<Vec<(Observation, Action, f32)>>> {
-        let layouts = scenes.len();
-        if layouts == 0 {
+        let count = layouts.len();
+        if count == 0 {
             return Ok(Vec::new());
         }
-        let situations = scenes.flat_map(|(table, layout, errors)| {
+        let observations = layouts.flat_map(|(table, layout, errors)| {
             let all = Observation::all(table, layout, inputs.rails_first).into_iter();
-            all.map(move |observation| Situation { observation, table: Arc::clone(table), errors })
+            all.map(move |observation| ContextualObservation { observation, table: Arc::clone(table), errors })
         });
-        let all = self.proposals_in(inputs, situations.collect())?;
-        Ok(all.chunks(all.len() / layouts).map(<[_]>::to_vec).collect())
+        let all = self.proposals_in(inputs, observations.collect())?;
+        Ok(all.chunks(all.len() / count).map(<[_]>::to_vec).collect())
     }
 
-    /// Returns the proposals of all heads in these situations: the observation, the action and the critic's logit.
-    pub fn proposals_in(&self, inputs: Inputs, situations: Vec<Situation>) -> Result<Vec<(Observation, Action, f32)>> {
-        let observed = ObservationBatch::new(inputs, situations)?;
+    /// Returns the proposals of all heads for these observations: the observation, the action and the critic's logit.
+    pub fn proposals_in(
+        &self,
+        inputs: Inputs,
+        observations: Vec<ContextualObservation>,
+    ) -> Result<Vec<(Observation, Action, f32)>> {
+        let observed = ObservationBatch::new(inputs, observations)?;
         let (actions, logits) = self.propose_with_logits(&observed)?;
-        let heads = actions.len() / observed.situations.len();
+        let heads = actions.len() / observed.observations.len();
         let all = actions.into_iter().zip(logits).enumerate();
-        Ok(all.map(|(row, (action, logit))| (observed.situations[row / heads].observation, action, logit)).collect())
+        Ok(all.map(|(row, (action, logit))| (observed.observations[row / heads].observation, action, logit)).collect())
     }
 
     /// Squashes the actor's outputs (observations x outputs) to the heads' actions: between -1 and 1, with every head's speed within its

@@ -20,7 +20,7 @@ use crate::{
 
 /// An observation with its context.
 #[derive(Clone, Debug)]
-pub struct Situation {
+pub struct ContextualObservation {
     pub observation: Observation,
     pub table: Arc<Table>,
     /// The player's errors as a multiple of an expert's; only networks with a context use them.
@@ -50,16 +50,16 @@ fn padded(used: &[f32]) -> Action {
 #[derive(Clone, Debug)]
 pub struct ObservationBatch {
     inputs: Inputs,
-    pub situations: Arc<[Situation]>,
+    pub observations: Arc<[ContextualObservation]>,
     /// The actor's input, one row per observation.
     pub states: Tensor,
 }
 
 impl ObservationBatch {
     /// Creates a batch for networks with these inputs.
-    pub fn new(inputs: Inputs, situations: Vec<Situation>) -> Result<Self> {
-        let mut features = Vec::with_capacity(situations.len() * inputs.actor());
-        for Situation { observation, table, errors } in &situations {
+    pub fn new(inputs: Inputs, observations: Vec<ContextualObservation>) -> Result<Self> {
+        let mut features = Vec::with_capacity(observations.len() * inputs.actor());
+        for ContextualObservation { observation, table, errors } in &observations {
             push_state_features(table, observation, &mut features);
             if inputs.context {
                 push_context(table, observation.mirror, *errors, &mut features);
@@ -68,15 +68,15 @@ impl ObservationBatch {
                 features.extend(Rail::ALL.map(|rail| f32::from(u8::from(observation.rail == Some(rail)))));
             }
         }
-        let states = Tensor::from_vec(features, (situations.len(), inputs.actor()), &Device::Cpu)?;
-        Ok(Self { inputs, situations: situations.into(), states })
+        let states = Tensor::from_vec(features, (observations.len(), inputs.actor()), &Device::Cpu)?;
+        Ok(Self { inputs, observations: observations.into(), states })
     }
 
     /// Creates a batch of observations on one table for networks without a context and actions in `space`.
     pub fn on(table: &Arc<Table>, space: ActionSpace, observations: Vec<Observation>) -> Result<Self> {
-        let situation = |observation| Situation { observation, table: Arc::clone(table), errors: 0.0 };
+        let contextual = |observation| ContextualObservation { observation, table: Arc::clone(table), errors: 0.0 };
         let inputs = Inputs { space, context: false, closed_form: true, rails_first: false };
-        Self::new(inputs, observations.into_iter().map(situation).collect())
+        Self::new(inputs, observations.into_iter().map(contextual).collect())
     }
 
     pub const fn space(&self) -> ActionSpace {
@@ -85,10 +85,10 @@ impl ObservationBatch {
 
     /// Returns the first `count` observations, or all if there are fewer.
     pub fn first(&self, count: usize) -> Result<Self> {
-        let count = count.min(self.situations.len());
+        let count = count.min(self.observations.len());
         Ok(Self {
             inputs: self.inputs,
-            situations: self.situations[..count].into(),
+            observations: self.observations[..count].into(),
             states: self.states.narrow(0, 0, count)?,
         })
     }
@@ -118,7 +118,7 @@ impl CustomOp1 for Join {
 
     fn cpu_fwd(&self, storage: &CpuStorage, layout: &Layout) -> Result<(CpuStorage, Shape)> {
         let (rows, columns) = layout.shape().dims2()?;
-        let (observations, inputs) = (self.observed.situations.len(), self.observed.inputs);
+        let (observations, inputs) = (self.observed.observations.len(), self.observed.inputs);
         let (space, state) = (inputs.space, inputs.actor());
         if columns != space.actions() || observations == 0 || rows % observations != 0 {
             bail!(
@@ -132,9 +132,9 @@ impl CustomOp1 for Join {
         let mut slopes = Vec::with_capacity(if self.differentiate { rows * inputs.action() } else { 0 });
         let mut features: Vec<Dual> = Vec::with_capacity(ACTION_FEATURES + RAIL_FEATURES);
         let each = (rows / observations * columns).max(1);
-        let situations = self.observed.situations.iter().zip(states.chunks_exact(state));
-        for ((situation, state), actions) in situations.zip(values(storage, layout)?.chunks_exact(each)) {
-            let paths = Paths::of(&situation.table, &situation.observation);
+        let observations = self.observed.observations.iter().zip(states.chunks_exact(state));
+        for ((contextual, state), actions) in observations.zip(values(storage, layout)?.chunks_exact(each)) {
+            let paths = Paths::of(&contextual.table, &contextual.observation);
             for action in actions.chunks_exact(columns) {
                 features.clear();
                 push_action_features(&paths, padded(action), self.differentiate, &mut features);
@@ -204,7 +204,7 @@ mod tests {
             let gradient: Vec<Vec<f32>> = gradients.get(&actions).unwrap().to_vec2().unwrap();
             let mut features = Vec::new();
             push_action_features(
-                &Paths::of(&table, &observed.situations[1].observation),
+                &Paths::of(&table, &observed.observations[1].observation),
                 values[2],
                 true,
                 &mut features,

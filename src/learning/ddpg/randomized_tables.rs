@@ -6,7 +6,10 @@ use std::sync::Arc;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{action::Action, context::Inputs, observation::Observation, observation_batch::Situation, paths::playable};
+use super::{
+    action::Action, context::Inputs, observation::Observation, observation_batch::ContextualObservation,
+    paths::playable,
+};
 use crate::{
     game::Reward,
     learning::evaluation::CONTACT_STEPS,
@@ -35,16 +38,16 @@ const PLACING: f64 = 3e-3;
 /// Makes the random numbers of these tables independent of all others drawn from a run's seed.
 const STREAM: u64 = 0x7665_6e75_6573;
 
-/// Conditions of a shot: the table and the player's errors, from which the context is computed.
+/// The context of a shot: on which of the run's tables, and by a player with which errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Conditions {
+pub struct Context {
     pub table: u32,
     /// The player's errors as a multiple of an expert's, 0 for none.
     pub errors: f32,
 }
 
-impl Conditions {
-    /// Returns the same conditions on the run's own table.
+impl Context {
+    /// Returns the same context on the run's own table.
     #[must_use]
     pub const fn on_own_table(self) -> Self {
         Self { table: self.table - self.table % OWN as u32, ..self }
@@ -98,14 +101,14 @@ impl RandomizedTables {
         Self(all)
     }
 
-    /// Draws the conditions of a shot; the player has no errors with the probability `perfect`. Draws nothing if there is only one table.
-    pub fn draw(&self, perfect: f64, rng: &mut (impl Rng + ?Sized)) -> Conditions {
+    /// Draws the context of a shot; the player has no errors with the probability `perfect`. Draws nothing if there is only one table.
+    pub fn draw(&self, perfect: f64, rng: &mut (impl Rng + ?Sized)) -> Context {
         if self.0.len() < 2 {
-            return Conditions::default();
+            return Context::default();
         }
         let table = rng.random_range(0..self.0.len()) as u32;
         let errors = if rng.random_bool(perfect) { 0.0 } else { Self::errors(rng) };
-        Conditions { table, errors }
+        Context { table, errors }
     }
 
     /// Draws the errors of a player with errors, as a multiple of an expert's.
@@ -114,14 +117,14 @@ impl RandomizedTables {
         rng.random_range(least..most).exp() as f32
     }
 
-    /// Returns the nominal table of these conditions.
-    pub fn table(&self, conditions: Conditions) -> &Arc<Table> {
-        &self.0[conditions.table as usize % self.0.len()].nominal
+    /// Returns the nominal table of a context.
+    pub fn table(&self, context: Context) -> &Arc<Table> {
+        &self.0[context.table as usize % self.0.len()].nominal
     }
 
-    /// Combines an observation with the context of these conditions.
-    pub fn situation(&self, observation: Observation, conditions: Conditions) -> Situation {
-        Situation { observation, table: Arc::clone(self.table(conditions)), errors: f64::from(conditions.errors) }
+    /// Combines an observation with a context.
+    pub fn contextual(&self, observation: Observation, context: Context) -> ContextualObservation {
+        ContextualObservation { observation, table: Arc::clone(self.table(context)), errors: f64::from(context.errors) }
     }
 
     /// Simulates one attempt at the stroke of `action` and returns its reward; 0 if the cue has no room.
@@ -130,12 +133,12 @@ impl RandomizedTables {
         reward: Reward,
         layout: &Layout,
         (observation, action): (&Observation, Action),
-        conditions: Conditions,
+        context: Context,
         rng: &mut (impl Rng + ?Sized),
     ) -> f64 {
-        let RandomizedTable { nominal, actual } = &self.0[conditions.table as usize % self.0.len()];
+        let RandomizedTable { nominal, actual } = &self.0[context.table as usize % self.0.len()];
         let Ok(cue) = playable(nominal, layout, observation, action) else { return 0.0 };
-        if conditions.errors == 0.0 {
+        if context.errors == 0.0 {
             return reward.of_within_steps(nominal, layout, &cue, CONTACT_STEPS);
         }
         let table = if actual.is_empty() { nominal } else { &actual[rng.random_range(0..actual.len())] };
@@ -143,7 +146,7 @@ impl RandomizedTables {
         let there = perturbed_layout(nominal, layout, PLACING, &mut normal);
         let cue = re_aimed(nominal, layout, &there, &cue);
         let errors = std::array::from_fn(|_| normal());
-        let stroke = Skill::level(f64::from(conditions.errors)).stroke(table.radius, &cue, &errors);
+        let stroke = Skill::level(f64::from(context.errors)).stroke(table.radius, &cue, &errors);
         if stroke.is_miscue(table) { 0.0 } else { reward.of_within_steps(table, &there, &stroke, CONTACT_STEPS) }
     }
 }
@@ -162,7 +165,7 @@ mod tests {
         let table = Arc::new(Table::default());
         let alone = RandomizedTables::new(&table, inputs(false), 1);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
-        assert_eq!((alone.0.len(), alone.draw(0.35, &mut rng)), (1, Conditions::default()));
+        assert_eq!((alone.0.len(), alone.draw(0.35, &mut rng)), (1, Context::default()));
         let [one, same, other] = [1, 1, 2].map(|seed| RandomizedTables::new(&table, inputs(true), seed));
         let nominal =
             |tables: &RandomizedTables| tables.0.iter().map(|table| Table::clone(&table.nominal)).collect::<Vec<_>>();
@@ -186,8 +189,8 @@ mod tests {
                 let layout = Layout::random(&table, &mut rng);
                 // A rather full hit of the first ball at middle speed, which every steady player makes.
                 let (observation, action) = (Observation::new(&layout, 0), [-0.2, -0.2, 0.0, 0.0, -1.0]);
-                let conditions = Conditions { table: 0, errors };
-                tables.attempt(Reward::R1, &layout, (&observation, action), conditions, &mut rng)
+                let context = Context { table: 0, errors };
+                tables.attempt(Reward::R1, &layout, (&observation, action), context, &mut rng)
             });
             points.sum::<f64>()
         });

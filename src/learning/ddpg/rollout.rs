@@ -15,7 +15,7 @@ use super::{
     observation_batch::ObservationBatch,
     paths::playable,
     policy::calibration::{Calibration, Trial},
-    randomized_tables::{Conditions, RandomizedTables},
+    randomized_tables::{Context, RandomizedTables},
     trainer::Trainer,
 };
 use crate::{platform, table::Layout};
@@ -33,8 +33,8 @@ const LAYOUTS_PER_PASS: usize = 64;
 /// Makes the layouts of the calibration independent of all other random numbers drawn from a run's seed.
 const STREAM: u64 = 0x0070_6c61_7474;
 
-/// A layout, and the conditions under which it is played.
-pub(super) type Scene = (Layout, Conditions);
+/// A layout, and the context under which it is played.
+pub(super) type ContextualLayout = (Layout, Context);
 
 impl Trainer {
     /// Plays the shots of one iteration and returns their mean reward. Each shot has a fresh layout, except the ranked ones.
@@ -43,45 +43,42 @@ impl Trainer {
         let part = |share: f64, of: usize| ((of as f64 * share).round() as usize).min(of);
         let ranked = part(ranking, shots_per_update) / RANKED;
         // A layout with ranked proposals takes `RANKED` shots; every other takes one.
-        let layouts = ranked + (shots_per_update - ranked * RANKED);
-        let scenes: Vec<Scene> = (0..layouts).map(|_| self.scene()).collect();
-        let (ranked, scenes) = scenes.split_at(ranked);
-        let (chosen, any) = scenes.split_at(part(critic_chooses, scenes.len()));
+        let count = ranked + (shots_per_update - ranked * RANKED);
+        let layouts: Vec<ContextualLayout> = (0..count).map(|_| self.draw_layout()).collect();
+        let (ranked, layouts) = layouts.split_at(ranked);
+        let (chosen, any) = layouts.split_at(part(critic_chooses, layouts.len()));
         self.search()?;
         let total = self.play_ranked(ranked)? + self.play_near_best(chosen)? + self.play_near_random(any)?;
         self.shots += shots_per_update as u64;
         Ok(total / shots_per_update as f64)
     }
 
-    /// Draws a fresh layout and its conditions.
-    fn scene(&mut self) -> Scene {
-        let conditions = self.tables.draw(self.task.hyperparameters.perfect, &mut self.rng);
-        (Layout::random(self.tables.table(conditions), &mut self.rng), conditions)
+    /// Draws a fresh layout and its context.
+    fn draw_layout(&mut self) -> ContextualLayout {
+        let context = self.tables.draw(self.task.hyperparameters.perfect, &mut self.rng);
+        (Layout::random(self.tables.table(context), &mut self.rng), context)
     }
 
     /// Searches some layouts for the best strokes of a player with errors. All strokes of the result enter the replay buffer; the best
     /// also enter the buffer that the actor imitates.
     fn search(&mut self) -> Result<()> {
-        let scenes: Vec<Scene> = (0..self.task.hyperparameters.searched)
+        let layouts: Vec<ContextualLayout> = (0..self.task.hyperparameters.searched)
             .map(|_| {
-                let (layout, conditions) = self.scene();
-                (layout, Conditions { errors: RandomizedTables::errors(&mut self.rng), ..conditions })
+                let (layout, context) = self.draw_layout();
+                (layout, Context { errors: RandomizedTables::errors(&mut self.rng), ..context })
             })
             .collect();
-        let proposals = self.proposals_on(&self.agent.target, &scenes)?;
-        let tasks: Vec<_> = scenes.into_iter().zip(proposals).map(|task| (task, self.rng.random())).collect();
+        let proposals = self.proposals_on(&self.agent.target, &layouts)?;
+        let tasks: Vec<_> = layouts.into_iter().zip(proposals).map(|task| (task, self.rng.random())).collect();
         let (reward, inputs) = (self.task.plan.reward, self.task.hyperparameters.inputs());
         let (tables, networks) = (&self.tables, &self.agent.target);
-        let found = platform::parallel::try_map(
-            platform::thread_count(),
-            &tasks,
-            |(((layout, conditions), proposals), seed)| {
+        let found =
+            platform::parallel::try_map(platform::thread_count(), &tasks, |(((layout, context), proposals), seed)| {
                 let proposals: Vec<_> =
                     proposals.iter().map(|&(observation, action, _)| (observation, action)).collect();
-                let expert = Expert { tables, reward, inputs, networks, layout, conditions: *conditions };
+                let expert = Expert { tables, reward, inputs, networks, layout, context: *context };
                 expert.search(&proposals, &mut Xoshiro256PlusPlus::seed_from_u64(*seed))
-            },
-        )?;
+            })?;
         for SearchResult { best, others } in found {
             for stroke in &best {
                 self.searched.push(*stroke);
@@ -97,73 +94,72 @@ impl Trainer {
     pub(super) fn proposals_on(
         &self,
         networks: &Networks,
-        scenes: &[Scene],
+        layouts: &[ContextualLayout],
     ) -> Result<Vec<Vec<(Observation, Action, f32)>>> {
         let inputs = self.task.hyperparameters.inputs();
-        let scenes = scenes
-            .iter()
-            .map(|(layout, conditions)| (self.tables.table(*conditions), layout, f64::from(conditions.errors)));
-        networks.proposals(inputs, scenes)
+        let layouts =
+            layouts.iter().map(|(layout, context)| (self.tables.table(*context), layout, f64::from(context.errors)));
+        networks.proposals(inputs, layouts)
     }
 
     /// Plays the target networks' best proposals on every layout without noise. Returns the sum of the rewards.
-    fn play_ranked(&mut self, scenes: &[Scene]) -> Result<f64> {
+    fn play_ranked(&mut self, layouts: &[ContextualLayout]) -> Result<f64> {
         let mut total = 0.0;
-        for (scene, mut proposals) in scenes.iter().zip(self.proposals_on(&self.agent.target, scenes)?) {
+        for (layout, mut proposals) in layouts.iter().zip(self.proposals_on(&self.agent.target, layouts)?) {
             proposals.sort_by(|(.., a), (.., b)| b.total_cmp(a));
             for (observation, action, _) in proposals.into_iter().cycle().take(RANKED) {
-                total += self.rollout(scene, observation, action);
+                total += self.rollout(layout, observation, action);
             }
         }
         Ok(total)
     }
 
     /// Plays near the critic's favourite on every layout, where its errors matter most. Returns the sum of the rewards.
-    fn play_near_best(&mut self, scenes: &[Scene]) -> Result<f64> {
+    fn play_near_best(&mut self, layouts: &[ContextualLayout]) -> Result<f64> {
         let mut total = 0.0;
-        for (scene, proposals) in scenes.iter().zip(self.proposals_on(&self.agent.online, scenes)?) {
+        for (layout, proposals) in layouts.iter().zip(self.proposals_on(&self.agent.online, layouts)?) {
             if let Some((observation, choice, _)) = proposals.into_iter().max_by(|(.., a), (.., b)| a.total_cmp(b)) {
-                total += self.explore(scene, observation, choice);
+                total += self.explore(layout, observation, choice);
             }
         }
         Ok(total)
     }
 
     /// Plays near a random head's choice in a random observation of every layout. Returns the sum of the rewards.
-    fn play_near_random(&mut self, scenes: &[Scene]) -> Result<f64> {
-        if scenes.is_empty() {
+    fn play_near_random(&mut self, layouts: &[ContextualLayout]) -> Result<f64> {
+        if layouts.is_empty() {
             return Ok(0.0);
         }
-        let situations = scenes.iter().map(|(layout, conditions)| {
-            let (table, rails_first) = (self.tables.table(*conditions), self.task.hyperparameters.rails_first);
-            self.tables.situation(Observation::random(table, layout, rails_first, &mut self.rng), *conditions)
+        let observations = layouts.iter().map(|(layout, context)| {
+            let (table, rails_first) = (self.tables.table(*context), self.task.hyperparameters.rails_first);
+            self.tables.contextual(Observation::random(table, layout, rails_first, &mut self.rng), *context)
         });
-        let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), situations.collect())?;
+        let observed = ObservationBatch::new(self.task.hyperparameters.inputs(), observations.collect())?;
         let actions = self.agent.online.actions(&observed)?;
-        let heads = actions.len() / scenes.len();
+        let heads = actions.len() / layouts.len();
         let mut total = 0.0;
-        for (index, scene) in scenes.iter().enumerate() {
+        for (index, layout) in layouts.iter().enumerate() {
             let choice = actions[index * heads + self.rng.random_range(0..heads)];
-            total += self.explore(scene, observed.situations[index].observation, choice);
+            total += self.explore(layout, observed.observations[index].observation, choice);
         }
         Ok(total)
     }
 
     /// Plays and stores one shot with exploration noise around `choice`; returns its reward.
-    fn explore(&mut self, scene: &Scene, observation: Observation, choice: Action) -> f64 {
+    fn explore(&mut self, layout: &ContextualLayout, observation: Observation, choice: Action) -> f64 {
         let hyper = &self.task.hyperparameters;
         let action = hyper.exploration.perturb(hyper.actions, choice, &mut self.rng);
-        self.rollout(scene, observation, action)
+        self.rollout(layout, observation, action)
     }
 
     /// Plays and stores one shot; returns its reward, the mean over the attempts.
-    fn rollout(&mut self, (layout, conditions): &Scene, observation: Observation, action: Action) -> f64 {
-        let (reward, conditions) = (self.task.plan.reward, *conditions);
-        let attempts = if conditions.errors == 0.0 { 1 } else { self.task.hyperparameters.attempts };
-        let attempt = |_| self.tables.attempt(reward, layout, (&observation, action), conditions, &mut self.rng);
+    fn rollout(&mut self, (layout, context): &ContextualLayout, observation: Observation, action: Action) -> f64 {
+        let (reward, context) = (self.task.plan.reward, *context);
+        let attempts = if context.errors == 0.0 { 1 } else { self.task.hyperparameters.attempts };
+        let attempt = |_| self.tables.attempt(reward, layout, (&observation, action), context, &mut self.rng);
         let earned = (0..attempts).map(attempt).sum::<f64>() / attempts as f64;
         let success = (earned / reward.max_value()) as f32;
-        self.replay.push(Transition { observation, conditions, action, success });
+        self.replay.push(Transition { observation, context, action, success });
         earned
     }
 
@@ -173,32 +169,32 @@ impl Trainer {
         let Hyperparameters { perfect, calibrated, .. } = self.task.hyperparameters;
         let reward = self.task.plan.reward;
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.task.plan.seed ^ STREAM);
-        let scenes: Vec<Scene> = (0..calibrated)
+        let layouts: Vec<ContextualLayout> = (0..calibrated)
             .map(|number| {
-                let conditions = self.tables.draw(perfect, &mut rng);
-                let conditions = if number % 2 == 0 { conditions.on_own_table() } else { conditions };
-                (Layout::random(self.tables.table(conditions), &mut rng), conditions)
+                let context = self.tables.draw(perfect, &mut rng);
+                let context = if number % 2 == 0 { context.on_own_table() } else { context };
+                (Layout::random(self.tables.table(context), &mut rng), context)
             })
             .collect();
         let mut trials = Vec::with_capacity(calibrated);
-        for scenes in scenes.chunks(LAYOUTS_PER_PASS) {
+        for layouts in layouts.chunks(LAYOUTS_PER_PASS) {
             if !go_on() {
                 return Ok(None);
             }
-            for ((layout, conditions), mut proposals) in
-                scenes.iter().zip(self.proposals_on(&self.agent.target, scenes)?)
+            for ((layout, context), mut proposals) in
+                layouts.iter().zip(self.proposals_on(&self.agent.target, layouts)?)
             {
-                let table = self.tables.table(*conditions);
+                let table = self.tables.table(*context);
                 let has_room = |(observation, action, _): &(Observation, Action, f32)| {
                     playable(table, layout, observation, *action).is_ok()
                 };
                 proposals.sort_by(|(.., a), (.., b)| a.total_cmp(b));
                 let Some((observation, action, logit)) = proposals.into_iter().rfind(has_room) else { continue };
-                let attempts = if conditions.errors == 0.0 { 1 } else { CALIBRATION_ATTEMPTS };
-                let attempt = |_| self.tables.attempt(reward, layout, (&observation, action), *conditions, &mut rng);
+                let attempts = if context.errors == 0.0 { 1 } else { CALIBRATION_ATTEMPTS };
+                let attempt = |_| self.tables.attempt(reward, layout, (&observation, action), *context, &mut rng);
                 trials.push(Trial {
                     logit: f64::from(logit),
-                    errors: f64::from(conditions.errors),
+                    errors: f64::from(context.errors),
                     attempts: attempts as f64,
                     successes: (0..attempts).map(attempt).sum::<f64>() / reward.max_value(),
                 });

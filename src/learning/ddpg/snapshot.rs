@@ -14,7 +14,7 @@ use super::{
     context::Inputs,
     networks::Networks,
     observation::Observation,
-    randomized_tables::{Conditions, RandomizedTables},
+    randomized_tables::{Context, RandomizedTables},
     trainer::{Task, Trainer},
 };
 use crate::{
@@ -129,34 +129,34 @@ fn add_shots(writer: &mut Writer, name: &str, shots: &ReplayBuffer<Transition>, 
         writer.add(format!("{name}.rails"), &[shots.len()], &rails);
     }
     if inputs.context {
-        let conditions: Vec<f32> =
-            shots.iter().flat_map(|shot| [shot.conditions.table as f32, shot.conditions.errors]).collect();
-        writer.add(format!("{name}.conditions"), &[shots.len(), 2], &conditions);
+        let context: Vec<f32> =
+            shots.iter().flat_map(|shot| [shot.context.table as f32, shot.context.errors]).collect();
+        writer.add(format!("{name}.conditions"), &[shots.len(), 2], &context);
     }
 }
 
 fn transitions(reader: &Reader<'_>, name: &str, inputs: Inputs) -> Result<Vec<Transition>, WeightsError> {
-    let [views, actions, successes, conditions, rails] =
+    let [views, actions, successes, context, rails] =
         ["views", "actions", "successes", "conditions", "rails"].map(|what| format!("{name}.{what}"));
     let observations = reader.array_f64(&views)?;
     let ((_, actions), (_, successes)) = (reader.array(&actions)?, reader.array(&successes)?);
     let (observations, actions) = (observations.as_chunks::<OBSERVATION_NUMBERS>().0, actions.as_chunks::<ACTIONS>().0);
-    // Without a context all shots have the same conditions.
-    let conditions = if inputs.context { reader.array(&conditions)?.1 } else { vec![0.0; 2 * successes.len()] };
-    let conditions = conditions.as_chunks::<2>().0;
+    // Without a context all shots have the same context.
+    let context = if inputs.context { reader.array(&context)?.1 } else { vec![0.0; 2 * successes.len()] };
+    let context = context.as_chunks::<2>().0;
     let rails = if inputs.rails_first { reader.array(&rails)?.1 } else { vec![STRAIGHT; successes.len()] };
-    if [observations.len(), actions.len(), conditions.len(), rails.len()] != [successes.len(); 4] {
+    if [observations.len(), actions.len(), context.len(), rails.len()] != [successes.len(); 4] {
         let expected = format!("{} shots", successes.len());
         return Err(WeightsError::Array { name: views, expected });
     }
-    let shots = observations.iter().zip(actions).zip(conditions).zip(rails).zip(successes);
+    let shots = observations.iter().zip(actions).zip(context).zip(rails).zip(successes);
     Ok(shots
         .map(|((((v, action), [table, errors]), rail), success)| {
             let pair = |index: usize| DVec2::new(v[index], v[index + 1]);
             let rail = Rail::ALL.into_iter().find(|own| number_of(Some(*own)) == rail);
             let observation = Observation { cue: pair(0), first: pair(2), second: pair(4), rail, mirror: pair(6) };
-            let conditions = Conditions { table: *table as u32, errors: *errors };
-            Transition { observation, conditions, action: *action, success }
+            let context = Context { table: *table as u32, errors: *errors };
+            Transition { observation, context, action: *action, success }
         })
         .collect())
 }

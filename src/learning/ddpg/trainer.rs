@@ -74,9 +74,9 @@ impl Trainer {
 
     /// Converts stored shots to a minibatch.
     pub(super) fn batch(&self, shots: &[Transition]) -> Result<ShotBatch> {
-        let situations = shots.iter().map(|shot| self.tables.situation(shot.observation, shot.conditions)).collect();
+        let observations = shots.iter().map(|shot| self.tables.contextual(shot.observation, shot.context)).collect();
         Ok(ShotBatch {
-            observed: ObservationBatch::new(self.task.hyperparameters.inputs(), situations)?,
+            observed: ObservationBatch::new(self.task.hyperparameters.inputs(), observations)?,
             actions: shots.iter().map(|shot| shot.action).collect(),
             successes: shots.iter().map(|shot| shot.success).collect(),
         })

@@ -2,7 +2,7 @@
 //! them.
 //!
 //! Friction of magnitude `f` on a ball turns a slip `u` against the forces within `|u|/f`. If it nearly holds the ball, the slip stays
-//! small for long, and explicit steps would have to be up to a thousand times shorter.
+//! small for long, and explicit steps would have to be shorter than `|u|/f`.
 
 use glam::DVec2;
 

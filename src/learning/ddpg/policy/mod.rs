@@ -16,7 +16,7 @@ use crate::{
             context::is_known_table,
             networks::Networks,
             observation::Observation,
-            observation_batch::Situation,
+            observation_batch::ContextualObservation,
             paths::{cue_inputs, playable},
         },
         evaluation::{CONTACT_STEPS, Score},
@@ -91,9 +91,12 @@ impl Policy {
         let observations = Observation::all(table, layout, inputs.rails_first);
         let parts: Vec<&[Observation]> = observations.chunks(observations.len().div_ceil(team.size())).collect();
         let proposals = team.map(&parts, |part| {
-            let situation =
-                |observation: &Observation| Situation { observation: *observation, table: Arc::clone(&shared), errors };
-            let proposals = self.networks.proposals_in(inputs, part.iter().map(situation).collect());
+            let contextual = |observation: &Observation| ContextualObservation {
+                observation: *observation,
+                table: Arc::clone(&shared),
+                errors,
+            };
+            let proposals = self.networks.proposals_in(inputs, part.iter().map(contextual).collect());
             proposals.expect("the sizes of the networks were checked when they were loaded")
         });
         let success = |logit: f32| {
