@@ -181,12 +181,6 @@ impl<'a> Pieces<'a> {
         let course = [position, velocity, fall, DVec3::ZERO, DVec3::ZERO, DVec3::ZERO];
         Piece { course, ends, fastest: Some(hops.fastest(&arc)) }
     }
-
-    fn land(&mut self) {
-        if let Some((_, landings)) = &mut self.flight {
-            *landings += 1;
-        }
-    }
 }
 
 /// Whether one ball in the air certainly passes another one that is at rest.
@@ -230,8 +224,10 @@ pub fn next_collision_in_space<S: Savings>(
             return Prediction::Nothing;
         }
         for (ball, its) in balls.iter_mut().zip([one.ends, other.ends]) {
-            if its <= ends {
-                ball.land();
+            if its <= ends
+                && let Some((_, landings)) = &mut ball.flight
+            {
+                *landings += 1;
             }
         }
         after = ends.max(after);

@@ -46,12 +46,7 @@ impl Observer for BoundedRecorder<'_> {
         self.check_limits()
     }
 
-    fn bounce(&mut self, bounce: Event) {
-        self.recorder.bounce(bounce);
-    }
-
     fn contact_step(&mut self) -> ControlFlow<()> {
-        self.recorder.contact_step()?;
         self.check_limits()
     }
 

@@ -139,25 +139,6 @@ impl Chatters {
     }
 }
 
-/// Returns a contact that bounces with some speed, and all contacts that are coupled to its bounces.
-fn coupled(
-    constants: &Constants,
-    balls: &[BallState; BALLS],
-    on_cloth: [bool; BALLS],
-    contact: &Contact,
-    speed: f64,
-) -> Contacts {
-    let slow = COUPLING * speed.abs();
-    let high =
-        (0.5 * slow * slow / constants.sliding).clamp(constants.tolerance.touching, constants.tolerance.coupled_gap);
-    let is_coupled = |gap: f64, other: &Contact| gap <= high && other.opening_speed(balls).abs() <= slow;
-    let mut contacts = contacts_where(constants, balls, on_cloth, is_coupled);
-    // The contact is closed, whatever its rounded gap is.
-    contacts.retain(|_, other| other != contact);
-    contacts.push(*contact);
-    contacts
-}
-
 /// End of a chatter.
 pub struct ChatterEnd {
     /// Contacts that rest from now on.
@@ -187,11 +168,18 @@ pub fn chatter_end(
         alone.push(*contact);
         return Some(ChatterEnd { contacts: alone, duration: 0.0 });
     }
-    // Contacts that the bounces open are closed on average, and slips that they create count as zero.
-    let mut contacts = coupled(constants, balls, on_cloth, contact, speed);
+    // While a contact chatters, the contacts that are coupled to it count as closed, and slips as small as its bounces cause count as zero.
     // A contact in flight does not press, and could only be stopped by pulling.
-    let flies = |other: &Contact| other != contact && other.opening_speed(balls) > tolerance.slowest_bounce;
-    contacts.retain(|_, other| other.shares_a_ball(contact) && !flies(other));
+    let slow = COUPLING * speed;
+    let high = (0.5 * slow * slow / constants.sliding).clamp(tolerance.touching, tolerance.coupled_gap);
+    let is_coupled = |gap: f64, other: &Contact| {
+        let opening = other.opening_speed(balls);
+        let is_slow = opening.abs() <= slow && opening <= tolerance.slowest_bounce;
+        gap <= high && is_slow && other != contact && other.shares_a_ball(contact)
+    };
+    let mut contacts = contacts_where(constants, balls, on_cloth, is_coupled);
+    // The contact is closed, whatever its rounded gap is.
+    contacts.push(*contact);
     let none = tolerance.ending_slip.max(MADE_BY_BOUNCES * speed);
     // The friction whose direction turns soonest: that of the ball whose slip ends first.
     let slips = balls

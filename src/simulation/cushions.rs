@@ -30,11 +30,10 @@ pub fn next_cushion_impact<S: Savings>(constants: &Constants, segment: &Segment,
         }
     }
     let tolerance = &constants.tolerance;
-    let across = next_impact_on_axis(tolerance, reach.x, p.x, v.x, k.x);
-    let along = next_impact_on_axis(tolerance, reach.y, p.y, v.y, k.y);
-    let along_first = along.time < across.time;
-    let time = lesser(along.time, across.time);
-    let rail = rail_of(across.upwards, along.upwards, along_first);
+    let (across, right) = next_impact_on_axis(tolerance, reach.x, p.x, v.x, k.x);
+    let (along, top) = next_impact_on_axis(tolerance, reach.y, p.y, v.y, k.y);
+    let time = lesser(along, across);
+    let rail = rail_of(right, top, along < across);
     if time == PRESSED {
         (Prediction::Pressed, rail)
     } else if time < horizon {
@@ -46,7 +45,7 @@ pub fn next_cushion_impact<S: Savings>(constants: &Constants, segment: &Segment,
 
 /// Returns the cushion on the given side of the x axis or the y axis.
 #[inline(always)]
-fn rail_of(right: bool, top: bool, on_y: bool) -> Rail {
+pub fn rail_of(right: bool, top: bool, on_y: bool) -> Rail {
     let (x, y) = (usize::from(right), 2 + usize::from(top));
     Rail::ALL[x ^ ((x ^ y) * usize::from(on_y))]
 }
@@ -96,19 +95,13 @@ fn at_full_speed(tolerance: &Tolerance, gap: f64, speed: f64) -> f64 {
     }
 }
 
-/// First cushion impact of a trajectory on one axis of the table.
-struct OnAxis {
-    /// Time of the impact, s; infinity for never, [`PRESSED`] for a resting contact.
-    time: f64,
-    /// Whether the cushion is on the positive side.
-    upwards: bool,
-}
-
+/// Time of the impact of a ball that rests against a cushion.
 const PRESSED: f64 = -1.0;
 
-/// Returns the first impact on two opposite cushions, at `±reach`, of a ball with the coordinate `p + v t + k t²`.
+/// Returns the time of the first impact on two opposite cushions, at `±reach`, of a ball with the coordinate `p + v t + k t²`, s; infinity
+/// for never. Also returns whether the cushion is on the positive side.
 #[inline(always)]
-fn next_impact_on_axis(tolerance: &Tolerance, reach: f64, p: f64, v: f64, k: f64) -> OnAxis {
+fn next_impact_on_axis(tolerance: &Tolerance, reach: f64, p: f64, v: f64, k: f64) -> (f64, bool) {
     let sign = 1.0_f64.copysign(v);
     let (p, v, k) = (sign * p, v.abs(), sign * k);
     let (forward_gap, backward_gap) = (reach - p, reach + p);
@@ -117,7 +110,7 @@ fn next_impact_on_axis(tolerance: &Tolerance, reach: f64, p: f64, v: f64, k: f64
     } else {
         (first_closes(forward_gap, v, k), closes_on_return(backward_gap, v, -k))
     };
-    OnAxis { time: lesser(forward, backward), upwards: (sign > 0.0) == (forward <= backward) }
+    (lesser(forward, backward), (sign > 0.0) == (forward <= backward))
 }
 
 /// Returns when `gap - speed t - half_acceleration t²` first falls to zero, for a non-negative speed; infinity if never.
@@ -158,17 +151,10 @@ fn gap_closes(tolerance: &Tolerance, gap: f64, speed: f64, half_acceleration: f6
             -speed / half_acceleration
         };
     }
-    if speed <= 0.0 && half_acceleration <= 0.0 {
-        return f64::INFINITY;
-    }
-    let discriminant = speed * speed + 4.0 * half_acceleration * gap;
-    if discriminant < 0.0 {
-        f64::INFINITY
-    } else if speed > 0.0 {
-        2.0 * gap / (speed + discriminant.sqrt())
+    if speed > 0.0 {
+        first_closes(gap, speed, half_acceleration)
     } else {
-        // Without cancellation, since the speed is not positive.
-        (discriminant.sqrt() - speed) / (2.0 * half_acceleration)
+        closes_on_return(gap, -speed, half_acceleration)
     }
 }
 

@@ -298,12 +298,6 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
         self.micro_collisions.is_some() && self.effort.spent() + in_air > BUDGET_WITHOUT_REST || in_air > AIR_BUDGET
     }
 
-    /// Exhausts the budget of the shot.
-    #[cfg(test)]
-    pub(super) fn exhaust(&self) {
-        self.effort_in_air.add(AIR_BUDGET + 1);
-    }
-
     pub(super) fn state(&self, index: usize, now: f64) -> BallState {
         let segment = &self.balls[index].segment;
         segment.state_after(&self.constants, now - segment.start)

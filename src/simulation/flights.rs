@@ -219,7 +219,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        simulation::{AllSavings, Constants, End, Event},
+        simulation::{AllSavings, Constants, End, Event, guards::AIR_BUDGET},
         table::{Flight, Layout, Table},
     };
 
@@ -247,7 +247,7 @@ mod tests {
         let velocity = DVec3::new(0.3, 0.0, -0.2);
         let state = SpatialState { position: place.extend(0.05), velocity, spin: DVec3::ZERO };
         assert!(engine.launch_in_space(0, 0.0, &state).is_continue());
-        engine.exhaust();
+        engine.effort_in_air.add(AIR_BUDGET + 1);
         assert!(engine.launch_in_space(0, 0.0, &state).is_continue());
         reported.0
     }

@@ -167,12 +167,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     #[cold]
     pub(super) fn collide_simultaneously(&mut self, now: f64) -> ControlFlow<(), bool> {
         self.effort.add(RAIL_BOUNCE_COST);
-        let members = self.resting_members();
         let held = self.resting.as_ref().map(|resting| resting.after(self.table, now - resting.start));
-        let mut states: [BallState; BALLS] = std::array::from_fn(|index| match &held {
-            Some(states) if members[index] => states[index],
-            _ => self.state(index, now),
-        });
+        let mut states = self.states_with(now, held.as_ref(), &[]);
         let c = self.constants;
         // Without restitution the rounds would never end; their limit is one impact of all touching contacts.
         let collapsed = (self.inelastic && self.micro_collisions.is_none()) || self.rounds > MAX_ROUNDS;
@@ -182,10 +178,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if contacts.len() < 2 {
             return ControlFlow::Continue(false);
         }
-        let mut changed = [false; BALLS];
-        for (ball, changed) in changed.iter_mut().enumerate() {
-            *changed = contacts.involve(ball);
-        }
+        let changed = std::array::from_fn(|ball| contacts.involve(ball));
         // In a micro-collision, a ball crosses a small gap before it bounces again; a jammed ball gets room behind the cushion.
         let room = match self.micro_collisions {
             Some(_) => c.tolerance.micro_gap,

@@ -2,11 +2,8 @@
 
 use glam::DVec2;
 
-use super::{End, Event, EventKind, Rail, Recording};
-use crate::{
-    physics::Motion,
-    table::{BALLS, Layout, Table},
-};
+use super::{End, Event, EventKind, Rail, Recording, cushions::rail_of};
+use crate::table::{BALLS, Layout, Table};
 
 /// Height from which a hop is reported, m. Every stroke over a rail and every rail impact causes lower hops, which are invisible.
 pub const REPORTED_HEIGHT: f64 = 0.002;
@@ -54,12 +51,7 @@ impl OffTable {
         std::array::from_fn(|ball| {
             let place = places[ball];
             let beyond = place.abs() - reach;
-            let over = match (beyond.x > beyond.y, place.x > 0.0, place.y > 0.0) {
-                (true, true, _) => Rail::Right,
-                (true, false, _) => Rail::Left,
-                (false, _, true) => Rail::Top,
-                (false, _, false) => Rail::Bottom,
-            };
+            let over = rail_of(place.x > 0.0, place.y > 0.0, beyond.x <= beyond.y);
             off_table[ball].then_some(Self { over, spot: layout.balls[ball] })
         })
     }
@@ -91,10 +83,9 @@ impl Recording {
     fn jump(&self, ball: usize, start: f64, events: &[Event]) -> Jump {
         let is_end = |event: &&Event| [EventKind::Lands(ball), EventKind::LeavesTable(ball)].contains(&event.kind);
         let end = events.iter().find(is_end).map_or(self.duration(), |event| event.time);
-        let flying = |n: &usize| self.segments(ball)[*n].motion == Motion::Flying;
         let pieces = self.segments(ball);
         let (mut height, mut distance) = (0.0_f64, None);
-        let inside = (0..pieces.len()).filter(|&n| pieces[n].start >= start && pieces[n].start < end).filter(flying);
+        let inside = (0..pieces.len()).filter(|&n| pieces[n].start >= start && pieces[n].start < end);
         for n in inside {
             let Some(hops) = pieces[n].hops() else { continue };
             let duration = pieces.get(n + 1).map_or(end, |next| next.start) - pieces[n].start;

@@ -4,7 +4,6 @@
 //! (selection of the next event), `engine` (the event loop), `impacts` (collision events), `chatter` and `resting` (contacts that close
 //! repeatedly or stay closed), `playback`.
 
-mod active_set;
 mod aloft;
 mod ball_ball;
 mod bounded;

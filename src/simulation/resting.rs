@@ -5,6 +5,7 @@
 //! direction is singular in time. With time rescaled by the slip, `dt = |u|/|u₀| dτ`, the slip decays exponentially and the solution stays
 //! smooth.
 
+mod active_set;
 mod bounds;
 mod course;
 mod stiffness;
@@ -12,9 +13,9 @@ mod within;
 
 use glam::{DVec2, DVec3};
 
+use self::active_set::{find_active_set, remove_rounding, transient_pressing, without_ending_slips};
 use super::{
     Constants, Rail,
-    active_set::{Ended, find_active_set, remove_rounding, transient_pressing, without_ending_slips},
     contacts::{close_gaps, touching},
     extrapolation::{Phase, State, Step, extrapolate},
     guards::{RESTING_BUDGET, STEP_BUDGET, STEP_COST, known_set_cost},
@@ -47,10 +48,6 @@ const AT_ONCE: f64 = 1e-3;
 
 /// Number of consecutive such steps after which the forces are determined by the solver in every state.
 const MAX_SHORT_STEPS: u32 = 16;
-
-/// Number of consecutive restarts after which non-unique forces are sought near the previous ones. A search from zero may find forces at
-/// the edge of a law that break it immediately, in every step.
-const MAX_RESTARTS: u32 = 8;
 
 /// Ratio of the next trial step to one in which a state has no forces.
 const WITHOUT_FORCES: f64 = 0.1;
@@ -147,7 +144,7 @@ impl Resting {
         effort.add(STEP_COST);
         let least_push = force_error + transient_pressing(constants, balls, &contacts);
         let Some((begin, resolved)) =
-            find_active_set(table, constants, &mut free, &mut contacts, least_push, previous.map(Self::ended), &effort)
+            find_active_set(table, constants, &mut free, &mut contacts, least_push, previous, &effort)
         else {
             let ended = without_ending_slips(table, constants, &free, &contacts);
             return Outcome::Free(ended, std::array::from_fn(|ball| ended[ball] != balls[ball]), effort);
@@ -175,17 +172,6 @@ impl Resting {
         };
         resting.advance(table);
         Outcome::Rests(Box::new(resting))
-    }
-
-    /// Returns the data of this step that the next one needs.
-    const fn ended(&self) -> Ended<'_> {
-        Ended {
-            contacts: &self.contacts,
-            set: &self.set,
-            forces: &self.last,
-            interrupted: self.interrupted,
-            repeats: self.restarts > MAX_RESTARTS,
-        }
     }
 
     /// Takes the next step if the active set has not changed at the end of this one. Returns whether it has done so.

@@ -96,7 +96,9 @@ fn keep_inside(candidates: &[f64], end: f64, found: &mut [f64; MAX_ROOTS]) -> us
 fn roots_between_extrema(coefficients: &[f64], end: f64, found: &mut [f64; MAX_ROOTS]) -> usize {
     let degree = coefficients.len() - 1;
     // A polynomial whose Bernstein coefficients on the interval share one sign has no root in it.
-    if bernstein_shares_sign(coefficients, end) {
+    let mut b = [0.0; MAX_DEGREE + 1];
+    let b = bernstein(coefficients, end, &mut b);
+    if b.iter().all(|x| *x > 0.0) || b.iter().all(|x| *x < 0.0) {
         return 0;
     }
     let mut slope = [0.0; MAX_DEGREE];
@@ -121,13 +123,6 @@ fn roots_between_extrema(coefficients: &[f64], end: f64, found: &mut [f64; MAX_R
         (low, low_value) = (high, high_value);
     }
     count
-}
-
-/// Whether all Bernstein coefficients on `[0, end]` have the same strict sign; they bound the polynomial.
-fn bernstein_shares_sign(coefficients: &[f64], end: f64) -> bool {
-    let mut b = [0.0; MAX_DEGREE + 1];
-    let b = bernstein(coefficients, end, &mut b);
-    b.iter().all(|x| *x > 0.0) || b.iter().all(|x| *x < 0.0)
 }
 
 /// Computes the Bernstein coefficients of a polynomial on `[0, end]`: `b_j = sum_i C(j,i) / C(n,i) c_i end^i`.

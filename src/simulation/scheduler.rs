@@ -27,9 +27,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let ball = &mut self.balls[index];
         ball.segment = segment;
         ball.duration = duration;
-        if self.predict_cushion(index) {
-            self.pressed = true;
-        }
+        self.pressed |= self.predict_cushion(index);
     }
 
     /// Predicts the next cushion impact of a ball. Returns whether the ball is pressed against a cushion instead.

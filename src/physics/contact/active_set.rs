@@ -36,14 +36,9 @@ impl Contacts {
     }
 
     /// Keeps only the contacts for which `wanted` returns true.
-    pub fn retain(&mut self, mut wanted: impl FnMut(usize, &Contact) -> bool) {
-        let before = self.count;
-        self.count = 0;
-        for index in 0..before {
-            if wanted(index, &self.list[index]) {
-                self.list[self.count] = self.list[index];
-                self.count += 1;
-            }
+    pub fn retain(&mut self, wanted: impl Fn(&Contact) -> bool) {
+        for contact in std::mem::replace(self, Self::NONE).iter().filter(|contact| wanted(contact)) {
+            self.push(*contact);
         }
     }
 

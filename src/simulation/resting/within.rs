@@ -72,11 +72,8 @@ impl Resting {
         if time >= self.step { self.end } else { self.without_rounding(table, self.until(table, time).step.end.balls) }
     }
 
-    /// Ends the step `time` seconds after its start: its trajectory becomes that of the shorter step.
+    /// Ends the step `time` seconds after its start, before its end: its trajectory becomes that of the shorter step.
     pub fn shorten(&mut self, table: &Table, time: f64) {
-        if time >= self.step {
-            return;
-        }
         let trial = self.until(table, time);
         self.end_if_given_up();
         self.interrupted = true;

@@ -86,16 +86,11 @@ impl Law {
         rate(nose * against.normalize_or_zero())
     }
 
-    /// As [`Self::step`], but at least with the outward rate [`MIN_GAIN`].
-    fn driven_out(&self, motion: &Motion, impulse: f64) -> Motion {
-        let Motion { velocity, spin } = self.step(motion, impulse);
-        Motion { velocity: velocity.with_x(velocity.x.max(MIN_GAIN)), spin }
-    }
-
-    /// Returns the derivative for a step of `impulse` by the midpoint method.
+    /// Returns the derivative for a step of `impulse` by the midpoint method, at least with the outward rate [`MIN_GAIN`].
     fn step(&self, motion: &Motion, impulse: f64) -> Motion {
         let first = self.rate(motion, motion, 0.5 * impulse);
-        self.rate(motion, &motion.plus(0.5 * impulse, &first), impulse)
+        let Motion { velocity, spin } = self.rate(motion, &motion.plus(0.5 * impulse, &first), impulse);
+        Motion { velocity: velocity.with_x(velocity.x.max(MIN_GAIN)), spin }
     }
 }
 
@@ -134,7 +129,7 @@ fn integrate(law: &Law, restitution: f64, motion: &mut Motion, steps: u32) -> f6
     for left in (1..=steps).rev() {
         let approach = -motion.velocity.x;
         let planned = approach / (gain * f64::from(left));
-        let rate = law.driven_out(motion, planned);
+        let rate = law.step(motion, planned);
         gain = rate.velocity.x;
         // The last step ends when the normal velocity is zero.
         let part = if left == 1 { approach / gain } else { planned.min(approach / gain) };
@@ -155,7 +150,7 @@ fn integrate(law: &Law, restitution: f64, motion: &mut Motion, steps: u32) -> f6
         if planned.is_nan() || planned <= 0.0 {
             break;
         }
-        let rate = law.driven_out(motion, planned);
+        let rate = law.step(motion, planned);
         gain = rate.velocity.x;
         let part = if left == 1 { until(gain) } else { planned.min(until(gain)) };
         let next = motion.plus(part, &rate);

@@ -84,15 +84,10 @@ impl Cushion {
         Self { restitution, law: Law::Equator, fade: None, ..self }
     }
 
-    /// Whether restitution does not depend on speed and contact is at the height of the ball's centre.
-    fn is_plain(&self) -> bool {
-        matches!(self.law, Law::Equator) && self.fade.is_none()
-    }
-
     /// Applies a collision of a ball on the cloth with this cushion, whose normal into the table is `n`.
     #[inline(always)]
     pub fn resolve(&self, radius: f64, n: DVec2, ball: &mut BallState) -> ImpactImpulse {
-        if self.is_plain() {
+        if matches!(self.law, Law::Equator) && self.fade.is_none() {
             let normal = collide_rail(radius, self.restitution, self.friction, n, ball);
             return ImpactImpulse { normal, climb: 0.0 };
         }

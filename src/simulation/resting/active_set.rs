@@ -2,32 +2,24 @@
 
 use glam::DVec2;
 
-use super::{Constants, contacts::close_gaps, extrapolation::State, segment::slides, tolerance::Tolerance};
+use super::{
+    super::{Constants, contacts::close_gaps, extrapolation::State, segment::slides, tolerance::Tolerance},
+    Resting,
+};
 use crate::{
     physics::{
-        ActiveSet, BallState, Contact, Contacts, Effort, Forces, Friction, MAX_CONTACTS, Resolved, Scene, rolling_spin,
-        slip, stop_by_impulses,
+        ActiveSet, BallState, Contact, Contacts, Effort, Friction, MAX_CONTACTS, Resolved, Scene, rolling_spin, slip,
+        stop_by_impulses,
     },
     table::{BALLS, Table},
 };
 
-/// The contact step that has just ended.
-#[derive(Clone, Copy)]
-pub struct Ended<'a> {
-    /// Contacts that pressed.
-    pub contacts: &'a Contacts,
-    /// Active set of the step.
-    pub set: &'a ActiveSet,
-    /// Forces at the end of the step.
-    pub forces: &'a Forces,
-    /// Whether another event has ended the step.
-    pub interrupted: bool,
-    /// Whether many consecutive steps have restarted.
-    pub repeats: bool,
-}
+/// Number of consecutive restarts after which non-unique forces are sought near the previous ones. A search from zero may find forces at
+/// the edge of a law that break it immediately, in every step.
+const MAX_RESTARTS: u32 = 8;
 
-impl Ended<'_> {
-    /// Keeps frictions yielding that yielded before, while their slips are small.
+impl Resting {
+    /// After this step, keeps frictions yielding that yielded before, while their slips are small.
     fn keep_yielding(
         &self,
         radius: f64,
@@ -76,14 +68,18 @@ pub fn find_active_set(
     balls: &mut State,
     contacts: &mut Contacts,
     least_push: f64,
-    previous: Option<Ended<'_>>,
+    previous: Option<&Resting>,
     effort: &Effort,
 ) -> Option<(State, Resolved)> {
     if stand_on_slope(constants, balls, contacts) {
         return None;
     }
     let tolerance = &constants.tolerance;
-    let grips = contacts.iter().any(|contact| has_to_grip(table, constants, balls, contact, previous));
+    // Balls that never slip lose their slip when their contact begins, or when another impact has just made them slip.
+    let grips = contacts.iter().filter(|contact| contact.never_slips(table)).any(|contact| {
+        previous.is_none_or(|previous| !previous.contacts.contains(contact))
+            || contact.slip(table.radius, balls).length() > tolerance.ending_slip
+    });
     let stopped = |none: f64, balls: &State, contacts: &[Contact]| {
         let mut begin = *balls;
         if grips {
@@ -96,10 +92,10 @@ pub fn find_active_set(
         remove_rounding(table, constants, &mut begin, contacts, &set);
         // Non-unique forces stay near the previous ones after an interruption that has changed no contact, and after many consecutive
         // restarts.
-        let same =
-            |previous: &Ended<'_>| previous.repeats || previous.interrupted && previous.contacts[..] == *contacts;
-        let of_these = |previous: Ended<'_>| previous.forces.of_contacts(previous.contacts, contacts);
-        let similar = previous.filter(same).map(of_these);
+        let same = |previous: &&Resting| {
+            previous.restarts > MAX_RESTARTS || previous.interrupted && previous.contacts[..] == *contacts
+        };
+        let similar = previous.filter(same).map(|previous| previous.last.of_contacts(&previous.contacts, contacts));
         let resolve = |balls: &State, set: &ActiveSet| {
             Scene { table, balls, contacts, set }.resolve(least_push, similar.as_ref(), effort)
         };
@@ -125,20 +121,14 @@ pub fn find_active_set(
         }
         let ended = stopped(tolerance.ending_slip, &now, &pressing)?;
         if ended.resolved.is_paradox() {
-            let separate = |index: usize, contact: &Contact, balls: &mut State| {
-                if ended.resolved.paradox[index] {
-                    separate(balls, contact, tolerance.first_bounce);
-                }
-            };
-            for (index, contact) in pressing.iter().enumerate() {
-                separate(index, contact, &mut now);
-                separate(index, contact, balls);
+            let marked = pressing.iter().zip(ended.resolved.paradox).filter(|(_, is_paradox)| *is_paradox);
+            let parted: Vec<Contact> = marked.map(|(contact, _)| *contact).collect();
+            for contact in &parted {
+                separate(&mut now, contact, tolerance.first_bounce);
+                separate(balls, contact, tolerance.first_bounce);
             }
-            contacts.retain(|_, contact| {
-                let index = pressing.iter().position(|pressing| pressing == contact);
-                index.is_none_or(|index| !ended.resolved.paradox[index])
-            });
-            pressing.retain(|index, _| !ended.resolved.paradox[index]);
+            contacts.retain(|contact| !parted.contains(contact));
+            pressing.retain(|contact| !parted.contains(contact));
             continue;
         }
         // Balls at rest may continue to push each other, held by the cloth; this has no effect.
@@ -175,19 +165,6 @@ fn separate(balls: &mut State, contact: &Contact, speed: f64) {
     let missing = 0.5 * (speed - contact.opening_speed(balls)) * contact.normal(balls);
     balls[contact.first].velocity += missing;
     balls[second].velocity -= missing;
-}
-
-/// Whether balls that never slip must lose their slip: their contact begins, or another impact has just made them slip.
-fn has_to_grip(
-    table: &Table,
-    constants: &Constants,
-    balls: &State,
-    contact: &Contact,
-    previous: Option<Ended<'_>>,
-) -> bool {
-    contact.never_slips(table)
-        && (previous.is_none_or(|previous| !previous.contacts.contains(contact))
-            || contact.slip(table.radius, balls).length() > constants.tolerance.ending_slip)
 }
 
 /// Stops the slip of balls that never slip as soon as they press, however weakly: as in their collisions (17), which are too short for the
