@@ -2,8 +2,6 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::table::Table;
-
 /// The phase of a ball's motion, which selects its equation of motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
@@ -53,11 +51,6 @@ pub fn slip(radius: f64, velocity: DVec2, spin: DVec3) -> DVec2 {
 /// Returns the spin about horizontal axes of a ball that rolls with `velocity`: `z×v/R`, rad/s.
 pub fn rolling_spin(radius: f64, velocity: DVec2) -> DVec2 {
     DVec2::new(-velocity.y / radius, velocity.x / radius)
-}
-
-/// Returns the deceleration of a rolling ball, `5/7 mu_r g` (thesis equation 5), m/s².
-pub fn rolling_deceleration(table: &Table) -> f64 {
-    5.0 / 7.0 * table.rolling_friction * table.gravity
 }
 
 /// Returns `w_z` after `time` seconds of decay to zero at `rate` rad/s².

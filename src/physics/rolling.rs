@@ -4,7 +4,6 @@
 //! that gives the exact length. The bands are narrow enough that length and time of a roll from any speed to rest are correct to 0.5 %.
 //! This error is far below the uncertainty of `c0` and `c1`, and every additional band costs as much as an impact.
 
-use super::rolling_deceleration;
 use crate::table::Table;
 
 /// Coefficients of the band width: a band that starts at the speed `v` spans the share `1 / (1 + 4.3 x)` of it, with `x = c1 v / a`. The
@@ -26,7 +25,7 @@ pub struct Rolling {
 impl Rolling {
     /// Returns the law of `table`.
     pub fn of(table: &Table) -> Self {
-        Self { least: rolling_deceleration(table), growth: table.rolling_growth }
+        Self { least: 5.0 / 7.0 * table.rolling_friction * table.gravity, growth: table.rolling_growth }
     }
 
     /// Returns the deceleration of the band that starts at `speed`, m/s², and the speed at its end, m/s (zero for rest).

@@ -69,7 +69,7 @@ impl Nose {
             0.25 * gravity * gravity,
         ];
         let scale = 2.0 * radius;
-        let ahead = polynomial_closes(tolerance, &c, c[0] <= scale * tolerance.touching, scale, duration);
+        let ahead = polynomial_closes(tolerance, &c, scale, duration);
         if let Prediction::Impact(time) = ahead
             && beside > approach * time
         {
@@ -244,12 +244,11 @@ fn meet(constants: &Constants, d: &[DVec3; 6], horizon: f64) -> Prediction {
         return Prediction::Nothing;
     }
     let apart = d[0].length_squared() - diameter * diameter;
-    let touching = apart <= scale * tolerance.touching;
     if d[3..].iter().all(|c| *c == DVec3::ZERO) {
         let [d, v, k, ..] = *d;
         let c = [2.0 * d.dot(v), v.length_squared() + 2.0 * d.dot(k), 2.0 * v.dot(k), k.length_squared()];
-        if touching {
-            return polynomial_closes(tolerance, &[apart, c[0], c[1], c[2], c[3]], true, scale, horizon);
+        if apart <= scale * tolerance.touching {
+            return polynomial_closes(tolerance, &[apart, c[0], c[1], c[2], c[3]], scale, horizon);
         }
         let slope = [c[0], 2.0 * c[1], 3.0 * c[2], 4.0 * c[3]];
         let value = |t: f64| (d + t * (v + t * k)).length_squared() - diameter * diameter;
@@ -263,5 +262,5 @@ fn meet(constants: &Constants, d: &[DVec3; 6], horizon: f64) -> Prediction {
         }
     }
     gap[0] = apart;
-    polynomial_closes(tolerance, &gap, touching, scale, horizon)
+    polynomial_closes(tolerance, &gap, scale, horizon)
 }

@@ -136,7 +136,7 @@ fn next_collision_of_touching(
     let clean = |c: f64| if c.abs() < tolerance.pressing { 0.0 } else { c };
     let (c2, c3, c4) = (clean(c2), clean(2.0 * dv.dot(dk)), dk.length_squared());
     let gap = [0.0, c1, c2, c3, c4];
-    let falls = polynomial_closes(tolerance, &gap, true, 2.0 * diameter, horizon);
+    let falls = polynomial_closes(tolerance, &gap, 2.0 * diameter, horizon);
     if separation > tolerance.opening {
         return falls;
     }

@@ -3,10 +3,7 @@
 use glam::DVec2;
 
 use super::tolerance::Tolerance;
-use crate::{
-    physics::{Rolling, rolling_deceleration},
-    table::Table,
-};
+use crate::{physics::Rolling, table::Table};
 
 /// A table's constants in the form that the engine uses; all divisions are done here, once per shot.
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +55,7 @@ impl Constants {
             sliding,
             slide_time: 1.0 / (3.5 * sliding),
             rolling: Rolling::of(table),
-            roll_time: 1.0 / rolling_deceleration(table),
+            roll_time: 1.0 / Rolling::of(table).least,
             even: level && table.rolling_growth == 0.0,
             level,
             tilt: table.tilt,

@@ -47,9 +47,7 @@ pub fn next_cushion_impact_on_curve(
         if gap[0] > tolerance.touching + travel(&gap.map(f64::abs), earliest) {
             continue;
         }
-        if let Prediction::Impact(time) =
-            polynomial_closes(tolerance, &gap, gap[0] <= tolerance.touching, 1.0, earliest)
-        {
+        if let Prediction::Impact(time) = polynomial_closes(tolerance, &gap, 1.0, earliest) {
             earliest = time;
             nearest = (Prediction::Impact(time), rail);
         }
@@ -67,10 +65,7 @@ pub fn next_collision_on_curve(
     horizon: f64,
 ) -> Prediction {
     let (c1, c2) = (shifted(first, now), shifted(second, now));
-    let mut d = [DVec2::ZERO; 6];
-    for power in 0..6 {
-        d[power] = c1[power] - c2[power];
-    }
+    let d: [DVec2; 6] = std::array::from_fn(|power| c1[power] - c2[power]);
     let diameter = 2.0 * constants.radius;
     // Most pairs are too far apart to collide in such a short time.
     let tolerance = &constants.tolerance;
@@ -84,8 +79,7 @@ pub fn next_collision_on_curve(
         }
     }
     gap[0] -= diameter * diameter;
-    let touching = gap[0] <= 2.0 * diameter * tolerance.touching;
-    polynomial_closes(tolerance, &gap, touching, 2.0 * diameter, horizon)
+    polynomial_closes(tolerance, &gap, 2.0 * diameter, horizon)
 }
 
 /// Returns an upper bound of the distance along a trajectory with coefficients of these magnitudes within `time`.
@@ -96,11 +90,11 @@ pub fn travel(sizes: &[f64; 6], time: f64) -> f64 {
 /// Returns when the gap with these coefficients, in units of `scale` times metres, closes. The gap of touching balls is divided by the
 /// time, because its root at zero is the present contact. If they stay together for now, they collide when the gap has closed by more than
 /// the touching tolerance.
-pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], touching: bool, scale: f64, horizon: f64) -> Prediction {
+pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], scale: f64, horizon: f64) -> Prediction {
     let mut work = [0.0; MAX_DEGREE + 1];
     let mut count = gap.len();
     work[..count].copy_from_slice(gap);
-    if touching {
+    if gap[0] <= scale * tolerance.touching {
         let opening = gap[1] / scale;
         if opening < -tolerance.opening {
             return Prediction::Impact(0.0);

@@ -10,7 +10,7 @@ use super::{
     simulate,
 };
 use crate::{
-    physics::{BallState, CueInputs, Impulse, Motion, Rolling, rolling_deceleration, rolling_spin, slip, strike},
+    physics::{BallState, CueInputs, Impulse, Motion, Rolling, rolling_spin, slip, strike},
     table::{Layout, RailModel, RailOverrides, Rails, Table},
 };
 
@@ -127,7 +127,7 @@ fn edge_of_a_band_at_a_cushion_changes_nothing() {
 #[test]
 fn slow_balls_stop_where_the_law_says() {
     let table = Table::default();
-    let least = rolling_deceleration(&table);
+    let least = Rolling::of(&table).least;
     for speed in [2.7e-2, 1e-2, 1e-3, 1e-5, 1e-7] {
         let (course, stop) = rolled(&table, DVec2::ZERO, DVec2::new(0.6, 0.8) * speed);
         let stops = course.events.iter().filter(|event| matches!(event.kind, EventKind::RollingStationary(0)));

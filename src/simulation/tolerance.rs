@@ -2,7 +2,7 @@
 //! are defined where they are used.
 
 use crate::{
-    physics::{FIRST_BOUNCE, rolling_deceleration},
+    physics::{FIRST_BOUNCE, Rolling},
     table::Table,
 };
 
@@ -109,7 +109,7 @@ impl Tolerance {
             slip: 2e-10 * speed,
             ending_slip: 4e-10 * speed,
             yielding: 1e-5 * speed,
-            still: (2e-11 * rolling_deceleration(table)).sqrt(),
+            still: (2e-11 * Rolling::of(table).least).sqrt(),
             shortest_step: (8e-13 * speed / friction).min(1e-13),
             shortest_quintic: 8.7e10 * f64::EPSILON * table.length.max(table.width) / speed,
             step: 2e-13 * speed.max(table.radius),

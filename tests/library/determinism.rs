@@ -1,6 +1,6 @@
 //! The same shot gives the same bits: with every optimisation switched off, on every run, and on every machine.
 
-use std::ops::ControlFlow;
+use std::{fmt::Debug, ops::ControlFlow};
 
 use carom::{
     game::{Referee, Tally},
@@ -28,26 +28,39 @@ fn assert_same_bits<S: Savings>() {
     }
 }
 
+/// As [`assert_same_bits`], for what an observer records.
+fn assert_same_records<S: Savings, O: Observer + Default + Debug + PartialEq>() {
+    for (name, count) in SHOT_COUNTS {
+        let table = Table::preset(name).unwrap();
+        for (layout, impulse) in &shots(&table, 1, count) {
+            let (mut with, mut without) = (O::default(), O::default());
+            watch(&table, layout, impulse, &mut with);
+            watch_with::<S, _>(&table, layout, impulse, &mut without);
+            assert_eq!(with, without);
+        }
+    }
+}
+
 /// A set of optimisations with one of them off, and the test that plays with it.
 macro_rules! without {
-    ($test:ident, $saving:ident) => {
+    ($test:ident, $saving:ident, $assert:ident $(, $observer:ty)?) => {
         #[test]
         fn $test() {
             struct Without;
             impl Savings for Without {
                 const $saving: bool = false;
             }
-            assert_same_bits::<Without>();
+            $assert::<Without $(, $observer)?>();
         }
     };
 }
 
-without!(predicting_for_balls_at_rest_changes_no_bit, BALLS_AT_REST);
-without!(recomputing_every_prediction_changes_no_bit, KEPT_PREDICTIONS);
-without!(solving_for_every_cushion_changes_no_bit, CUSHIONS_IN_REACH);
-without!(solving_for_separated_trajectories_changes_no_bit, SEPARATED_COURSES);
-without!(simulating_a_lone_ball_normally_changes_no_bit, LONE_BALL);
-without!(simulating_past_a_decided_outcome_changes_no_bit, EARLY_END);
+without!(predicting_for_balls_at_rest_changes_no_bit, BALLS_AT_REST, assert_same_bits);
+without!(recomputing_every_prediction_changes_no_bit, KEPT_PREDICTIONS, assert_same_bits);
+without!(solving_for_every_cushion_changes_no_bit, CUSHIONS_IN_REACH, assert_same_bits);
+without!(solving_for_separated_trajectories_changes_no_bit, SEPARATED_COURSES, assert_same_bits);
+without!(simulating_a_lone_ball_normally_changes_no_bit, LONE_BALL, assert_same_bits);
+without!(simulating_past_a_decided_outcome_changes_no_bit, EARLY_END, assert_same_bits);
 
 #[test]
 fn disabling_all_optimisations_changes_no_bit() {
@@ -87,22 +100,7 @@ impl Observer for Trajectories {
     }
 }
 
-#[test]
-fn simulating_a_lone_ball_normally_changes_no_trajectory() {
-    struct Without;
-    impl Savings for Without {
-        const LONE_BALL: bool = false;
-    }
-    for (name, count) in SHOT_COUNTS {
-        let table = Table::preset(name).unwrap();
-        for (layout, impulse) in &shots(&table, 1, count) {
-            let (mut with, mut without) = (Trajectories::default(), Trajectories::default());
-            watch(&table, layout, impulse, &mut with);
-            watch_with::<Without, _>(&table, layout, impulse, &mut without);
-            assert_eq!(with, without);
-        }
-    }
-}
+without!(simulating_a_lone_ball_normally_changes_no_trajectory, LONE_BALL, assert_same_records, Trajectories);
 
 /// A trace without stops, which are not requested.
 #[derive(Default, Debug, PartialEq)]
@@ -122,22 +120,7 @@ impl Observer for WithoutStops {
     }
 }
 
-#[test]
-fn simulating_the_last_rolls_changes_no_earlier_bit() {
-    struct Without;
-    impl Savings for Without {
-        const LAST_ROLLS: bool = false;
-    }
-    for (name, count) in SHOT_COUNTS {
-        let table = Table::preset(name).unwrap();
-        for (layout, impulse) in &shots(&table, 1, count) {
-            let (mut with, mut without) = (WithoutStops::default(), WithoutStops::default());
-            watch(&table, layout, impulse, &mut with);
-            watch_with::<Without, _>(&table, layout, impulse, &mut without);
-            assert_eq!(with, without);
-        }
-    }
-}
+without!(simulating_the_last_rolls_changes_no_earlier_bit, LAST_ROLLS, assert_same_records, WithoutStops);
 
 /// Plays shots with and without the early end for lack of energy; returns how many have resting contacts that need not be followed.
 fn compare_energy_early_end(count: usize) -> usize {

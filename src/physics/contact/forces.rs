@@ -6,7 +6,7 @@ use super::{
     ActiveSet, Contact, Contacts, Effort, Friction, MAX_CONTACTS, Scene,
     margin::{rates, with_margin},
     problem::{ForceKind, GYRATION, Limit, Problem, Row, Unknown, Values, ZERO_VALUES, coefficient},
-    solve::{Branch, Solution, solve, solve_near},
+    solve::{ATTEMPTS, Branch, Solution, solve},
 };
 use crate::table::{BALLS, Table};
 
@@ -71,19 +71,17 @@ impl Resolved {
     }
 }
 
-/// A solver of the problem that starts from a guess.
-type Seek = fn(&Problem, &Values, &Effort) -> Solution;
-
 impl Scene<'_> {
     /// Returns the problem and its solution. The friction of balls that never slip has no limit, unless no forces obey all laws then.
-    pub(super) fn solved(self, similar: Option<&Forces>, seek: Seek, effort: &Effort) -> (Problem, Solution) {
+    pub(super) fn solved(self, similar: Option<&Forces>, attempts: u32, effort: &Effort) -> (Problem, Solution) {
         let Self { table, contacts, .. } = self;
         let mut problem = Problem::new(self);
-        let mut solution = seek(&problem, &similar.map_or(ZERO_VALUES, |similar| similar.values(&problem)), effort);
+        let guess = similar.map_or(ZERO_VALUES, |similar| similar.values(&problem));
+        let mut solution = solve(&problem, &guess, attempts, effort);
         let reaches_its_limit = |(unknown, branch): (&Unknown, &Branch)| matches!((unknown.kind, branch), (ForceKind::Contact(index), Branch::Limited(_)) if contacts[index].never_slips(table));
         if problem.unknowns.iter().zip(&solution.branches).any(reaches_its_limit) {
             problem.grip(contacts);
-            let gripped = solve_near(&problem, &solution.values, effort);
+            let gripped = solve(&problem, &solution.values, 1, effort);
             if gripped.converged {
                 solution = gripped;
             }
@@ -162,8 +160,8 @@ impl Scene<'_> {
     /// search worthwhile after a state without a solution: there are mostly no forces.
     pub fn search_forces(self, similar: &Forces, is_short: bool, effort: &Effort) -> Forces {
         let Self { table, set, .. } = self;
-        let seek = if similar.converged && !is_short { solve } else { solve_near };
-        let (problem, solution) = self.solved(Some(similar), seek, effort);
+        let attempts = if similar.converged && !is_short { ATTEMPTS } else { 1 };
+        let (problem, solution) = self.solved(Some(similar), attempts, effort);
         let accelerations = problem.accelerations(&solution.values);
         let mut forces = Forces::of(table.radius, &problem, &solution, &accelerations);
         forces.slack = self.spin_slack();

@@ -9,7 +9,7 @@
 use super::{
     Effort,
     problem::{ForceKind, Limit, Problem},
-    solve::{Branch, Solution, solve_near},
+    solve::{Branch, Solution, solve},
 };
 
 /// Shares of their limits to which frictions are restricted; the first share with which all laws hold is used.
@@ -85,7 +85,7 @@ fn with_share(problem: &Problem, solution: &Solution, none: f64, share: f64, eff
             }
             return Some(found);
         }
-        found = solve_near(&relaxed, &found.values, effort);
+        found = solve(&relaxed, &found.values, 1, effort);
         let holds = |index: usize| match problem.unknowns[index].kind {
             ForceKind::Normal(_) => {
                 rates(&relaxed, &found, index)[0] >= -MAX_OPENING * solution.values[problem.unknowns[index].first].abs()

@@ -12,7 +12,7 @@ use super::{
     forces::{DEPARTING, Resolved},
     margin::rates,
     problem::{ForceKind, Problem},
-    solve::{Branch, Solution, solve, solve_near},
+    solve::{ATTEMPTS, Branch, Solution, solve},
 };
 use crate::table::{BALLS, Table};
 
@@ -28,7 +28,7 @@ impl Scene<'_> {
     /// `None` if no normal force exceeds `least_push`, m/s², and no contact is a paradox. If forces are not unique, those near `similar`
     /// are chosen.
     pub fn resolve(self, least_push: f64, similar: Option<&Forces>, effort: &Effort) -> Option<Resolved> {
-        let (mut problem, mut solution) = self.solved(similar, solve, effort);
+        let (mut problem, mut solution) = self.solved(similar, ATTEMPTS, effort);
         self.resolve_filippov(least_push, &mut problem, &mut solution, effort)
             .or_else(|| self.read_off(least_push, &problem, &solution, effort))
     }
@@ -51,7 +51,7 @@ impl Scene<'_> {
             let without = |share: f64, near: &Solution| {
                 let mut reduced = problem.clone();
                 reduced.reduce_resistance(table, ball, &balls[ball], share);
-                let solution = solve_near(&reduced, &near.values, effort);
+                let solution = solve(&reduced, &near.values, 1, effort);
                 (reduced, solution)
             };
             let mut rolling = without(1.0, solution);

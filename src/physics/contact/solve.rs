@@ -38,7 +38,7 @@ const WHOLE_STEPS: usize = 48;
 const NEXT_TO_NO_PROXIMITY: f64 = 1e-13;
 
 /// Rounds of sweeps and Newton steps; the number of sweeps doubles in each round.
-const ATTEMPTS: u32 = 7;
+pub const ATTEMPTS: u32 = 7;
 const FIRST_SWEEPS: u32 = 8;
 
 /// If the error is below this share of the largest force and a round has not halved it, the search stops: such forces are at the edge of
@@ -84,17 +84,8 @@ struct Best {
 /// Active branch of each unknown's law.
 pub type Branches = [Branch; MAX_UNKNOWNS];
 
-/// Searches forces and frictions that obey all laws, starting from `guess`.
-pub fn solve(problem: &Problem, guess: &Values, effort: &Effort) -> Solution {
-    solve_in(problem, guess, ATTEMPTS, effort)
-}
-
-/// As [`solve`], for a solution near `guess`: one round only.
-pub fn solve_near(problem: &Problem, guess: &Values, effort: &Effort) -> Solution {
-    solve_in(problem, guess, 1, effort)
-}
-
-fn solve_in(problem: &Problem, guess: &Values, attempts: u32, effort: &Effort) -> Solution {
+/// Searches forces and frictions that obey all laws, starting from `guess`, in up to this number of `attempts`.
+pub fn solve(problem: &Problem, guess: &Values, attempts: u32, effort: &Effort) -> Solution {
     let system = System::new(problem, effort);
     let mut best = Best { error: f64::INFINITY, values: *guess };
     for attempt in 0..attempts {

@@ -10,7 +10,7 @@ use glam::DVec2;
 use serde::Serialize;
 
 use crate::{
-    physics::{BallState, Cloth, ImpactLaw, Impulse, Motion, SpatialState, rolling_deceleration, rolling_spin},
+    physics::{BallState, Cloth, ImpactLaw, Impulse, Motion, Rolling, SpatialState, rolling_spin},
     printing::number,
     simulation::{Constants, End, Event, EventKind, Observer, Rail, Segment},
     table::{BALLS, Layout, PAIRS, Table},
@@ -97,7 +97,7 @@ fn time_limit(table: &Table, impulse: &Impulse) -> f64 {
     let state = SpatialState { velocity, spin: impulse.spin, position: glam::DVec3::ZERO };
     let speed = (2.0 * state.specific_energy(table.radius, table.gravity)).sqrt();
     let hops = Cloth::of(table).map_or(0.0, |cloth| 2.0 * speed / (cloth.gravity * (1.0 - cloth.restitution)));
-    1.0 + hops + speed / rolling_deceleration(table)
+    1.0 + hops + speed / Rolling::of(table).least
 }
 
 /// A ball and the segment of its present motion.

@@ -73,7 +73,7 @@ fn piece_of(trace: &mut Trace, motion: Motion, last: bool) -> &mut Piece {
 
 /// Ends a piece just before its speed reaches zero, and stops the ball there.
 fn stop_from(speed: f64, table: &Table, trace: &mut Trace) {
-    let early = speed / crate::physics::rolling_deceleration(table);
+    let early = speed / crate::physics::Rolling::of(table).least;
     let now = {
         let piece = piece_of(trace, Motion::Rolling, true);
         piece.end -= early;
