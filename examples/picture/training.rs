@@ -1,16 +1,13 @@
 //! A screen of a run in progress: the run is trained for a minute and watched.
 
-use std::{
-    error::Error,
-    path::{Path, PathBuf},
-};
+use std::{error::Error, path::Path};
 
 use carom::{
     game::Reward,
     learning::{
         agents::AGENTS,
         learner::TrainingPlan,
-        run::{Limits, Run, Schedule, Watcher, follow::Follower, list::runs_in, metrics::Record},
+        run::{Limits, Report, Run, Schedule, follow::Follower, list::runs_in},
     },
     storage::DataPaths,
     table::{Layout, Table},
@@ -32,34 +29,36 @@ pub fn screen(caps: Capabilities) -> Result<App, Box<dyn Error>> {
     let plan = TrainingPlan { reward: Reward::R3, seed: 1, shots: PLANNED };
     let learner = (AGENTS[0].start)(plan, Table::default(), &serde_json::json!({}))?;
     let mut run = Run::create(&place, learner, Schedule::new(10_000, 1_000), None)?;
-    let mut camera = Camera { runs, place, caps, app: None };
+    let mut app = None;
     let is_taken = std::cell::Cell::new(false);
     // The picture is taken while the run trains; the run stops at the next iteration.
     let limits = Limits { time: None, stop: &|| is_taken.get() };
-    run.train(&limits, &mut Watching { camera: &mut camera, is_taken: &is_taken })?;
-    camera.app.ok_or("the run ended before the picture")?
+    run.train(&limits, &mut |report| match report {
+        Report::Warning(sentence) => eprintln!("{sentence}"),
+        Report::Line(record) if record.held_out_reward.is_some() => {
+            eprintln!("trained {} of {TAKEN} shots for the picture", record.shots);
+        }
+        // Not at a measurement: the picture should show the run while it trains.
+        Report::Line(record) => {
+            if record.shots > TAKEN && !is_taken.replace(true) {
+                app = Some(photograph(&runs, &place, caps));
+            }
+        }
+    })?;
+    app.ok_or("the run ended before the picture")?
 }
 
-/// Takes the picture.
-struct Camera {
-    runs: PathBuf,
-    place: PathBuf,
-    caps: Capabilities,
-    app: Option<Result<App, Box<dyn Error>>>,
-}
-
-impl Camera {
-    fn take(&self) -> Result<App, Box<dyn Error>> {
-        let table = Table::default();
-        let places = DataPaths { runs: self.runs.clone(), policies: self.runs.clone(), ..DataPaths::of_this_user() };
-        let mut app = App::new(table.clone(), Layout::opening(&table), self.caps, 1)?.with_paths(places);
-        app.handle(&Char('t').into());
-        app.receive_training(TrainingReport::Runs(runs_in(&self.runs).map_err(|error| error.to_string())));
-        app.handle(&Enter.into());
-        show(&mut app, &self.place, &table)?;
-        app.tick(REPLAYED);
-        Ok(app)
-    }
+/// Returns the screen of the run at `place` in the folder `runs`.
+fn photograph(runs: &Path, place: &Path, caps: Capabilities) -> Result<App, Box<dyn Error>> {
+    let table = Table::default();
+    let places = DataPaths { runs: runs.to_owned(), policies: runs.to_owned(), ..DataPaths::of_this_user() };
+    let mut app = App::new(table.clone(), Layout::opening(&table), caps, 1)?.with_paths(places);
+    app.handle(&Char('t').into());
+    app.receive_training(TrainingReport::Runs(runs_in(runs).map_err(|error| error.to_string())));
+    app.handle(&Enter.into());
+    show(&mut app, place, &table)?;
+    app.tick(REPLAYED);
+    Ok(app)
 }
 
 /// Shows what a follower of the run sees.
@@ -70,26 +69,4 @@ fn show(app: &mut App, place: &Path, table: &Table) -> Result<(), Box<dyn Error>
     app.receive_training(TrainingReport::Followed(FollowSlot::Main, place.to_owned(), Box::new(update)));
     app.receive_training(TrainingReport::Recorded(place.to_owned(), reel.ok_or("the run has no shots to show")?));
     Ok(())
-}
-
-struct Watching<'a> {
-    camera: &'a mut Camera,
-    is_taken: &'a std::cell::Cell<bool>,
-}
-
-impl Watcher for Watching<'_> {
-    fn on_record(&mut self, record: &Record) {
-        if record.held_out_reward.is_some() {
-            eprintln!("trained {} of {TAKEN} shots for the picture", record.shots);
-        }
-        // Not at a measurement: the picture should show the run while it trains.
-        if record.shots > TAKEN && record.held_out_reward.is_none() && !self.is_taken.get() {
-            self.is_taken.set(true);
-            self.camera.app = Some(self.camera.take());
-        }
-    }
-
-    fn on_warning(&mut self, sentence: &str) {
-        eprintln!("{sentence}");
-    }
 }

@@ -49,10 +49,8 @@ impl From<PolicyError> for Failure {
     /// An unreadable file gives another exit code than a file without a valid policy.
     fn from(error: PolicyError) -> Self {
         match error {
-            PolicyError::Read { .. } => Self::failed(error),
-            PolicyError::Content { .. } | PolicyError::Damaged { .. } | PolicyError::Version { .. } => {
-                Self::wrong_input(error)
-            }
+            PolicyError::Read(..) => Self::failed(error),
+            PolicyError::Content(_) => Self::wrong_input(error),
         }
     }
 }

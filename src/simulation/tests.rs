@@ -293,69 +293,6 @@ fn contact_closing_faster_than_the_tolerance_does_not_rest() {
     assert!(!rests(2.5e-10));
 }
 
-/// Counts the steps of the resting contacts of a shot.
-#[derive(Default)]
-struct Steps(usize);
-
-impl Observer for Steps {
-    fn event(&mut self, _: Event) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
-    fn contact_step(&mut self) -> ControlFlow<()> {
-        self.0 += 1;
-        ControlFlow::Continue(())
-    }
-}
-
-/// A ball presses two others into a corner, and one of them begins to roll extremely slowly. No forces are found that obey all laws to
-/// rounding, and each search costs as much as hundreds of bounces. In micro-collisions, they roll on until they come to rest.
-#[test]
-fn shot_without_known_forces_continues_in_micro_collisions() {
-    let table = Table { ball_restitution: 0.3, rail_restitution: 0.3, ..Table::preset("textbook").unwrap() };
-    let balls = [
-        DVec2::new(0.887_635_992_145_478_8, 0.229_628_755_329_131_96),
-        DVec2::new(-1.389_249_999_999_960_3, 0.679_249_999_999_484_7),
-        DVec2::new(-1.389_249_999_999_960_3, 0.617_749_999_537_395_6),
-    ];
-    let cue = CueInputs {
-        a: 1.163_330_422_004_582_5e-16,
-        b: 0.4,
-        theta: 0.0,
-        phi: 170.326_261_199_960_3_f64.to_radians(),
-        speed: 1.932_482_233_407_031_5,
-    };
-    let mut steps = Steps::default();
-    let end = simulate(&table, &Layout::new(balls), &strike(&table, &cue), &mut steps);
-    // If the guard stopped the balls, they would be at rest after 1.22 s.
-    assert!(steps.0 < 30_000 && end.time > 1.5, "{} {}", steps.0, end.time);
-}
-
-/// Three balls in a row fill the table except for 1e-10 m, and the cue ball returns into the row. Just before it has passed the middle, the
-/// row needs 7e-16 m more than there is, which no impulse creates.
-#[test]
-fn row_jammed_by_rounding_lets_the_ball_pass() {
-    let preset = Table::preset("textbook").unwrap();
-    let (length, width) = (6.0 * preset.radius, 6.0 * preset.radius);
-    let table = Table { length, width, opening_offset: 2.0 * preset.radius, ..preset };
-    let balls = [
-        DVec2::new(-0.061_499_999_999_999_88, -0.0615),
-        DVec2::new(-9.159_339_953_157_541e-16, -0.061_499_999_974_893_73),
-        DVec2::new(0.061_499_999_999_999_014, -0.061_499_997_003_937_41),
-    ];
-    let cue = CueInputs {
-        a: 0.0,
-        b: 0.4,
-        theta: 0.0,
-        phi: 90.000_009_578_499_7_f64.to_radians(),
-        speed: 5.368_276_539_420_36,
-    };
-    let mut steps = Steps::default();
-    let end = simulate(&table, &Layout::new(balls), &strike(&table, &cue), &mut steps);
-    // The ball passes after 0.045 s at 5 m/s.
-    assert!(end.time > 1.0, "{}", end.time);
-}
-
 /// A ball that rolls exactly into the corner of a square table hits both cushions at once, independent of their numbering: mirrored at the
 /// diagonal, with the opposite sidespin, the shot is the same.
 #[test]

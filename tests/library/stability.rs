@@ -129,15 +129,6 @@ fn shots_that_once_failed_now_pass() {
     }
 }
 
-#[test]
-fn a_contact_ended_by_another_ball_does_not_hang() {
-    let table = Table::preset("thesis").unwrap();
-    let layout = "0.3554977378777134,0.1549044831937764 0.29738331918515715,0.17344401770836426 -0.7480378896521971,0.5069520010895157";
-    let layout = Layout::parse(layout, &table).unwrap();
-    let cue = CueInputs::parse("0,0.4,0,159.88175151009634,4.042894454326235").unwrap();
-    assert!(Recording::new(&table, &layout, &cue).unwrap().duration() > 1.0);
-}
-
 /// The limits of the table cases are those of a table file.
 #[test]
 fn the_longest_table_equals_the_limit_of_table_files() {

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::{
     commands::output::print_note,
-    learning::run::{Run, Watcher, metrics::Record},
+    learning::run::{Report, Run, metrics::Record},
     printing::{self, shell_word},
 };
 
@@ -82,8 +82,19 @@ fn summary(record: &Record) -> Option<String> {
     Some(format!("critic loss {:.4}, held-out reward {reward:.4}", record.critic_loss))
 }
 
-impl Watcher for Progress {
-    fn on_record(&mut self, record: &Record) {
+impl Progress {
+    /// Prints a report.
+    pub fn report(&mut self, report: Report<'_>) {
+        match report {
+            Report::Line(record) => self.print_record(record),
+            Report::Warning(sentence) => {
+                let whose = self.seed.map(|seed| format!("seed {seed}: ")).unwrap_or_default();
+                self.bar.suspend(|| print_note(format_args!("warning: {whose}{sentence}")));
+            }
+        }
+    }
+
+    fn print_record(&mut self, record: &Record) {
         if self.json
             && let Ok(line) = printing::json_text(&Line { seed: self.seed, record })
         {
@@ -97,10 +108,5 @@ impl Watcher for Progress {
             let whose = self.seed.map(|seed| format!(", seed {seed}")).unwrap_or_default();
             print_note(format_args!("{line}{whose}"));
         }
-    }
-
-    fn on_warning(&mut self, sentence: &str) {
-        let whose = self.seed.map(|seed| format!("seed {seed}: ")).unwrap_or_default();
-        self.bar.suspend(|| print_note(format_args!("warning: {whose}{sentence}")));
     }
 }

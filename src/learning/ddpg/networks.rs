@@ -1,7 +1,5 @@
 //! The actor and the critic: their creation, and their outputs for a batch of observations.
 
-use std::sync::Arc;
-
 use candle_core::{Device, Result, Tensor};
 use rand::Rng;
 
@@ -12,12 +10,9 @@ use super::{
     observation::Observation,
     observation_batch::{ContextualObservation, ObservationBatch, actions_in},
 };
-use crate::{
-    learning::nn::{
-        mlp::{Mlp, Operations},
-        weights::{Reader, WeightsError},
-    },
-    table::{Layout, Table},
+use crate::learning::nn::{
+    mlp::{Mlp, Operations},
+    weights::{Reader, WeightsError},
 };
 
 /// Steps of a low-discrepancy sequence in the square (powers of the inverse of the plastic number, Roberts 2018).
@@ -98,27 +93,8 @@ impl Networks {
         Ok((actions_in(observed.space(), &actions)?, logits.flatten_all()?.to_vec1()?))
     }
 
-    /// Returns, for each layout with its table and the player's errors, the proposals of all heads in all observations: the observation,
-    /// the action and the critic's logit, observation by observation.
-    pub fn proposals<'a>(
-        &self,
-        inputs: Inputs,
-        layouts: impl ExactSizeIterator<Item = (&'a Arc<Table>, &'a Layout, f64)>,
-    ) -> Result<Vec<Vec<(Observation, Action, f32)>>> {
-        let count = layouts.len();
-        if count == 0 {
-            return Ok(Vec::new());
-        }
-        let observations = layouts.flat_map(|(table, layout, errors)| {
-            let all = Observation::all(table, layout, inputs.rails_first).into_iter();
-            all.map(move |observation| ContextualObservation { observation, table: Arc::clone(table), errors })
-        });
-        let all = self.proposals_in(inputs, observations.collect())?;
-        Ok(all.chunks(all.len() / count).map(<[_]>::to_vec).collect())
-    }
-
     /// Returns the proposals of all heads for these observations: the observation, the action and the critic's logit.
-    pub fn proposals_in(
+    pub fn proposals(
         &self,
         inputs: Inputs,
         observations: Vec<ContextualObservation>,
@@ -149,7 +125,10 @@ impl Networks {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::ddpg::action::{ActionSpace, DecodedAction};
+    use crate::{
+        learning::ddpg::action::{ActionSpace, DecodedAction},
+        table::Table,
+    };
     use rand::SeedableRng;
     use rand_xoshiro::Xoshiro256PlusPlus;
 

@@ -90,16 +90,22 @@ impl Trainer {
         Ok(())
     }
 
-    /// Returns the networks' proposals on each of the layouts in all observations ([`Networks::proposals`]).
+    /// Returns the networks' proposals on each of the layouts in all observations.
     pub(super) fn proposals_on(
         &self,
         networks: &Networks,
         layouts: &[ContextualLayout],
     ) -> Result<Vec<Vec<(Observation, Action, f32)>>> {
+        if layouts.is_empty() {
+            return Ok(Vec::new());
+        }
         let inputs = self.task.hyperparameters.inputs();
-        let layouts =
-            layouts.iter().map(|(layout, context)| (self.tables.table(*context), layout, f64::from(context.errors)));
-        networks.proposals(inputs, layouts)
+        let observations = layouts.iter().flat_map(|(layout, context)| {
+            let all = Observation::all(self.tables.table(*context), layout, inputs.rails_first).into_iter();
+            all.map(|observation| self.tables.contextual(observation, *context))
+        });
+        let all = networks.proposals(inputs, observations.collect())?;
+        Ok(all.chunks(all.len() / layouts.len()).map(<[_]>::to_vec).collect())
     }
 
     /// Plays the target networks' best proposals on every layout without noise. Returns the sum of the rewards.

@@ -34,7 +34,7 @@ pub use self::{
     checkpoint::agent_of_checkpoint,
     config::{Config, Provenance, Schedule, run_name},
     error::RunError,
-    training::{Ending, Limits, Watcher},
+    training::{Ending, Limits, Report},
 };
 use self::{
     checkpoint::{Checkpoints, Loaded, State},

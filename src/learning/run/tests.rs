@@ -22,23 +22,6 @@ use crate::{
     table::Table,
 };
 
-/// A watcher that collects the reports of a run.
-#[derive(Default)]
-struct Reports {
-    lines: Vec<Record>,
-    warnings: Vec<String>,
-}
-
-impl Watcher for Reports {
-    fn on_record(&mut self, record: &Record) {
-        self.lines.push(record.clone());
-    }
-
-    fn on_warning(&mut self, sentence: &str) {
-        self.warnings.push(sentence.to_owned());
-    }
-}
-
 /// A run of ten iterations, with a line after every second and an evaluation after every fourth.
 fn small_run(folder: &Path) -> Run {
     let learner = Trainer::new(small_task(), Table::default()).unwrap();
@@ -52,18 +35,23 @@ fn is_finished(ending: Ending) -> bool {
     matches!(ending, Ending::Finished(_))
 }
 
-fn finish(run: &mut Run) -> (Ending, Reports) {
-    let mut reports = Reports::default();
-    (run.train(&FOREVER, &mut reports).unwrap(), reports)
+/// Trains a run to its end; returns how it ended, its lines of metrics and its warnings.
+fn finish(run: &mut Run) -> (Ending, Vec<Record>, Vec<String>) {
+    let (mut lines, mut warnings) = (Vec::new(), Vec::new());
+    let ending = run.train(&FOREVER, &mut |report| match report {
+        Report::Line(record) => lines.push(record.clone()),
+        Report::Warning(sentence) => warnings.push(sentence.to_owned()),
+    });
+    (ending.unwrap(), lines, warnings)
 }
 
 #[test]
 fn a_run_leaves_metrics_a_policy_and_a_checkpoint() {
     let folder = tempfile::tempdir().unwrap();
     let mut run = small_run(folder.path());
-    let (ending, reports) = finish(&mut run);
-    assert!(is_finished(ending) && reports.warnings.is_empty());
-    let shots: Vec<_> = reports.lines.iter().map(|line| (line.shots, line.held_out_reward.is_some())).collect();
+    let (ending, lines, warnings) = finish(&mut run);
+    assert!(is_finished(ending) && warnings.is_empty());
+    let shots: Vec<_> = lines.iter().map(|line| (line.shots, line.held_out_reward.is_some())).collect();
     assert_eq!(shots, [(32, false), (64, true), (96, false), (128, true), (160, true)]);
     let policy = Policy::load(&run.policy_path()).unwrap();
     assert!(matches!(ending, Ending::Finished(score) if score.mean_reward == policy.origin().held_out_reward));
@@ -73,7 +61,7 @@ fn a_run_leaves_metrics_a_policy_and_a_checkpoint() {
 fn stopped_after(run: &mut Run, times: u32) -> Result<Ending, RunError> {
     let calls = Cell::new(0);
     let stop = || calls.replace(calls.get() + 1) == times;
-    run.train(&Limits { time: None, stop: &stop }, &mut Reports::default())
+    run.train(&Limits { time: None, stop: &stop }, &mut |_| {})
 }
 
 /// Content that must not depend on where a run was stopped: the policy, the checkpoint, and the metrics except their times.
@@ -163,17 +151,6 @@ fn resuming_a_finished_run_returns_its_stored_result() {
     assert!(fs::read_to_string(path(RESULT)).unwrap().contains(VERSION));
 }
 
-/// A watcher that collects each warning with the checkpoint at that moment.
-struct Witness(PathBuf, Vec<(String, Vec<u8>)>);
-
-impl Watcher for Witness {
-    fn on_record(&mut self, _: &Record) {}
-
-    fn on_warning(&mut self, sentence: &str) {
-        self.1.push((sentence.to_owned(), fs::read(&self.0).unwrap()));
-    }
-}
-
 #[test]
 fn a_checkpoint_is_written_only_after_its_policy() {
     let folder = tempfile::tempdir().unwrap();
@@ -181,9 +158,14 @@ fn a_checkpoint_is_written_only_after_its_policy() {
     fs::create_dir(folder.path().join(POLICY)).unwrap();
     let path = folder.path().join(checkpoint::CURRENT);
     let before = fs::read(&path).unwrap();
-    let mut witness = Witness(path, Vec::new());
+    let mut warnings = Vec::new();
+    let mut witness = |report: Report<'_>| {
+        if let Report::Warning(sentence) = report {
+            warnings.push((sentence.to_owned(), fs::read(&path).unwrap()));
+        }
+    };
     assert!(run.train(&FOREVER, &mut witness).unwrap_err().to_string().contains(POLICY));
-    let (sentence, then) = &witness.1[0];
+    let (sentence, then) = &warnings[0];
     assert!(sentence.contains(POLICY) && *then == before, "{sentence}");
 }
 
@@ -220,15 +202,15 @@ fn a_failed_run_resumes_from_its_last_checkpoint() {
     let mut run = small_run(folder.path());
     let odd = Iteration { critic_loss: f64::NAN, actor_loss: Some(f64::NEG_INFINITY), ..Iteration::default() };
     assert!(!run.state.accumulator.add(&odd, 1, 1));
-    let error = run.train(&FOREVER, &mut Reports::default()).unwrap_err().to_string();
+    let error = run.train(&FOREVER, &mut |_| {}).unwrap_err().to_string();
     assert!(error.contains("after 16 shots"), "{error}");
     let lines = metrics::read(&folder.path().join(METRICS)).unwrap();
     assert!(lines[0].critic_loss.is_nan() && lines[0].actor_loss == Some(f64::NEG_INFINITY), "{lines:?}");
     let status = RunStatus::read(folder.path()).unwrap();
     assert_eq!((status.phase, status.reason), (Phase::Failed, Some(error)));
     drop(run);
-    let (ending, reports) = finish(&mut Run::resume(folder.path()).unwrap().0);
-    assert!(is_finished(ending) && reports.lines.len() == 5);
+    let (ending, lines, _) = finish(&mut Run::resume(folder.path()).unwrap().0);
+    assert!(is_finished(ending) && lines.len() == 5);
     assert!(metrics::read(&folder.path().join(METRICS)).unwrap().iter().all(|line| line.critic_loss.is_finite()));
 }
 
@@ -253,7 +235,7 @@ fn asked(run: &mut Run, requests: &[(Phase, Request)]) -> Ending {
         thread::sleep(Duration::from_millis(60));
         false
     };
-    let ending = run.train(&Limits { time: None, stop: &delay }, &mut Reports::default()).unwrap();
+    let ending = run.train(&Limits { time: None, stop: &delay }, &mut |_| {}).unwrap();
     for thread in threads {
         thread.join().unwrap();
     }
@@ -293,23 +275,15 @@ fn an_abandoned_run_leaves_only_foreign_files() {
     assert_eq!(left, ["notes.txt"]);
 }
 
-/// A watcher that abandons the run at its last evaluation.
-struct GivesUp<'a>(&'a Path);
-
-impl Watcher for GivesUp<'_> {
-    fn on_record(&mut self, record: &Record) {
-        if record.shots == 160 {
-            Request::Abandon.send(self.0).unwrap();
-        }
-    }
-
-    fn on_warning(&mut self, _: &str) {}
-}
-
 #[test]
 fn a_run_abandoned_during_its_last_evaluation_is_unfinished() {
     let folder = tempfile::tempdir().unwrap();
-    let ending = small_run(folder.path()).train(&FOREVER, &mut GivesUp(folder.path())).unwrap();
+    let mut give_up = |report: Report<'_>| {
+        if matches!(report, Report::Line(record) if record.shots == 160) {
+            Request::Abandon.send(folder.path()).unwrap();
+        }
+    };
+    let ending = small_run(folder.path()).train(&FOREVER, &mut give_up).unwrap();
     assert_eq!(ending, Ending::Abandoned);
     assert!(!folder.path().join("result.json").exists());
     assert_eq!(RunStatus::read(folder.path()).unwrap().phase, Phase::Stopped);

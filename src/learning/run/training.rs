@@ -34,13 +34,13 @@ const CHECKPOINT_INTERVAL: Duration = Duration::from_secs(60);
 /// Time between two polls for the end of a pause.
 const PAUSE_POLL_INTERVAL: Duration = Duration::from_millis(100);
 
-/// Receives the events of a run in its own process. Other processes follow its folder ([`super::follow`]).
-pub trait Watcher {
-    /// Receives a line of metrics.
-    fn on_record(&mut self, record: &Record);
-
-    /// Receives a warning about a problem that does not stop the training.
-    fn on_warning(&mut self, sentence: &str);
+/// What a run reports in its own process. Other processes follow its folder ([`super::follow`]).
+#[derive(Clone, Copy, Debug)]
+pub enum Report<'a> {
+    /// A line of metrics.
+    Line(&'a Record),
+    /// A warning about a problem that does not stop the training.
+    Warning(&'a str),
 }
 
 /// How a run ended, with its score on the held-out layouts.
@@ -71,17 +71,17 @@ struct Reporting<'a> {
     clock: Clock,
     heartbeat: Heartbeat,
     layouts: Vec<Layout>,
-    watcher: &'a mut dyn Watcher,
+    report: &'a mut dyn FnMut(Report<'_>),
 }
 
 impl Run {
     /// Trains until the plan is finished, a limit is reached or a [`Request`] in the folder ends it. The folder then contains
-    /// a checkpoint from which the run can be resumed. If an intermediate checkpoint cannot be written, the watcher gets a warning
+    /// a checkpoint from which the run can be resumed. If an intermediate checkpoint cannot be written, it reports a warning
     /// and training continues to the next one.
     ///
     /// # Errors
     /// Fails if training fails or the last checkpoint cannot be written.
-    pub fn train(&mut self, limits: &Limits<'_>, watcher: &mut dyn Watcher) -> Result<Ending, RunError> {
+    pub fn train(&mut self, limits: &Limits<'_>, report: &mut dyn FnMut(Report<'_>)) -> Result<Ending, RunError> {
         let path = self.folder.join(METRICS);
         let (metrics, records) = MetricsFile::open(&path, self.learner.shots()).map_err(file(&path))?;
         let (last, shots) = (records.last().map(|record| record.shots), self.learner.shots());
@@ -98,7 +98,7 @@ impl Run {
         let clock = Clock { start: Instant::now(), before, paused: Duration::ZERO, last: (before, shots) };
         let mut heartbeat = Heartbeat::new(&self.folder);
         heartbeat.status.logged = last.unwrap_or(0);
-        let mut reporting = Reporting { metrics, events, clock, heartbeat, layouts, watcher };
+        let mut reporting = Reporting { metrics, events, clock, heartbeat, layouts, report };
         let ending = self.iterate_until(limits, &mut reporting).and_then(|ending| {
             // A request to abandon may have arrived during the last evaluation, after which no other poll follows.
             if Request::receive(&self.folder) == Some(Ok(Request::Abandon)) {
@@ -252,7 +252,7 @@ impl Run {
             if reporting.events.as_mut().is_some_and(|events| events.push(&record).is_err()) {
                 reporting.events = None;
             }
-            reporting.watcher.on_record(&record);
+            (reporting.report)(Report::Line(&record));
             // If the disk is full, the line stays pending in memory. No checkpoint is written before it.
             if reporting.metrics.flush().is_ok() {
                 reporting.heartbeat.status.logged = shots;
@@ -275,7 +275,7 @@ impl Reporting<'_> {
     }
 
     fn warn(&mut self, sentence: &str) {
-        self.watcher.on_warning(sentence);
+        (self.report)(Report::Warning(sentence));
         self.heartbeat.status.warning = Some(sentence.to_owned());
     }
 

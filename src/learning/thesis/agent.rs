@@ -94,21 +94,11 @@ pub trait Agent: std::fmt::Debug + Send + Sized {
     /// Progress of the learning.
     fn progress(&self) -> Progress;
 
-    /// Chooses an action with exploration, for training.
-    fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error>;
+    /// Chooses an action with exploration, for training. An agent that learns from lessons also looks for them.
+    fn explore(&mut self, game: &impl Environment, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error>;
 
     /// Chooses the action that the agent values most, without exploration.
     fn best(&self, seen: &Observation) -> Result<Choice, Error>;
-
-    /// Looks for lessons before a shot is played. The default does nothing, because only some agents use lessons.
-    fn collect_lessons(
-        &mut self,
-        _environment: &impl Environment,
-        _seen: &Observation,
-        _action: Action,
-        _rng: &mut Xoshiro256PlusPlus,
-    ) {
-    }
 
     /// Stores a shot and makes an update from the stored shots. Returns `None`, without an update, while they are too few.
     fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error>;
@@ -146,8 +136,7 @@ impl EpisodeState {
             environment.begin(rng);
         }
         let before = environment.observe();
-        let choice = agent.explore(&before, rng)?;
-        agent.collect_lessons(environment, &before, choice.action, rng);
+        let choice = agent.explore(environment, rng)?;
         let outcome = environment.act(choice.action);
         let (reward, continues, after) = (outcome.reward, !outcome.over, environment.observe());
         self.running = continues;

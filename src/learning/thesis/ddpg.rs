@@ -285,13 +285,15 @@ impl Agent for PlainDdpg {
         }
     }
 
-    fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
+    fn explore(&mut self, game: &impl Environment, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
+        let seen = game.observe();
         self.noise = self.settings.noise.step(self.noise, rng);
         let left = self.settings.decayed(self.settings.noise_falls_to, self.shots) as f32;
-        let mut choice = self.best(seen)?;
+        let mut choice = self.best(&seen)?;
         for (value, noise) in choice.action.iter_mut().zip(self.noise) {
             *value += left * noise;
         }
+        self.lessons.collect(&self.settings, game, &seen, choice.action, rng);
         Ok(choice)
     }
 
@@ -300,16 +302,6 @@ impl Agent for PlainDdpg {
         let state = Tensor::from_slice(&view.state(seen.state), (1, STATES), &Device::Cpu)?;
         let action = self.networks.act(&state)?.flatten_all()?.to_vec1::<f32>()?;
         Ok(Choice { action: view.on_table(std::array::from_fn(|index| action[index])), index: 0 })
-    }
-
-    fn collect_lessons(
-        &mut self,
-        environment: &impl Environment,
-        seen: &Observation,
-        action: Action,
-        rng: &mut Xoshiro256PlusPlus,
-    ) {
-        self.lessons.collect(&self.settings, environment, seen, action, rng);
     }
 
     fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {

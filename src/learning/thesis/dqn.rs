@@ -10,7 +10,7 @@ use serde_json::Value;
 use super::{
     agent::{Agent, Choice, Settings, Transition},
     carom::Episode,
-    environment::{DISCRETE_ACTIONS, Observation, STATES},
+    environment::{DISCRETE_ACTIONS, Environment, Observation, STATES},
     exploration::Epsilon,
     q_learning::{check_episode, check_epsilon},
     replay::{self, Batch, MEMORY, StoredTransition, number},
@@ -159,11 +159,11 @@ impl Agent for Dqn {
         }
     }
 
-    fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
+    fn explore(&mut self, game: &impl Environment, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
         if rng.random_bool(self.settings.epsilon.after(self.shots)) {
             return Ok(Choice::discrete(rng.random_range(0..DISCRETE_ACTIONS)));
         }
-        self.best(seen)
+        self.best(&game.observe())
     }
 
     fn best(&self, seen: &Observation) -> Result<Choice, Error> {

@@ -11,7 +11,7 @@ use serde_json::Value;
 use super::{
     agent::{Agent, Choice, Settings, Transition},
     carom::Episode,
-    environment::{DISCRETE_ACTIONS, Observation},
+    environment::{DISCRETE_ACTIONS, Environment, Observation},
     exploration::Epsilon,
 };
 use crate::learning::{
@@ -125,9 +125,9 @@ impl Agent for QLearning {
         }
     }
 
-    fn explore(&mut self, seen: &Observation, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
+    fn explore(&mut self, game: &impl Environment, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
         let is_random = rng.random_bool(self.settings.epsilon.after(self.shots));
-        let index = if is_random { None } else { self.best_known(seen.cell).map(|(index, _)| index) };
+        let index = if is_random { None } else { self.best_known(game.observe().cell).map(|(index, _)| index) };
         // Without a positive value all actions are equal: the choice is random.
         Ok(Choice::discrete(index.unwrap_or_else(|| rng.random_range(0..DISCRETE_ACTIONS))))
     }

@@ -85,42 +85,12 @@ struct Note<'a> {
 /// A policy cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum PolicyError {
-    /// The file cannot be read.
-    #[error("the policy file {path} cannot be read: {reason}")]
-    Read {
-        /// Path of the file.
-        path: String,
-        /// Error of the operating system.
-        reason: std::io::Error,
-    },
-    /// The file's content is not a policy.
-    #[error("{origin} is not a policy that carom can use: {reason}; train one with `carom train`")]
-    Content {
-        /// Path, or description of the bundled policy.
-        origin: String,
-        /// Reason.
-        reason: WeightsError,
-    },
-    /// Some of the file's bytes have changed since it was written.
-    #[error(
-        "{origin} is damaged: its content does not fit its checksum; copy it again, or train one with `carom train`"
-    )]
-    Damaged {
-        /// Path of the file.
-        origin: String,
-    },
-    /// The policy has other features or actions.
-    #[error("{origin} has {what} \"{found}\", this version of carom needs \"{expected}\"; train it again")]
-    Version {
-        /// Path, or description of the bundled policy.
-        origin: String,
-        /// "features" or "actions".
-        what: &'static str,
-        /// Version in the file.
-        found: String,
-        /// Version that this program needs.
-        expected: String,
-    },
+    /// The file at this path cannot be read.
+    #[error("the policy file {0} cannot be read: {1}")]
+    Read(String, std::io::Error),
+    /// The content is not a whole policy of this version; a sentence says why.
+    #[error("{0}")]
+    Content(String),
 }
 
 impl Policy {
@@ -190,8 +160,8 @@ impl Policy {
     /// Loads a policy and returns the file's bytes, too: a run may replace the file before the caller could read it again.
     pub(super) fn load_with_bytes(path: &Path) -> Result<(Self, Vec<u8>), PolicyError> {
         let origin = path.display().to_string();
-        let bytes = storage::read(path, storage::MAX_LARGE_FILE)
-            .map_err(|reason| PolicyError::Read { path: origin.clone(), reason })?;
+        let bytes =
+            storage::read(path, storage::MAX_LARGE_FILE).map_err(|reason| PolicyError::Read(origin.clone(), reason))?;
         Ok((Self::of_file(&bytes, &origin)?, bytes))
     }
 
@@ -199,19 +169,25 @@ impl Policy {
     /// checksum.
     pub(in crate::learning) fn of_file(bytes: &[u8], name: &str) -> Result<Self, PolicyError> {
         if is_intact(POLICY_FIELD, bytes) == Some(false) {
-            return Err(PolicyError::Damaged { origin: name.to_owned() });
+            return Err(PolicyError::Content(format!(
+                "{name} is damaged: its content does not fit its checksum; copy it again, or train one with `carom train`"
+            )));
         }
         Self::from_bytes(bytes, name)
     }
 
     /// Parses a policy file without checking its checksum; error messages call the file `name`.
     fn from_bytes(bytes: &[u8], name: &str) -> Result<Self, PolicyError> {
-        let content = |reason| PolicyError::Content { origin: name.to_owned(), reason };
+        let content = |reason: WeightsError| {
+            let advice = "train one with `carom train`";
+            PolicyError::Content(format!("{name} is not a policy that carom can use: {reason}; {advice}"))
+        };
         let reader = Reader::new(bytes).map_err(content)?;
         let origin: Origin = reader.note().map_err(content)?;
         let version = |what, found: &str, expected: &str| {
-            let [origin, found, expected] = [name, found, expected].map(str::to_owned);
-            if found == expected { Ok(()) } else { Err(PolicyError::Version { origin, what, found, expected }) }
+            let other =
+                || format!("{name} has {what} \"{found}\", this version of carom needs \"{expected}\"; train it again");
+            if found == expected { Ok(()) } else { Err(PolicyError::Content(other())) }
         };
         let inputs = origin.hyperparameters.inputs();
         version("features", &origin.features, &inputs.version())?;

@@ -96,7 +96,7 @@ impl Policy {
                 table: Arc::clone(&shared),
                 errors,
             };
-            let proposals = self.networks.proposals_in(inputs, part.iter().map(contextual).collect());
+            let proposals = self.networks.proposals(inputs, part.iter().map(contextual).collect());
             proposals.expect("the sizes of the networks were checked when they were loaded")
         });
         let success = |logit: f32| {
