@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use super::ShotWords;
 use crate::{
-    game::Tally,
+    game::{Point, Tally},
     table::{BALL_NAMES, BALLS},
 };
 
@@ -45,6 +45,12 @@ impl FirstContact {
             Self::Red => red,
             Self::Cushion => "cushion",
         }
+    }
+
+    /// Returns why no shot that begins like this can make a point, and empty words if one can.
+    pub const fn hopeless_words(self, point: Point) -> &'static str {
+        let is_hopeless = matches!(self, Self::OtherCueBall) && point.first_ball() == 2;
+        if is_hopeless { ": a game opens with red" } else { "" }
     }
 
     /// Returns the suffix that describes how a shot begins; empty for [`Any`](Self::Any).

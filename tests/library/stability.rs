@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use carom::{
-    physics::{CueDegrees, CueInputs},
-    simulation::Recording,
+    physics::CueDegrees,
     study::stability::{Case, Limits, Plan, Row, Shot, Trace, cases, examine},
     table::{Layout, Table, TableError},
 };

@@ -8,7 +8,7 @@ mod tests;
 use super::{
     RailPoint, aim,
     systems::DIAMOND_SETBACK,
-    words::{TIP, table_lengths},
+    words::{TIP, format_trimmed, table_lengths},
 };
 use crate::{
     physics::{CueError, CueInputs, raise_to_clear, squirt},
@@ -36,6 +36,9 @@ const SEARCH_STEP: f64 = 0.1;
 /// Maximum deviation of the fullness if the requested one is not possible, ball diameters: the precision in which
 /// players state it.
 const MAX_FULLNESS_DEVIATION: f64 = 0.0625;
+
+/// Maximum deviation if the ball is met by way of a cushion, where a small change of the direction changes the hit a lot.
+const MAX_DEVIATION_OFF_CUSHION: f64 = 0.25;
 
 /// Precision of a stated position on a cushion before the first ball, diamonds.
 const CUSHION_PRECISION: f64 = 0.06;
@@ -71,12 +74,30 @@ pub enum StrokeTextError {
         "the speed is missing; give it in table lengths, like \"3.5 lengths\", in m/s, or as very soft, soft, medium, hard or very hard"
     )]
     NoSpeed,
+    /// The text states a distance of the speed, and a word for another one.
+    #[error("{0} lengths are {1}, not {2}; give the speed once")]
+    Pace(f64, &'static str, &'static str),
     /// The speed is outside the range of cue speeds.
-    #[error("no stroke on this table makes a ball run {0} lengths; accepted are those of 0.05 to 12 m/s")]
-    Lengths(f64),
+    #[error("{lengths} lengths are outside the range; accepted on this table are {least:.2} to {most:.0}")]
+    Lengths {
+        /// The stated distance, table lengths.
+        lengths: f64,
+        /// The distances of the slowest and of the fastest stroke, table lengths.
+        least: f64,
+        /// See `least`.
+        most: f64,
+    },
+    /// The tip would slip off the ball.
+    #[error("{} tips from the centre, the tip would slip off the ball; accepted are at most {}", format_trimmed(*.0, 1), format_trimmed(*.1, 1))]
+    Tips(f64, f64),
     /// The ball cannot be hit like this from the cue ball's position.
     #[error("{0} cannot be hit like this: something is in the way, or it is too far to the side")]
     Unreachable(&'static str),
+    /// The ball cannot be hit like this from that point of a cushion.
+    #[error(
+        "from that point of the cushion, the cue ball does not meet {0} like this; give another point, or leave out the ball"
+    )]
+    OffCushion(&'static str),
     /// An input of the stroke is outside its range.
     #[error(transparent)]
     Cue(#[from] CueError),
@@ -152,15 +173,14 @@ impl StrokeText {
     ) -> Result<CueInputs, StrokeTextError> {
         let speed = match self.speed.or(self.pace.map(Speed::Lengths)) {
             Some(Speed::Cue(speed)) => speed,
-            Some(Speed::Lengths(lengths)) => speed_of(table, lengths).ok_or(StrokeTextError::Lengths(lengths))?,
+            Some(Speed::Lengths(lengths)) => speed_of(table, lengths)?,
             None => before.ok_or(StrokeTextError::NoSpeed)?.speed,
         };
         let level = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed };
         let cue = before.copied().unwrap_or(level);
-        let [a, b] = clamped_tip([self.side.unwrap_or(cue.a), self.height.unwrap_or(cue.b)], table.miscue_limit);
+        let [a, b] = accepted_tip([self.side.unwrap_or(cue.a), self.height.unwrap_or(cue.b)], table.miscue_limit)?;
         let cue = CueInputs { a, b, theta: self.elevation.unwrap_or(cue.theta), speed, ..cue };
         cue.validate()?;
-        cue.validate_tip(table.miscue_limit)?;
         let at = |phi: f64| {
             let cue = CueInputs { phi, ..cue };
             raise_to_clear(table, layout, &cue).unwrap_or(cue)
@@ -178,11 +198,13 @@ impl StrokeText {
         if let Some(point) = self.rail {
             let way = point.position(table) + table.radius * point.rail.normal() - from;
             let phi = way.to_angle() - squirt(table, cue.a);
-            let hit = ball.zip(self.offset().ok());
             // Seen from the cue ball, a diamond appears shortened on a flat path.
             let half = CUSHION_PRECISION * table.diamond() * way.normalize_or_zero().dot(point.rail.normal()).abs()
                 / way.length();
-            return Ok(hit.and_then(|hit| nearest(table, layout, hit, phi, half, at)).unwrap_or_else(|| at(phi)));
+            let Some((ball, wanted)) = ball.zip(self.offset().ok()) else { return Ok(at(phi)) };
+            let found = nearest(table, layout, (ball, wanted), phi, half, at);
+            let found = found.filter(|(deviation, _)| *deviation < MAX_DEVIATION_OFF_CUSHION).map(|(_, cue)| cue);
+            return found.ok_or(StrokeTextError::OffCushion(cue_ball.names()[ball]));
         }
         if ball.is_none() && self.fullness.is_none() {
             return before.map(|before| at(before.phi)).ok_or(StrokeTextError::NoAim);
@@ -221,7 +243,8 @@ fn offset_at_impact(table: &Table, layout: &Layout, ball: usize, cue: &CueInputs
     Ok(hit.map(|hit| if hit.left { 1.0 - hit.fullness } else { hit.fullness - 1.0 }))
 }
 
-/// Finds the stroke, among directions up to `half` from `phi`, rad, whose offset from the ball is nearest to the wanted one.
+/// Finds the stroke, among directions up to `half` from `phi`, rad, whose offset from the ball is nearest to the wanted one. Returns the
+/// deviation, ball diameters, and the stroke; `None` if none meets the ball first.
 fn nearest(
     table: &Table,
     layout: &Layout,
@@ -229,11 +252,11 @@ fn nearest(
     phi: f64,
     half: f64,
     at: impl Fn(f64) -> CueInputs,
-) -> Option<CueInputs> {
+) -> Option<(f64, CueInputs)> {
     let strokes = (-MAX_STEPS..=MAX_STEPS).map(|step| at(phi + half * f64::from(step) / f64::from(MAX_STEPS)));
     let off = |cue: &CueInputs| Some((offset_at_impact(table, layout, ball, cue).ok()?? - wanted).abs());
     let known = strokes.filter_map(|cue| Some((off(&cue)?, cue)));
-    known.min_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, cue)| cue)
+    known.min_by(|one, other| one.0.total_cmp(&other.0))
 }
 
 /// Finds the stroke whose offset from the ball at impact, in ball diameters, positive to the left, is the wanted one, or
@@ -268,33 +291,33 @@ fn aim_at(
     }
     // The other ball may block exactly this hit: take the nearest possible one.
     let near = nearest(table, layout, (ball, wanted), met, MAX_FULLNESS_DEVIATION / lever, at);
-    Ok(near.filter(
-        |cue| matches!(offset_at_impact(table, layout, ball, cue), Ok(Some(passed)) if (passed - wanted).abs() <= MAX_FULLNESS_DEVIATION),
-    ))
+    Ok(near.filter(|(deviation, _)| *deviation <= MAX_FULLNESS_DEVIATION).map(|(_, cue)| cue))
 }
 
 /// Returns the cue speed at which a ball runs this number of table lengths, m/s.
-fn speed_of(table: &Table, lengths: f64) -> Option<f64> {
+fn speed_of(table: &Table, lengths: f64) -> Result<f64, StrokeTextError> {
+    let of = |speed| table_lengths(table, speed).unwrap_or(f64::NAN);
     let (mut low, mut high) = (0.05, 12.0);
-    if !(table_lengths(table, low)?..=table_lengths(table, high)?).contains(&lengths) {
-        return None;
+    let (least, most) = (of(low), of(high));
+    if !(least..=most).contains(&lengths) {
+        return Err(StrokeTextError::Lengths { lengths, least, most });
     }
     for _ in 0..30 {
         let middle = 0.5 * (low + high);
-        if table_lengths(table, middle)? < lengths { low = middle } else { high = middle }
+        if of(middle) < lengths { low = middle } else { high = middle }
     }
-    Some(0.5 * (low + high))
+    Ok(0.5 * (low + high))
 }
 
 /// Returns the tip position, radii. A position in half tips, as the coach reports it, may be rounded to slightly beyond the
 /// miscue limit; it is moved back to the limit.
-fn clamped_tip([a, b]: [f64; 2], limit: f64) -> [f64; 2] {
+fn accepted_tip([a, b]: [f64; 2], limit: f64) -> Result<[f64; 2], StrokeTextError> {
     let (said, most) = (libm::hypot(a, b), limit.sqrt());
     let is_beyond = a * a + b * b > limit;
     // Slightly inside, so that rounding of the square does not exceed the limit.
-    if is_beyond && said <= most + MAX_TIP_ROUNDING {
-        [a, b].map(|part| part * (1.0 - 1e-12) * most / said)
-    } else {
-        [a, b]
+    match is_beyond {
+        false => Ok([a, b]),
+        true if said <= most + MAX_TIP_ROUNDING => Ok([a, b].map(|part| part * (1.0 - 1e-12) * most / said)),
+        true => Err(StrokeTextError::Tips(said / TIP, most / TIP)),
     }
 }

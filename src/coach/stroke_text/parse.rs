@@ -5,7 +5,7 @@ use crate::{
     coach::{
         RailPoint,
         systems::SIZE,
-        words::{NUMBERS, PACES, SIXTEENTHS, TIP},
+        words::{NUMBERS, PACES, SIXTEENTHS, TIP, pace_word},
     },
     simulation::Rail,
     table::BALL_NAMES,
@@ -27,6 +27,12 @@ pub fn parse(text: &str) -> Result<StrokeText, StrokeTextError> {
             let twice = |what| StrokeTextError::Duplicate(what, part.clone());
             parse_part(&part, &mut stroke, twice)?;
         }
+    }
+    // The coach gives both: "medium (2.9 table lengths)". Players round.
+    if let (Some(pace), Some(Speed::Lengths(lengths))) = (stroke.pace, stroke.speed)
+        && (pace - lengths.min(PACES.len() as f64)).abs() > 1.0
+    {
+        return Err(StrokeTextError::Pace(lengths, pace_word(lengths), pace_word(pace)));
     }
     if stroke == StrokeText::default() { Err(StrokeTextError::Empty) } else { Ok(stroke) }
 }

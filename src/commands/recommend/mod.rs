@@ -32,7 +32,7 @@ use crate::{
         Coach, Doubt, FirstContact, Kind, NO_MATCHING_ATTEMPT, Recommendation, Request, Risk, Shooter, Skill, Source,
         systems::{Guide, guide},
     },
-    game::Rule,
+    game::{Point, Rule},
     learning::{Proposal, policy::library::BUNDLED},
     physics::{CueInputs, strike},
     printing::{self, fixed},
@@ -224,6 +224,10 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     if answer.solved == Some(false) {
         let begins = args.first.opening_words(BALL_NAMES);
+        let hopeless = args.first.hopeless_words(Point::of(args.rule, coach.table(), &layout));
+        if !hopeless.is_empty() {
+            return Err(Failure::failed(format_args!("there is no point{begins}{hopeless}")));
+        }
         let without = if args.no_jumps { " without jumps and massés" } else { "" };
         let meets_first = answer.shot.description_in_words.as_ref().is_none_or(|words| words.begins_with(args.first));
         let attempt = if meets_first { "this is the best attempt" } else { NO_MATCHING_ATTEMPT };

@@ -22,7 +22,7 @@ pub mod tip;
 pub mod toasts;
 pub mod what_if;
 
-use ratatui::{buffer::Buffer, text::Span};
+use ratatui::{buffer::Buffer, style::Color, text::Span};
 
 pub use self::{
     canvas::{Canvas, Ink},
@@ -47,7 +47,7 @@ pub use self::{
     what_if::draw_what_if,
 };
 use crate::terminal::{
-    Capabilities, Keys,
+    Capabilities, Glyphs, Keys,
     keymap::{Binding, chord_of, keys_text},
 };
 
@@ -68,6 +68,11 @@ impl Ui<'_> {
     /// The separator between two parts of a title.
     pub fn dash(&self) -> Span<'static> {
         Span::styled(separator(self.caps), self.theme.faint())
+    }
+
+    /// Colour of what is marked on the table, which is drawn in characters on the background of the screen or in its own colours.
+    pub fn mark(&self) -> Color {
+        if self.caps.glyphs == Glyphs::Letters { self.theme.accent } else { self.theme.mark }
     }
 
     /// The first key bound to `action` in this table; empty if there is none.

@@ -7,6 +7,7 @@ use std::sync::{
 
 use crate::{
     coach::{Cause, NO_MATCHING_ATTEMPT, Why},
+    game::Point,
     physics::CueInputs,
     table::BALLS,
     terminal::{
@@ -89,7 +90,7 @@ impl CoachPage {
 
     /// Handles an answer from the coach's worker thread. Late answers to cancelled requests are dropped.
     pub fn receive(&mut self, answer: CoachAnswer) -> Option<Effect> {
-        let names = self.cue_ball().names();
+        let (names, point) = (self.cue_ball().names(), self.point());
         let awaited = self.pending.as_mut().filter(|pending| pending.id == answer.id);
         let is_study = self.running_analysis.as_ref().is_some_and(|running_analysis| running_analysis.id == answer.id);
         match (answer.event, awaited) {
@@ -103,7 +104,7 @@ impl CoachPage {
                 let query = pending.query.clone();
                 self.pending = None;
                 self.message = if query == self.query {
-                    advice.proposals.first().map(|best| proposal_message(best, advice.effort, &query, names))
+                    advice.proposals.first().map(|best| proposal_message(best, advice.effort, &query, point, names))
                 } else {
                     let [asked, now] = [query.skill, self.query.skill].map(skill_word);
                     Some(Message::plain(format!("this answer is for {asked}; Enter asks for {now}")))
@@ -194,8 +195,13 @@ impl CoachPage {
         Some(Effect::AskCoach(Box::new(job)))
     }
 
+    /// The conditions of a point under the rule of the present query.
+    fn point(&self) -> Point {
+        Point::of(self.query.rule, self.table(), self.layout())
+    }
+
     pub(super) fn choose_shot(&mut self, choose: impl FnOnce(&mut AdviceState)) {
-        let names = self.cue_ball().names();
+        let (names, point) = (self.cue_ball().names(), self.point());
         if let Some(advised) = self.current_advice_mut() {
             choose(advised);
             let words = format!("shot {} of {}", advised.chosen + 1, advised.choices.len());
@@ -203,7 +209,7 @@ impl CoachPage {
             self.message = Some(match chance(proposal, &advised.query) {
                 // The panel above the list names the player, and the status line has only one row.
                 Some(chance) => Message::good(format!("{words}: {chance}")),
-                None => proposal_message(proposal, None, &advised.query, names).prefixed(&words),
+                None => proposal_message(proposal, None, &advised.query, point, names).prefixed(&words),
             });
         }
         self.leave_example();
@@ -218,8 +224,10 @@ impl CoachPage {
         }
         self.set_layout(end);
         let Some(next) = next else { return Some(self.request_advice()) };
-        self.message =
-            next.proposals.first().map(|best| proposal_message(best, None, &self.query, self.cue_ball().names()));
+        self.message = next
+            .proposals
+            .first()
+            .map(|best| proposal_message(best, None, &self.query, self.point(), self.cue_ball().names()));
         self.store_advice(self.query.clone(), next);
         None
     }
@@ -267,11 +275,12 @@ fn made_words(query: &CoachQuery, chance: &str) -> String {
     }
 }
 
-/// Describes a proposal in a sentence. `names` are the names of the balls, the cue ball first.
+/// Describes a proposal in a sentence. `point` are the conditions of a point, `names` are the names of the balls, the cue ball first.
 fn proposal_message(
     proposal: &Proposal,
     effort: Option<Effort>,
     query: &CoachQuery,
+    point: Point,
     names: [&'static str; BALLS],
 ) -> Message {
     let shot = &proposal.shot;
@@ -284,6 +293,10 @@ fn proposal_message(
         let source = &shot.source;
         let begins = query.first.opening_words(names);
         let without = if query.jumps { "" } else { " without jumps and massés" };
+        let hopeless = query.first.hopeless_words(point);
+        if !hopeless.is_empty() {
+            return Message::poor(format!("there is no point{begins}{hopeless}"));
+        }
         let keeps_wish = query.first.allows_words(&shot.words);
         let attempt = if keeps_wish { "this is the best attempt" } else { NO_MATCHING_ATTEMPT };
         return Message::poor(format!("no point found{begins}{without}{tried}; {attempt} ({source}{took})"));

@@ -16,7 +16,7 @@ const NUMBERED: usize = 9;
 /// Writes 1, 2, 3 … where the cue ball meets cushions before the second object ball: outside the cloth, so that no ball is hidden.
 pub fn draw_cushions(words: &ShotWords, table: &Table, mapping: &Mapping, ui: &mut Ui) {
     let back = if ui.caps.glyphs == Glyphs::Letters { ui.theme.background } else { ui.theme.cushion };
-    let style = ui.theme.accent().bg(back).add_modifier(Modifier::BOLD);
+    let style = ui.theme.text().fg(ui.mark()).bg(back).add_modifier(Modifier::BOLD);
     let cushions = words.before.iter().chain(&words.between).take(NUMBERED);
     for (cell, number) in cells(cushions, table, mapping).into_iter().zip(1..) {
         ui.buffer.set_string(cell.0, cell.1, number.to_string(), style);

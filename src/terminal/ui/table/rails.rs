@@ -115,7 +115,7 @@ fn draw_pointers(mapping: &Mapping, place: DVec2, ui: &mut Ui) {
             (bed.x - 1, y, '▶', '>'),
             (bed.right(), y, '◀', '<'),
         ] {
-            put(ui.buffer, x, y, ui.caps.pick(symbol, plain), ui.theme.accent, ui.theme.background);
+            put(ui.buffer, x, y, ui.caps.pick(symbol, plain), ui.mark(), ui.theme.background);
             ui.buffer[(x, y)].modifier.insert(Modifier::BOLD);
         }
         return;

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use ratatui::{
     layout::{Margin, Rect},
-    style::Modifier,
+    style::{Color, Modifier},
     text::Span,
 };
 
@@ -16,7 +16,7 @@ use crate::{
     terminal::{
         Glyphs, Mapping,
         pages::coach::lesson::Lesson,
-        ui::{Spot, Theme, Ui, columns, draw_title, wrap, write_paragraphs},
+        ui::{Spot, Ui, columns, draw_title, wrap, write_paragraphs},
         words::fixed,
     },
 };
@@ -24,9 +24,9 @@ use crate::{
 /// Distance between the dots of the path, m.
 const DOTS: f64 = 0.05;
 
-/// The ball's path as dots, starting at the diamond behind the ball.
-pub fn lesson_spots(lesson: &Lesson, theme: &Theme) -> Vec<Spot> {
-    let dot = |place: DVec2| Spot { position: place, is_ball: false, color: theme.accent, letter: '.' };
+/// The ball's path as dots of this colour, starting at the diamond behind the ball.
+pub fn lesson_spots(lesson: &Lesson, color: Color) -> Vec<Spot> {
+    let dot = |place: DVec2| Spot { position: place, is_ball: false, color, letter: '.' };
     let legs = lesson.path.windows(2).flat_map(|leg| {
         let way = leg[1] - leg[0];
         let count = (way.length() / DOTS).ceil().max(1.0) as u32;
@@ -38,10 +38,11 @@ pub fn lesson_spots(lesson: &Lesson, theme: &Theme) -> Vec<Spot> {
 
 /// Writes the numbers: those of the start and the first cushion on the rails, those of the third cushion on the cloth next to it.
 pub fn draw_numbers(lesson: &Lesson, table: &Table, mapping: &Mapping, ui: &mut Ui) {
-    let back = if ui.caps.glyphs == Glyphs::Letters { ui.theme.background } else { ui.theme.wood };
-    let on_rail = ui.theme.text().bg(back).add_modifier(Modifier::BOLD);
-    let on_cloth = ui.theme.accent().bg(ui.theme.cloth).add_modifier(Modifier::BOLD);
-    let on_cloth = if ui.caps.glyphs == Glyphs::Letters { ui.theme.accent() } else { on_cloth };
+    let (on_rail, on_cloth) = match ui.caps.glyphs {
+        Glyphs::Letters => (ui.theme.text(), ui.theme.accent()),
+        _ => (ui.theme.text().fg(ui.theme.sight).bg(ui.theme.wood), ui.theme.text().fg(ui.mark()).bg(ui.theme.cloth)),
+    };
+    let [on_rail, on_cloth] = [on_rail, on_cloth].map(|style| style.add_modifier(Modifier::BOLD));
     for (text, place, is_inside) in labels(&lesson.guide) {
         let style = if is_inside { on_cloth } else { on_rail };
         write_at(&text, place, is_inside, table, mapping, style, ui);
@@ -176,7 +177,7 @@ mod tests {
         let applied = crate::coach::systems::Applied::example(System::Corner5, &table).unwrap();
         let guide = Guide::System(applied);
         let lesson = Lesson { path: guide.path(&table), guide, is_of_shot: false, table: table.clone().into() };
-        let spots = lesson_spots(&lesson, &Theme::new(crate::terminal::Depth::Mono));
+        let spots = lesson_spots(&lesson, Color::Reset);
         let [first, last] = [spots[0].position, spots[spots.len() - 1].position].map(|place| diamonds(&table, place));
         assert!(first.distance(DVec2::new(8.225, -0.225)) < 0.01, "{first}");
         assert!(last.y < 0.2 && (last.x - 2.9).abs() < 0.5, "{last}");

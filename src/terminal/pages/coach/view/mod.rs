@@ -71,7 +71,7 @@ impl PageView for CoachPage {
         let mut spots = planned.map_or_else(Vec::new, |choice| plan_spots(choice, ui.theme));
         let lesson = self.lesson.as_ref();
         if let Some(lesson) = lesson {
-            spots = lesson_spots(lesson, ui.theme);
+            spots = lesson_spots(lesson, ui.mark());
         }
         // The lesson's example is not about the balls on the table.
         let is_example = lesson.is_some_and(|lesson| !lesson.is_of_shot);
