@@ -217,14 +217,20 @@ fn robust_answer(
     let first = pieces_of(&[0], 0..ATTEMPTS).into_iter();
     let mut made = judged(&first.chain(pieces_of(&others, 0..ATTEMPTS_PER_ALTERNATIVE)).collect::<Vec<_>>());
     let mut rates: Vec<_> = (0..pool.len()).map(|candidate| rate(&made, candidate)).collect();
-    let better = if request.plan { Vec::new() } else { made_more_often(&pool, &rates) };
+    let better_ones = |pool: &[Candidate], rates: &[Option<SuccessRate>]| {
+        let mut better = made_more_often(pool, rates);
+        // In a plan, the other shot must not leave a more difficult next one.
+        better.retain(|index| !request.plan || pool[*index].next.value() >= pool[0].next.value());
+        better
+    };
+    let better = better_ones(&pool, &rates);
     let mut judged_from = 0;
     if !better.is_empty() {
         made.extend(judged(&pieces_of(&better, ATTEMPTS_PER_ALTERNATIVE..ATTEMPTS)));
         for candidate in better {
             rates[candidate] = rate(&made, candidate);
         }
-        let best = made_more_often(&pool, &rates).first().copied().unwrap_or_default();
+        let best = better_ones(&pool, &rates).first().copied().unwrap_or_default();
         // The attempts that chose this shot flatter it. If there is time, its rate comes from as many other attempts.
         let unbiased = rate(&judged(&pieces_of(&[best], ATTEMPTS..2 * ATTEMPTS)), best);
         if let Some(unbiased) = unbiased.filter(|rate| rate.trials == ATTEMPTS) {

@@ -70,7 +70,9 @@ fn list(json: bool) -> Result<(), Failure> {
         }
     }
     if shown.is_empty() {
-        print_note("nobody shows their table now; a player can do so with the key F on the coach's screen");
+        print_note(
+            "nobody shows their table now; a player who has started carom --player NAME can do so with the key F on the coach's screen",
+        );
     }
     Ok(())
 }

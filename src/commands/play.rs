@@ -18,7 +18,7 @@ const GAME: &str = "game";
 ///
 /// A miss ends an inning, and the next one starts where the balls stopped. With --both or --against-coach, the other side then plays with
 /// the other ball. Strokes are read line by line from the standard input: words like "red 1/2 right, 1.5 left, 3 lengths",
-/// "a,b,theta,phi,V", or the word coach. At the end, average and high run are printed.
+/// "a,b,theta,phi,V", or the words coach and quit. At the end, average and high run are printed.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// What counts as a point: straight, one-cushion or three-cushion.
@@ -67,7 +67,6 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let goal = if is_match { Goal::Match { innings, against_coach } } else { Goal::Game { innings } };
     let mut session = args.options.session(goal, vec![game])?;
     session.cue_ball = args.ball;
-    args.options.print_player(&session, args.rule);
     let workspace = Workspace::open();
     play(&workspace.store, session, &args.options, strokes(args.coach), args.strokes as usize)
 }

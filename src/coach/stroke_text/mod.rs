@@ -37,9 +37,6 @@ const SEARCH_STEP: f64 = 0.1;
 /// players state it.
 const MAX_FULLNESS_DEVIATION: f64 = 0.0625;
 
-/// Maximum deviation if the ball is met by way of a cushion, where a small change of the direction changes the hit a lot.
-const MAX_DEVIATION_OFF_CUSHION: f64 = 0.25;
-
 /// Precision of a stated position on a cushion before the first ball, diamonds.
 const CUSHION_PRECISION: f64 = 0.06;
 
@@ -93,11 +90,6 @@ pub enum StrokeTextError {
     /// The ball cannot be hit like this from the cue ball's position.
     #[error("{0} cannot be hit like this: something is in the way, or it is too far to the side")]
     Unreachable(&'static str),
-    /// The ball cannot be hit like this from that point of a cushion.
-    #[error(
-        "from that point of the cushion, the cue ball does not meet {0} like this; give another point, or leave out the ball"
-    )]
-    OffCushion(&'static str),
     /// An input of the stroke is outside its range.
     #[error(transparent)]
     Cue(#[from] CueError),
@@ -201,10 +193,9 @@ impl StrokeText {
             // Seen from the cue ball, a diamond appears shortened on a flat path.
             let half = CUSHION_PRECISION * table.diamond() * way.normalize_or_zero().dot(point.rail.normal()).abs()
                 / way.length();
-            let Some((ball, wanted)) = ball.zip(self.offset().ok()) else { return Ok(at(phi)) };
-            let found = nearest(table, layout, (ball, wanted), phi, half, at);
-            let found = found.filter(|(deviation, _)| *deviation < MAX_DEVIATION_OFF_CUSHION).map(|(_, cue)| cue);
-            return found.ok_or(StrokeTextError::OffCushion(cue_ball.names()[ball]));
+            let hit = ball.zip(self.offset().ok());
+            let found = hit.and_then(|hit| nearest(table, layout, hit, phi, half, at));
+            return Ok(found.map_or_else(|| at(phi), |(_, cue)| cue));
         }
         if ball.is_none() && self.fullness.is_none() {
             return before.map(|before| at(before.phi)).ok_or(StrokeTextError::NoAim);

@@ -35,8 +35,8 @@ pub struct TryArgs {
 
 /// Play an exercise until it was made a given number of times in a row.
 ///
-/// Strokes are read line by line from the standard input: words like "red 1/2 right, 1.5 left, 3 lengths", "a,b,theta,phi,V", or the word
-/// coach.
+/// Strokes are read line by line from the standard input: words like "red 1/2 right, 1.5 left, 3 lengths", "a,b,theta,phi,V", or the
+/// words coach and quit.
 #[derive(Debug, clap::Args)]
 pub struct RunArgs {
     /// The exercise: its name, its title, or the beginning of either.
@@ -59,8 +59,8 @@ pub struct RunArgs {
 
 /// Take an exam: twenty exercises, one attempt each.
 ///
-/// Strokes are read line by line from the standard input: words like "red 1/2 right, 1.5 left, 3 lengths", "a,b,theta,phi,V", or the word
-/// coach.
+/// Strokes are read line by line from the standard input: words like "red 1/2 right, 1.5 left, 3 lengths", "a,b,theta,phi,V", or the
+/// words coach and quit.
 #[derive(Debug, clap::Args)]
 pub struct ExamArgs {
     /// Difficulty: 1, 2 or 3.

@@ -13,7 +13,6 @@ use crate::{
         typed_stroke::TypedStroke,
     },
     drills::{Exercise, Goal, Session, Venue},
-    game::Rule,
     printing::number,
     table::Table,
 };
@@ -65,10 +64,17 @@ impl PlayOptions {
         Ok(session)
     }
 
-    /// Prints skill and rule for a user at the terminal, who may expect those of the full-screen program.
-    pub fn print_player(&self, session: &Session, rule: Rule) {
-        if !self.json && io::stdin().is_terminal() {
-            print_note(player_and_rule_words(session.skill, rule));
+    /// Prints whose errors are played, and a game's rule, for a user at the terminal, who may expect those of the full-screen program.
+    pub fn print_player(&self, session: &Session) {
+        if self.json || !io::stdin().is_terminal() {
+            return;
+        }
+        let skill = session.skill;
+        match session.exercises.first().filter(|_| session.is_game()) {
+            Some(game) => print_note(player_and_rule_words(skill, game.rule)),
+            None => print_note(format_args!(
+                "For a player of skill \"{skill}\"; --skill chooses another. The screen's skill is not used."
+            )),
         }
     }
 }

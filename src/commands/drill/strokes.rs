@@ -12,6 +12,9 @@ use crate::{
     drills::{Session, Store},
 };
 
+/// The word that ends a session, as the end of the input does.
+const QUIT: &str = "quit";
+
 /// Largest accepted value of `--strokes`.
 pub const MAX_STROKES: u32 = 10_000;
 
@@ -34,6 +37,7 @@ pub fn play(
     strokes: Strokes,
     most: usize,
 ) -> Result<(), Failure> {
+    options.print_player(&session);
     let mut game = StrokeByStroke::new(store, session, options, matches!(strokes, Strokes::Same(_)));
     let (mut lines, mut refused) = (0_usize, 0_usize);
     while game.session().attempts.len() < most {
@@ -44,10 +48,13 @@ pub fn play(
             Strokes::Same(stroke) => Ok(stroke),
             _ if !is_line => Ok(StrokeInput::Coach),
             _ => {
-                let Some(text) = prompt_line("shot in words, a,b,theta,phi,V, or coach: ")? else { break };
+                let Some(text) = prompt_line("shot in words, a,b,theta,phi,V, coach or quit: ")? else { break };
                 lines += 1;
                 if text.as_ref().is_ok_and(String::is_empty) {
                     continue;
+                }
+                if text.as_ref().is_ok_and(|text| text == QUIT) {
+                    break;
                 }
                 text.and_then(|text| text.parse())
             }

@@ -120,6 +120,16 @@ fn a_run_reads_strokes_and_coach_and_skips_invalid_lines() {
 }
 
 #[test]
+fn quit_ends_a_session() {
+    let folder = folder();
+    let args = ["drill", "run", "mine", "--goal", "2", "--skill", "perfect", "--seed", "1", "--json"];
+    let run = run_with_input(command(folder.path(), &args), "0,0,0,90,1\nquit\nfull speed\n");
+    let lines = run.json();
+    let counts = ["attempt", "refused", "result"].map(|kind| of_kind(&lines, kind).len());
+    assert_eq!((run.code, counts), (Some(0), [1, 0, 1]), "{lines:?}");
+}
+
+#[test]
 fn a_game_continues_from_end_positions_until_its_last_inning() {
     let folder = tempfile::tempdir().unwrap();
     let args = [

@@ -7,7 +7,7 @@ fn play_states_skill_and_rule_with_words_wrapped() {
     let mut command = carom();
     command.args(["play", "--rule", "3c", "--skill", "0,6"]);
     let mut session = Session::start_command(command, 60, 24);
-    session.wait_for("shot in words, a,b,theta,phi,V, or coach: ");
+    session.wait_for("shot in words, a,b,theta,phi,V, coach or quit: ");
     let shown = session.screen().contents();
     let beginning = "For a player of skill \"average=0.6\" under the rule\n\
                      three-cushion; --skill and --rule choose others. The\n\

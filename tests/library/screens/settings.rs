@@ -171,7 +171,7 @@ fn placed_balls_stay_when_the_table_changes() {
 fn session_values_are_shown_and_used_as_starting_points() {
     let text = "# mine\nrule = \"straight\" # at home\n";
     let player = with(TRUE_COLOUR, text).press("F2 R R S P + F5");
-    player.says("three-cushion now; the file has straight");
+    player.says("three-cushion now; the next start uses straight");
     let query = &player.app.coach.query;
     let skill = Settings::default().skill;
     assert_eq!((query.rule, query.plan, query.skill == skill), (Rule::ThreeCushion, false, false));
@@ -182,7 +182,7 @@ fn session_values_are_shown_and_used_as_starting_points() {
     player.shows(&[
         "4 changed",
         "rule        •◂ three-cushion ▸ now",
-        "Now \"three-cushion\"; the file has",
+        "Now \"three-cushion\"; the next start uses",
         "into it.",
     ]);
     let player = player.press("Right Right");
@@ -197,7 +197,7 @@ fn session_values_are_shown_and_used_as_starting_points() {
     assert!(!player.settings_text().contains("skill"));
     // Back at the default value, the file still has another one, which can be removed.
     let player = player.press("F2 R R F5 Up Up Up");
-    player.says("straight ▸ now; the file has one-cushion");
+    player.says("straight ▸ now; the next start uses one-cushion");
     assert!(player.press("Delete").settings_text().contains("rule = \"straight\" # at home\n"));
 }
 
@@ -206,10 +206,10 @@ fn session_themes_and_glyphs_are_shown() {
     let player = new().press("F2 T");
     player.says("theme: light, for this session; F5 keeps it");
     let player = player.press("g F5");
-    player.says("light ▸ now; the file has dark").says("half now; the file has auto");
+    player.says("light ▸ now; the next start uses dark").says("half now; the next start uses auto");
     assert_eq!(player.settings_text(), "");
     let player = player.press("T");
-    player.says("high-contrast ▸ now; the file has dark");
+    player.says("high-contrast ▸ now; the next start uses dark");
     let player = player.press("Enter Enter");
     assert_eq!(Settings::load(&player.path("config.toml")).0.theme.name(), "high-contrast");
     assert_eq!(player.app.caps.glyphs, Glyphs::Half);

@@ -108,6 +108,8 @@ pub const TESTS: &[Binding<A, W>] = &[
     bind(Calibration, W::Always, &[key(PageDown, A::Page(1)), key(PageUp, A::Page(-1))], None, "mark a test ten on or back; of the values, turn the page")
         .each(&["mark a test ten on; of the values, the next page", "mark a test ten back; of the values, the previous page"]),
     bind(Calibration, W::Always, &[key(Tab, A::ToggleValues)], Some(("values", 1)), "the table's values so far, and which marks look misread; again for the test"),
+    bind(Calibration, W::HasResult, &[letter('s', A::SaveTable)], Some(("save", 1)), "save the table under a name"),
+    bind(Calibration, W::HasSavedTable, &[letter('p', A::UseTable)], Some(("play on it", 1)), "play on the saved table, here and at every start"),
     bind(Calibration, W::Always, &[letter('n', A::MarkBest)], Some(("best next", 1)), "mark the test whose next stroke tells most"),
     bind(Calibration, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "undo the last change"),
     bind(Calibration, W::HasStroke, &[letter('e', A::EditStroke)], Some(("edit", 1)), "change what was entered of the marked stroke"),
@@ -116,8 +118,6 @@ pub const TESTS: &[Binding<A, W>] = &[
         .each(&["mark the previous stroke of the test", "mark the next stroke of the test"]),
     bind(Calibration, W::HasStroke, &[key(Delete, A::DeleteStroke), key(Backspace, A::DeleteStroke)], Some(("delete", 1)), "delete the marked stroke"),
     bind(Calibration, W::Always, &[letter('x', A::ToggleLeftOut)], Some(("leave out", 1)), "leave the test out with its strokes, take it in again"),
-    bind(Calibration, W::HasResult, &[letter('s', A::SaveTable)], Some(("save", 1)), "save the table under a name"),
-    bind(Calibration, W::HasSavedTable, &[letter('p', A::UseTable)], Some(("play on it", 1)), "play on the saved table, here and at every start"),
     bind(Calibration, W::CalibratedTable, &[letter('d', A::ToggleDaily)], Some(("daily check", 1)), "two strokes that show how the table plays today; back to all tests"),
     bind(Calibration, W::HasEntries, &[letter('N', A::StartOver)], None, "start again; the entries are kept next to the file"),
     bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the coach"),

@@ -231,7 +231,7 @@ pub const COACH: &[Binding<A, W>] = &[
         ]),
     bind(Balls, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "undo the last change"),
     bind(Balls, W::Redoable, &[letter('U', A::Redo), ctrl('r', A::Redo)], Some(("redo", 1)),
-        "redo the last undone change"),
+        "redo the last change"),
     bind(Balls, W::Resumable, &[letter('c', A::Resume)], Some(("go on", 1)),
         "go on with the exam that was left, or from where the last session ended"),
     bind(Balls, W::Idle, &[letter('o', A::OpeningPosition)], None, "put the balls on their spots; again for the other side")
@@ -277,7 +277,7 @@ pub const OWN_STROKE: &[Binding<A, W>] = stroke_keys!(A::ChangeStroke, W::Always
         "undo the last change of the stroke"),
     bind(Stroke, W::OwnStrokePlayed, &[letter('u', A::Undo), letter('z', A::Undo)], Some(("undo", 1)), "put the balls back where your last stroke was played"),
     bind(Stroke, W::StrokeRedoable, &[letter('U', A::RedoStroke), letter('Z', A::RedoStroke), ctrl('r', A::RedoStroke)],
-        Some(("redo", 1)), "redo the last undone change of the stroke"),
+        Some(("redo", 1)), "redo the last change of the stroke"),
     bind(Stroke, W::Always, &[letter(',', P(Event(-1))), letter('.', P(Event(1)))], Some(("event", 2)),
         "step from event to event").each(&["step to the previous event", "step to the next event"]),
 ], [

@@ -46,6 +46,7 @@ pub struct RunningAnalysis {
 impl CoachPage {
     pub(super) fn request_advice(&mut self) -> Effect {
         self.playback.pause();
+        self.leave_example();
         let former = self.current_advice().into_iter().flat_map(|advised| &advised.choices);
         let former = former.map(|choice| choice.proposal.shot.cue).collect();
         let job = CoachJob { former, ..self.new_job(None) };

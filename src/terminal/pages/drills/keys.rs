@@ -300,7 +300,7 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::ChangeStroke, W::Aiming, 
 ], [
     bind(Stroke, W::StrokeUndoable, &[letter('z', A::UndoStroke)], None, "undo the last change of the stroke"),
     bind(Stroke, W::StrokeRedoable, &[letter('Z', A::RedoStroke), ctrl('r', A::RedoStroke)], None,
-        "redo the last undone change of the stroke"),
+        "redo the last change of the stroke"),
     bind(Position, W::Free, &[letter('c', A::SendToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
     bind(Position, W::Restartable, &[letter('p', A::NextPlayer)], None, "choose the player whose errors are played"),
     bind(Score, W::Always, &[letter('r', A::OpenRecord)], Some(("record", 1)), "the record of this exercise"),

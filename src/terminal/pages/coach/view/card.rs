@@ -19,7 +19,7 @@ use crate::{
                 words::{place_along, to_hundredths},
             },
         },
-        ui::{Ui, columns, draw_title, to_displayable},
+        ui::{Ui, columns, draw_title, shorten, to_displayable},
         words::{chance_words, fixed, percent, speed_words},
     },
 };
@@ -46,7 +46,8 @@ pub fn draw_card(proposal: &Proposal, coach: &CoachPage, area: Rect, ui: &mut Ui
             // A narrow row has no room for " degrees".
             value = value.replace('\u{b0}', ui.caps.pick("\u{b0}", " deg"));
         }
-        line.push_span(Span::styled(to_displayable(&value, ui.caps), ui.theme.text()));
+        let room = usize::from(inner.width).saturating_sub(line.width());
+        line.push_span(Span::styled(shorten(&to_displayable(&value, ui.caps), room, ui.caps), ui.theme.text()));
         ui.buffer.set_line(inner.x, row, &line, inner.width);
     }
 }

@@ -51,7 +51,7 @@ fn draw_entry(settings: &SettingsPage, entry: &Entry, is_marked: bool, area: Rec
     let mut spans = stepper(Span::styled(text, value), is_marked, ui).to_vec();
     if let Some(other) = settings.different_value_in_file(entry) {
         let room = usize::from(area.right().saturating_sub(x)).saturating_sub(Line::from(spans.clone()).width());
-        let whole = format!(" now; the file has {}", settings.display_value(&other));
+        let whole = format!(" now; the next start uses {}", settings.display_value(&other));
         // If this does not fit, the description of the marked setting contains the rest.
         let note = if columns(&whole) <= room { whole } else { " now".to_owned() };
         spans.push(Span::styled(note, ui.theme.warning()));
@@ -76,7 +76,7 @@ fn draw_description(settings: &SettingsPage, area: Rect, ui: &mut Ui) {
     if let Some(other) = settings.different_value_in_file(entry) {
         let now = (entry.get)(&settings.settings);
         let keep = if settings.is_writable { format!(" Enter twice writes {now} into it.") } else { String::new() };
-        paragraphs.insert(0, (format!("Now {now}; the file has {other}.{keep}"), ui.theme.warning()));
+        paragraphs.insert(0, (format!("Now {now}; the next start uses {other}.{keep}"), ui.theme.warning()));
     }
     write_words(paragraphs, inner, ui);
 }
