@@ -27,7 +27,7 @@ pub struct Constants {
     /// Time in which a rolling ball loses 1 m/s at constant deceleration (thesis equation 26), s²/m.
     pub roll_time: f64,
     /// Whether the table is level and the deceleration of a rolling ball is constant, as in the thesis.
-    pub even: bool,
+    pub has_one_band: bool,
     /// Whether the table is level.
     pub level: bool,
     /// Acceleration of a table that is not level, m/s².
@@ -35,7 +35,7 @@ pub struct Constants {
     /// Rate at which `|w_z|` decays, `5 mu_sp g / 2R` (thesis equation 8), rad/s².
     pub spinning: f64,
     /// Upward velocity above which a rail lifts a ball off the cloth, m/s; infinity if balls stay on it.
-    pub lifts: f64,
+    pub least_climb: f64,
     /// Tolerances below which gaps, speeds and accelerations count as zero.
     pub tolerance: Tolerance,
 }
@@ -56,11 +56,11 @@ impl Constants {
             slide_time: 1.0 / (3.5 * sliding),
             rolling: Rolling::of(table),
             roll_time: 1.0 / Rolling::of(table).least,
-            even: level && table.rolling_growth == 0.0,
+            has_one_band: level && table.rolling_growth == 0.0,
             level,
             tilt: table.tilt,
             spinning: 2.5 * table.spinning_friction * table.gravity / table.radius,
-            lifts: if table.flight.is_some() { tolerance.least_lift } else { f64::INFINITY },
+            least_climb: if table.flight.is_some() { tolerance.least_lift } else { f64::INFINITY },
             tolerance,
         }
     }

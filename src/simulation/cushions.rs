@@ -70,7 +70,7 @@ fn next_cushion_impact_of_rolling<S: Savings>(
     let straight = lesser(to_y, to_x);
     let rail = rail_of(v.x > 0.0, v.y > 0.0, to_y < to_x);
     // `straight = t - t² / 2 stop`, where the speed would be zero at `stop`: at the horizon, unless the band ends before.
-    let banded = !constants.even;
+    let banded = !constants.has_one_band;
     let stop = if banded { -0.5 * v.length_squared() / v.dot(segment.half_acceleration) } else { horizon };
     let share = 1.0 - 2.0 * straight / stop;
     let time = 2.0 * straight / (1.0 + share.sqrt());

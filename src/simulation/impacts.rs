@@ -57,7 +57,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if self.micro_collisions.is_some() {
             state.position += c.tolerance.micro_gap * n;
         }
-        if impulse.climb > c.lifts {
+        if impulse.climb > c.least_climb {
             return self.climb_cushion(index, now, state, impulse.climb, freed.is_some());
         }
         let mut reported = true;
@@ -158,7 +158,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.last_impact = now;
         let mut at_once = 0;
         for time in self.times {
-            at_once += u32::from(time <= now + self.constants.tolerance.moment);
+            at_once += u32::from(time <= now + self.constants.tolerance.simultaneous);
         }
         at_once > 1 || self.inelastic || self.rounds > MAX_ROUNDS
     }
@@ -202,7 +202,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             return ControlFlow::Continue(false);
         }
         let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
-        let climbs = |impulse: &ImpactImpulse| impulse.climb > c.lifts;
+        let climbs = |impulse: &ImpactImpulse| impulse.climb > c.least_climb;
         let mut reported = Vec::with_capacity(MAX_CONTACTS);
         for (contact, impulse) in met() {
             let slow = contact.opening_speed(&states) <= c.tolerance.slow_bounce && !climbs(impulse);

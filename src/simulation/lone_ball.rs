@@ -53,7 +53,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 if state.velocity.dot(n) <= constants.tolerance.slow_bounce
                     || is_in_corner(constants, state.position)
                     || others.iter().any(|other| state.position.distance_squared(*other) <= near)
-                    || impulse.climb > constants.lifts
+                    || impulse.climb > constants.least_climb
                 {
                     break;
                 }

@@ -1,7 +1,7 @@
 //! Time integration of resting contacts: balls that are pressed against cushions or each other, with adaptive steps.
 //!
 //! The equations have no closed form, because the slip turns under the frictions of cloth and cushion together. They are integrated from
-//! one change of the active set to the next, with an estimated error of at most [`Tolerance::step`] per step. When a slip ends, its
+//! one change of the active set to the next, with an estimated error of at most [`Tolerance::step_error`] per step. When a slip ends, its
 //! direction is singular in time. With time rescaled by the slip, `dt = |u|/|u₀| dτ`, the slip decays exponentially and the solution stays
 //! smooth.
 
@@ -353,7 +353,7 @@ impl Resting {
             self.slope(table.radius, &phase.balls, (&linear, &angular))
         };
         let first = self.slope(table.radius, &begin.balls, (&from.forces.linear, &from.forces.angular));
-        let (length, tolerance) = (span - from.span, self.constants.tolerance.step);
+        let (length, tolerance) = (span - from.span, self.constants.tolerance.step_error);
         let stiff = self.stiff(table, from, length);
         let mut step = extrapolate(begin, &first, slope, stiff.as_ref(), length, (table.radius, tolerance));
         let forces = self.forces(self.scene(table, &step.end.balls), &from.forces);

@@ -109,7 +109,7 @@ impl Segment {
         let speed = self.velocity.length();
         self.spin = (self.velocity.perp() * constants.per_radius).extend(self.spin.z);
         self.motion = Motion::Rolling;
-        if constants.even {
+        if constants.has_one_band {
             self.half_acceleration = self.velocity * (-0.5 * constants.rolling.least / speed);
             return (self, speed * constants.roll_time);
         }
@@ -126,7 +126,7 @@ impl Segment {
     /// Whether a rolling ball comes to rest at the end of this segment, rather than continuing in the next band of deceleration.
     #[inline(always)]
     pub fn rolls_to_rest(&self, constants: &Constants) -> bool {
-        if constants.even {
+        if constants.has_one_band {
             return true;
         }
         if constants.level {
@@ -144,7 +144,7 @@ impl Segment {
         if self.motion == Motion::Sliding {
             // The velocity after the slip does not depend on the duration, which keeps rounding errors small. A slope adds its part.
             let mut velocity = self.velocity - slip(constants.radius, self.velocity, self.spin) * (2.0 / 7.0);
-            if !constants.even {
+            if !constants.has_one_band {
                 velocity += (5.0 / 7.0 * duration) * constants.tilt;
             }
             let next = Self { start, velocity, spin, ..Self::at_rest(self.position_after(duration)) };
@@ -253,7 +253,7 @@ impl Segment {
         } * constants.per_radius;
         // A slope exerts no torque on a sliding ball.
         let mut turning = self.half_acceleration;
-        if !constants.even && self.motion == Motion::Sliding {
+        if !constants.has_one_band && self.motion == Motion::Sliding {
             turning -= 0.5 * constants.tilt;
         }
         let horizontal = self.spin.truncate() + (rate * t) * turning.perp();

@@ -15,7 +15,7 @@ pub struct Tolerance {
     pub touching: f64,
     /// Impacts within this time may be simultaneous, s; their gaps decide. In this time, a ball with the speed 2e-2 √(gR) closes a gap of
     /// the touching tolerance. Smaller: rounding decides whether balls are struck together or in turn. Larger: gaps are checked needlessly.
-    pub moment: f64,
+    pub simultaneous: f64,
     /// A gap that stays above this cannot be closed by rounding, m. Smaller: a prediction with other rounding than the test could be
     /// missed. Larger: roots are sought needlessly.
     pub certain_gap: f64,
@@ -48,7 +48,7 @@ pub struct Tolerance {
     /// provided that both agree.
     pub shortest_quintic: f64,
     /// Accepted estimated error of a step of a resting contact, in m, m/s, or R times rad/s. A contact takes some tens of steps.
-    pub step: f64,
+    pub step_error: f64,
     /// Violations or differences of forces per mass below this count as rounding errors, m/s².
     pub force_error: f64,
     /// Bounces slower than this may be the end of a chatter, m/s; for faster ones the test is skipped, because it cannot matter. Scales
@@ -101,7 +101,7 @@ impl Tolerance {
         let friction = table.sliding_friction.max(table.spinning_friction) * table.gravity;
         Self {
             touching: 16.0 * f64::EPSILON * table.length.max(table.width),
-            moment: 800.0 * f64::EPSILON * table.length.max(table.width) / speed,
+            simultaneous: 800.0 * f64::EPSILON * table.length.max(table.width) / speed,
             certain_gap: 1.6e5 * f64::EPSILON * table.length.max(table.width),
             coupled_gap: 1.6e4 * f64::EPSILON * table.length.max(table.width),
             opening: 2e-11 * speed,
@@ -112,7 +112,7 @@ impl Tolerance {
             still: (2e-11 * Rolling::of(table).least).sqrt(),
             shortest_step: (8e-13 * speed / friction).min(1e-13),
             shortest_quintic: 8.7e10 * f64::EPSILON * table.length.max(table.width) / speed,
-            step: 2e-13 * speed.max(table.radius),
+            step_error: 2e-13 * speed.max(table.radius),
             force_error: 1e-12 * table.gravity.min(5.0 * friction),
             slow_bounce: 2e-2 * speed * liveliness(table),
             least_lift: 2e-2 * speed,

@@ -27,7 +27,7 @@ impl Resting {
 
     fn step_to_in_halves(&self, table: &Table, from: &Trial, span: f64, halvings: u32) -> Trial {
         let (whole, tolerance) = (self.attempt(table, from, span), &self.constants.tolerance);
-        if whole.step.error <= tolerance.step || halvings == 0 || span - from.span <= tolerance.shortest_step {
+        if whole.step.error <= tolerance.step_error || halvings == 0 || span - from.span <= tolerance.shortest_step {
             return whole;
         }
         let middle = self.step_to_in_halves(table, from, 0.5 * (from.span + span), halvings - 1);
@@ -48,7 +48,7 @@ impl Resting {
     /// becomes too fast. `course` is the longest step with an accurate trajectory.
     pub(super) fn shorter(&self, table: &Table, trial: &Trial, course: f64) -> Option<f64> {
         let tolerance = &self.constants.tolerance;
-        if trial.step.error.is_nan() || trial.step.error > tolerance.step {
+        if trial.step.error.is_nan() || trial.step.error > tolerance.step_error {
             return Some(trial.step.best_length.min(0.7 * trial.span));
         }
         if course < DEVIATION_MARGIN * trial.span {

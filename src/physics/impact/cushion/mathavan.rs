@@ -27,34 +27,34 @@ const MIN_GAIN: f64 = 0.1;
 /// Velocity along the normal into the table and along the cushion, and the equatorial speeds `R ω` of the spin about these two axes and the
 /// vertical, all m/s.
 #[derive(Clone, Copy)]
-struct Motion {
+struct Velocities {
     velocity: DVec2,
     spin: DVec3,
 }
 
-impl Motion {
+impl Velocities {
     fn plus(&self, share: f64, rate: &Self) -> Self {
         Self { velocity: self.velocity + share * rate.velocity, spin: self.spin + share * rate.spin }
     }
 }
 
 /// Coefficients of friction of nose and cloth, and sine and cosine of the nose's elevation.
-struct Law {
+struct Constants {
     nose: f64,
     cloth: f64,
     sine: f64,
     cosine: f64,
 }
 
-impl Law {
+impl Constants {
     /// Returns the slip at the nose, along the cushion and orthogonal to both the cushion and the line of impact.
-    fn slip(&self, Motion { velocity: v, spin: w }: &Motion) -> DVec2 {
+    fn slip(&self, Velocities { velocity: v, spin: w }: &Velocities) -> DVec2 {
         DVec2::new(v.y - (self.cosine * w.z + self.sine * w.x), w.y + self.sine * v.x)
     }
 
     /// Returns the derivative of the motion with respect to the impulse per mass along the line of impact, for a step of `impulse` that
     /// starts at `from`. The slip directions are those at `at`.
-    fn rate(&self, from: &Motion, at: &Motion, impulse: f64) -> Motion {
+    fn rate(&self, from: &Velocities, at: &Velocities, impulse: f64) -> Velocities {
         let Self { nose, cloth, sine, cosine } = *self;
         let below = DVec2::new(at.velocity.x - at.spin.y, at.velocity.y + at.spin.x);
         // Friction of the cloth per unit of downward impulse.
@@ -62,7 +62,7 @@ impl Law {
         let rate = |friction: DVec2| {
             // The upward friction of the nose lifts the ball; its normal force presses the ball down.
             let drag = (sine - friction.y * cosine).max(0.0) * drag;
-            Motion {
+            Velocities {
                 velocity: DVec2::new(cosine + friction.y * sine + drag.x, friction.x + drag.y),
                 spin: 2.5 * DVec3::new(drag.y - friction.x * sine, friction.y - drag.x, -friction.x * cosine),
             }
@@ -87,10 +87,10 @@ impl Law {
     }
 
     /// Returns the derivative for a step of `impulse` by the midpoint method, at least with the outward rate [`MIN_GAIN`].
-    fn step(&self, motion: &Motion, impulse: f64) -> Motion {
+    fn step(&self, motion: &Velocities, impulse: f64) -> Velocities {
         let first = self.rate(motion, motion, 0.5 * impulse);
-        let Motion { velocity, spin } = self.rate(motion, &motion.plus(0.5 * impulse, &first), impulse);
-        Motion { velocity: velocity.with_x(velocity.x.max(MIN_GAIN)), spin }
+        let Velocities { velocity, spin } = self.rate(motion, &motion.plus(0.5 * impulse, &first), impulse);
+        Velocities { velocity: velocity.with_x(velocity.x.max(MIN_GAIN)), spin }
     }
 }
 
@@ -111,9 +111,9 @@ pub(super) fn collide(
     let t = n.perp();
     let into = |v: DVec2| DVec2::new(v.dot(n), v.dot(t));
     let spin = radius * into(ball.spin.truncate()).extend(ball.spin.z);
-    let mut motion = Motion { velocity: into(ball.velocity), spin };
-    let impulse = integrate(&Law { nose, cloth, sine, cosine }, restitution, &mut motion, STEPS);
-    let Motion { velocity, spin } = motion;
+    let mut motion = Velocities { velocity: into(ball.velocity), spin };
+    let impulse = integrate(&Constants { nose, cloth, sine, cosine }, restitution, &mut motion, STEPS);
+    let Velocities { velocity, spin } = motion;
     let spin = spin / radius;
     ball.velocity = velocity.x * n + velocity.y * t;
     ball.spin = (spin.x * n + spin.y * t).extend(spin.z);
@@ -121,7 +121,7 @@ pub(super) fn collide(
 }
 
 /// Integrates an impact of an approaching ball, with `steps` steps each for compression and restitution. Returns the impulse per mass.
-fn integrate(law: &Law, restitution: f64, motion: &mut Motion, steps: u32) -> f64 {
+fn integrate(law: &Constants, restitution: f64, motion: &mut Velocities, steps: u32) -> f64 {
     // Work along the line of impact is the mean speed times the impulse. The speed is v_n cos α; here without the factor cos α.
     let (mut impulse, mut work) = (0.0, 0.0);
     // Increase of the normal velocity per unit of impulse.
@@ -167,12 +167,12 @@ mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 
-    fn law() -> Law {
+    fn law() -> Constants {
         let sine: f64 = 0.202;
-        Law { nose: 0.213, cloth: 0.205, sine, cosine: (1.0 - sine * sine).sqrt() }
+        Constants { nose: 0.213, cloth: 0.205, sine, cosine: (1.0 - sine * sine).sqrt() }
     }
 
-    fn after(start: &Motion, steps: u32) -> Motion {
+    fn after(start: &Velocities, steps: u32) -> Velocities {
         let mut motion = *start;
         integrate(&law(), 0.889, &mut motion, steps);
         motion
@@ -182,18 +182,18 @@ mod tests {
     fn few_steps_meet_the_stated_accuracy_and_more_converge() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(7);
         // Balls that approach at 1 m/s; every second one rolls.
-        let starts: Vec<Motion> = (0..400)
+        let starts: Vec<Velocities> = (0..400)
             .map(|index| {
                 let mut number = |wide: f64| wide * (2.0 * rng.random::<f64>() - 1.0);
                 let velocity = DVec2::new(-1.0, number(2.0));
                 let roll = DVec3::new(-velocity.y, velocity.x, number(2.0));
                 let other = DVec3::new(number(1.0), number(1.5) + 0.5, 0.0);
-                Motion { velocity, spin: if index % 2 == 0 { roll } else { roll + other } }
+                Velocities { velocity, spin: if index % 2 == 0 { roll } else { roll + other } }
             })
             .collect();
-        let exact: Vec<Motion> = starts.iter().map(|start| after(start, 4096)).collect();
+        let exact: Vec<Velocities> = starts.iter().map(|start| after(start, 4096)).collect();
         let errors = |steps: u32| {
-            let off = |(start, exact): (&Motion, &Motion)| {
+            let off = |(start, exact): (&Velocities, &Velocities)| {
                 let there = after(start, steps);
                 there.velocity.distance(exact.velocity) + there.spin.distance(exact.spin)
             };
@@ -211,16 +211,16 @@ mod tests {
     fn many_steps_converge_to_explicit_friction_without_sticking() {
         let (law, e) = (law(), 0.889);
         // Explicit tiny steps with friction against the slip at their start; while the nose should stick, the slip oscillates about zero.
-        let explicit = |start: &Motion| {
+        let explicit = |start: &Velocities| {
             let (mut motion, mut work, mut done) = (*start, 0.0, 0.0);
             let (size, mut owed) = (1e-5, f64::INFINITY);
             while owed > 0.0 {
-                let Motion { velocity: v, spin: w } = motion;
+                let Velocities { velocity: v, spin: w } = motion;
                 let below = DVec2::new(v.x - w.y, v.y + w.x);
                 let (slip, drag) = (law.slip(&motion).normalize_or_zero(), -law.cloth * below.normalize_or_zero());
                 let friction = -law.nose * slip;
                 let drag = (law.sine - friction.y * law.cosine).max(0.0) * drag;
-                let rate = Motion {
+                let rate = Velocities {
                     velocity: DVec2::new(law.cosine + friction.y * law.sine + drag.x, friction.x + drag.y),
                     spin: 2.5
                         * DVec3::new(drag.y - friction.x * law.sine, friction.y - drag.x, -friction.x * law.cosine),
@@ -240,7 +240,7 @@ mod tests {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(8);
         for _ in 0..20 {
             let mut number = |wide: f64| wide * (2.0 * rng.random::<f64>() - 1.0);
-            let start = Motion {
+            let start = Velocities {
                 velocity: DVec2::new(-1.0, number(2.0)),
                 spin: DVec3::new(number(2.0), number(2.0), number(2.0)),
             };
@@ -252,14 +252,14 @@ mod tests {
 
     #[test]
     fn every_ball_leaves_the_rail_without_energy_gain() {
-        let energy = |motion: &Motion| motion.velocity.length_squared() + 0.4 * motion.spin.length_squared();
+        let energy = |motion: &Velocities| motion.velocity.length_squared() + 0.4 * motion.spin.length_squared();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(9);
         for cloth in [0.2, 0.5, 1.0] {
-            let held = Law { cloth, ..law() };
+            let held = Constants { cloth, ..law() };
             for _ in 0..500 {
                 let mut number = |wide: f64| wide * (2.0 * rng.random::<f64>() - 1.0);
                 let spin = DVec3::new(number(6.0), number(6.0), number(6.0));
-                let mut motion = Motion { velocity: DVec2::new(-1.0, number(2.0)), spin };
+                let mut motion = Velocities { velocity: DVec2::new(-1.0, number(2.0)), spin };
                 let before = energy(&motion);
                 integrate(&held, 0.9, &mut motion, STEPS);
                 assert!(motion.velocity.x >= 0.0, "{cloth}: {}", motion.velocity);
@@ -271,8 +271,8 @@ mod tests {
     #[test]
     fn without_friction_restitution_reduces_the_normal_speed() {
         // Without friction, the speed is reduced by the factor e alone.
-        let smooth = Law { nose: 0.0, cloth: 0.0, ..law() };
-        let mut motion = Motion { velocity: DVec2::new(-1.5, 0.7), spin: DVec3::new(0.1, 0.2, 0.3) };
+        let smooth = Constants { nose: 0.0, cloth: 0.0, ..law() };
+        let mut motion = Velocities { velocity: DVec2::new(-1.5, 0.7), spin: DVec3::new(0.1, 0.2, 0.3) };
         let impulse = integrate(&smooth, 0.889, &mut motion, STEPS);
         assert!(motion.velocity.distance(DVec2::new(1.5 * 0.889, 0.7)) < 1e-12);
         assert!((impulse - 1.5 * 1.889 / smooth.cosine).abs() < 1e-12 && motion.spin == DVec3::new(0.1, 0.2, 0.3));
