@@ -182,8 +182,9 @@ fn session_values_are_shown_and_used_as_starting_points() {
     player.shows(&[
         "4 changed",
         "rule        •◂ three-cushion ▸ now",
-        "Now \"three-cushion\"; the next start uses",
-        "into it.",
+        "Now \"three-cushion\"; the next",
+        "start uses \"straight\". Enter twice",
+        "saves \"three-cushion\".",
     ]);
     let player = player.press("Right Right");
     assert_eq!(player.app.coach.query.rule, Rule::OneCushion);

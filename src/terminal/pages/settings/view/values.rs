@@ -75,7 +75,7 @@ fn draw_description(settings: &SettingsPage, area: Rect, ui: &mut Ui) {
     ];
     if let Some(other) = settings.different_value_in_file(entry) {
         let now = (entry.get)(&settings.settings);
-        let keep = if settings.is_writable { format!(" Enter twice writes {now} into it.") } else { String::new() };
+        let keep = if settings.is_writable { format!(" Enter twice saves {now}.") } else { String::new() };
         paragraphs.insert(0, (format!("Now {now}; the next start uses {other}.{keep}"), ui.theme.warning()));
     }
     write_words(paragraphs, inner, ui);
