@@ -217,27 +217,21 @@ fn robust_answer(
     let first = pieces_of(&[0], 0..ATTEMPTS).into_iter();
     let mut made = judged(&first.chain(pieces_of(&others, 0..ATTEMPTS_PER_ALTERNATIVE)).collect::<Vec<_>>());
     let mut rates: Vec<_> = (0..pool.len()).map(|candidate| rate(&made, candidate)).collect();
-    let better_ones = |pool: &[Candidate], rates: &[Option<SuccessRate>]| {
-        let mut better = made_more_often(pool, rates);
-        // In a plan, the other shot must not leave a more difficult next one.
-        better.retain(|index| !request.plan || pool[*index].next.value() >= pool[0].next.value());
-        better
-    };
-    let better = better_ones(&pool, &rates);
+    let better = made_more_often(&pool, &rates, request.plan);
     let mut judged_from = 0;
     if !better.is_empty() {
         made.extend(judged(&pieces_of(&better, ATTEMPTS_PER_ALTERNATIVE..ATTEMPTS)));
         for candidate in better {
             rates[candidate] = rate(&made, candidate);
         }
-        let best = better_ones(&pool, &rates).first().copied().unwrap_or_default();
+        let best = made_more_often(&pool, &rates, request.plan).first().copied().unwrap_or_default();
         // The attempts that chose this shot flatter it. If there is time, its rate comes from as many other attempts.
         let unbiased = rate(&judged(&pieces_of(&[best], ATTEMPTS..2 * ATTEMPTS)), best);
         if let Some(unbiased) = unbiased.filter(|rate| rate.trials == ATTEMPTS) {
             (rates[best], judged_from) = (Some(unbiased), ATTEMPTS);
         }
-        rates.swap(0, best);
-        pool.swap(0, best);
+        rates[..=best].rotate_right(1);
+        pool[..=best].rotate_right(1);
     }
     let best = pool[0];
     let known_next =
@@ -255,7 +249,7 @@ fn robust_answer(
         })
         .filter(is_worth)
         .collect();
-    // If the next point counts too, the order of the search is kept.
+    // If the next point counts too, the others keep the order of the search.
     if !request.plan {
         let chance = |shot: &Alternative| shot.make_probability.map_or(0.0, |rate| rate.rate);
         alternatives.sort_by(|one, other| chance(other).total_cmp(&chance(one)));
@@ -276,13 +270,16 @@ fn robust_answer(
 }
 
 /// Returns the indices of the shots that are made more often than the first one, less their effort penalties, best
-/// first. If the first one is a former answer, another shot must be better by [`MIN_IMPROVEMENT`].
-fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>]) -> Vec<usize> {
+/// first. If the first one is a former answer, another shot must be better by [`MIN_IMPROVEMENT`]. In a `plan`, it must also leave a next
+/// shot that is known to be at least as easy.
+fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>], plan: bool) -> Vec<usize> {
     let worth = |index: usize| rates[index].map(|rate| rate.rate - pool[index].effort_penalty);
     let was_advised = pool.first().is_some_and(|first| first.shot.source == Source::Former);
     let least = if was_advised { MIN_IMPROVEMENT } else { 0.0 };
     let is_better = |index: &usize| worth(0).zip(worth(*index)).is_some_and(|(bar, own)| own > bar + least * own.abs());
-    let mut better: Vec<usize> = (1..pool.len()).filter(is_better).collect();
+    let next = |index: usize| pool[index].next.known();
+    let leaves_enough = |index: &usize| !plan || next(0).zip(next(*index)).is_some_and(|(bar, own)| own >= bar);
+    let mut better: Vec<usize> = (1..pool.len()).filter(is_better).filter(leaves_enough).collect();
     better.sort_by(|one, other| f64::total_cmp(&worth(*other).unwrap_or_default(), &worth(*one).unwrap_or_default()));
     better
 }
@@ -454,12 +451,16 @@ mod tests {
             pool.extend(others.iter().map(|(_, penalty)| candidate(cue, Route::OffCushion, *penalty)));
             let mut rates = vec![Some(SuccessRate::new(220, 1000))];
             rates.extend(others.iter().map(|(made, _)| (*made > 0).then(|| SuccessRate::new(*made, 400))));
-            made_more_often(&pool, &rates)
+            made_more_often(&pool, &rates, false)
         };
         assert!(better(&[]).is_empty());
         assert!(better(&[(0, 0.0), (85, 0.0)]).is_empty());
         assert!(better(&[(133, 0.15)]).is_empty());
         assert_eq!(better(&[(90, 0.0), (0, 0.0), (133, 0.0)]), [3, 1]);
+        let next = [NextValue::Known(0.5), NextValue::Known(0.6), NextValue::Known(0.4), NextValue::Assumed(0.9)];
+        let pool = next.map(|next| Candidate { next, ..candidate(cue, Route::Direct, 0.0) });
+        let rates = [200, 300, 300, 300].map(|made| Some(SuccessRate::new(made, 1000)));
+        assert_eq!(made_more_often(&pool, &rates, true), [1], "the next shot is more difficult, or not known");
     }
 
     #[test]

@@ -65,7 +65,7 @@ impl Team {
             drop(idle);
             team.pool = team.pool.take().or_else(|| start(helpers.max(all - 1)));
         }
-        team
+        if team.pool.is_some() { team } else { Self::ALONE }
     }
 
     /// Runs `lead` on the calling thread with a team of up to `count` threads, which stay awake while it lasts.
@@ -74,9 +74,12 @@ impl Team {
         let Some(pool) = &team.pool else { return lead(&team) };
         let is_over = AtomicBool::new(false);
         pool.in_place_scope(|scope| {
-            for _ in 0..team.helpers {
-                scope.spawn(|_| wait_awake(&is_over));
-            }
+            // One job in each worker's own queue: from a common queue, one worker would take several and leave the others asleep.
+            scope.spawn_broadcast(|_, worker| {
+                if worker.index() < team.helpers {
+                    wait_awake(&is_over);
+                }
+            });
             // Also if `lead` panics: the scope waits for its workers.
             let _end = OnDrop(|| is_over.store(true, Ordering::Relaxed));
             lead(&team)

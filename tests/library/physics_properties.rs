@@ -1,4 +1,4 @@
-//! Properties of every shot: energy, no overlap, mirror symmetry.
+//! Properties of every shot: energy, no overlap, mirror symmetry, the same bits on every run.
 
 use carom::{
     physics::{CueInputs, Motion},
@@ -154,6 +154,13 @@ proptest! {
         prop_assert_eq!(recording.final_layout().balls, [end, second, first]);
     }
 
+    #[test]
+    fn the_same_shot_gives_the_same_bits((table, layout, cue) in shots()) {
+        let run = || Recording::new(&table, &layout, &cue).unwrap();
+        let (one, other) = (run(), run());
+        prop_assert_eq!(one.events(), other.events());
+        prop_assert_eq!(one.final_layout(), other.final_layout());
+    }
 }
 
 /// Regression test: two balls roll against each other on the thesis' table, and the motion of each alone presses them together.

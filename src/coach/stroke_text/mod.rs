@@ -287,9 +287,10 @@ fn aim_at(
 
 /// Returns the cue speed at which a ball runs this number of table lengths, m/s.
 fn speed_of(table: &Table, lengths: f64) -> Result<f64, StrokeTextError> {
-    let of = |speed| table_lengths(table, speed).unwrap_or(f64::NAN);
+    let of = |speed| table_lengths(table, speed).unwrap_or_default();
     let (mut low, mut high) = (0.05, 12.0);
-    let (least, most) = (of(low), of(high));
+    // Rounded inwards, so that the limits that the error states are accepted.
+    let (least, most) = ((100.0 * of(low)).ceil() / 100.0, of(high).floor());
     if !(least..=most).contains(&lengths) {
         return Err(StrokeTextError::Lengths { lengths, least, most });
     }

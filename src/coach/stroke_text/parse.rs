@@ -30,6 +30,7 @@ pub fn parse(text: &str) -> Result<StrokeText, StrokeTextError> {
     }
     // The coach gives both: "medium (2.9 table lengths)". Players round.
     if let (Some(pace), Some(Speed::Lengths(lengths))) = (stroke.pace, stroke.speed)
+        && lengths >= 0.0
         && (pace - lengths.min(PACES.len() as f64)).abs() > 1.0
     {
         return Err(StrokeTextError::Pace(lengths, pace_word(lengths), pace_word(pace)));

@@ -183,7 +183,6 @@ fn session_values_are_shown_and_used_as_starting_points() {
         "4 changed",
         "rule        •◂ three-cushion ▸ now",
         "Now \"three-cushion\"; the next",
-        "start uses \"straight\". Enter twice",
         "saves \"three-cushion\".",
     ]);
     let player = player.press("Right Right");

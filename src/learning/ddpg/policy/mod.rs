@@ -160,8 +160,10 @@ mod tests {
         let policy = bundled();
         for layout in &layouts {
             let proposals = policy.proposals(&table, layout, &Skill::PERFECT);
-            let together = policy.proposals_by(&Team::of(3), &table, layout, &Skill::PERFECT);
-            assert_eq!(proposals, together, "the proposals do not depend on the number of threads");
+            for threads in [3, 64] {
+                let together = policy.proposals_by(&Team::of(threads), &table, layout, &Skill::PERFECT);
+                assert_eq!(proposals, together, "the proposals do not depend on the number of threads");
+            }
             assert_eq!(proposals[0].cue, policy.propose(&table, layout, &Skill::PERFECT));
             assert!(proposals.is_sorted_by(|a, b| a.success >= b.success));
             for proposal in proposals {
