@@ -47,10 +47,9 @@ impl FirstContact {
         }
     }
 
-    /// Returns why no shot that begins like this can make a point, and empty words if one can.
-    pub const fn hopeless_words(self, point: Point) -> &'static str {
-        let is_hopeless = matches!(self, Self::OtherCueBall) && point.first_ball() == 2;
-        if is_hopeless { ": a game opens with red" } else { "" }
+    /// Returns the rule that forbids a point to every shot that begins like this; `None` if none does.
+    pub fn forbidden_by(self, point: Point) -> Option<&'static str> {
+        (self == Self::OtherCueBall && point.first_ball() == 2).then_some("a game opens with red")
     }
 
     /// Returns the suffix that describes how a shot begins; empty for [`Any`](Self::Any).

@@ -20,8 +20,8 @@ static IDLE: Mutex<Vec<ThreadPool>> = Mutex::new(Vec::new());
 /// Number of busy workers in teams that may use every thread of this process.
 static BUSY: AtomicUsize = AtomicUsize::new(0);
 
-/// Time without work after which a worker that is kept awake naps, and how long. To wake a sleeping thread takes the operating system up to
-/// 0.2 ms: a worker that sleeps between the steps of a search of 30 ms misses a third of the short ones.
+/// Time without work after which a worker that is kept awake naps, and the length of a nap. The operating system takes up to 0.2 ms to wake
+/// a sleeping thread: workers that slept between the steps of a search of 30 ms missed a third of the time of the short ones.
 const STAYS_AWAKE: Duration = Duration::from_millis(1);
 const NAP: Duration = Duration::from_micros(100);
 

@@ -239,6 +239,15 @@ fn an_unmet_first_contact_wish_is_reported() {
 }
 
 #[test]
+fn a_game_cannot_open_with_yellow() {
+    let args = ["recommend", "--rule", "three-cushion", "--first", "yellow", "--simulations", "100"];
+    let output = carom(&args).output().unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(message.contains("there is no point with yellow first: a game opens with red"), "{message}");
+}
+
+#[test]
 fn invalid_input_gets_one_sentence_and_exit_code_two() {
     let folder = tempfile::tempdir().unwrap();
     let cellar = folder.path().join("cellar.toml");

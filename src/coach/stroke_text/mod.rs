@@ -301,15 +301,14 @@ fn speed_of(table: &Table, lengths: f64) -> Result<f64, StrokeTextError> {
     Ok(0.5 * (low + high))
 }
 
-/// Returns the tip position, radii. A position in half tips, as the coach reports it, may be rounded to slightly beyond the
+/// Returns the tip position, radii, unless the tip would slip off the ball. A position in half tips, as the coach reports it, may be rounded to slightly beyond the
 /// miscue limit; it is moved back to the limit.
 fn accepted_tip([a, b]: [f64; 2], limit: f64) -> Result<[f64; 2], StrokeTextError> {
     let (said, most) = (libm::hypot(a, b), limit.sqrt());
-    let is_beyond = a * a + b * b > limit;
-    // Slightly inside, so that rounding of the square does not exceed the limit.
-    match is_beyond {
-        false => Ok([a, b]),
-        true if said <= most + MAX_TIP_ROUNDING => Ok([a, b].map(|part| part * (1.0 - 1e-12) * most / said)),
-        true => Err(StrokeTextError::Tips(said / TIP, most / TIP)),
+    if said > most + MAX_TIP_ROUNDING {
+        return Err(StrokeTextError::Tips(said / TIP, most / TIP));
     }
+    // Slightly inside, so that rounding of the square does not exceed the limit.
+    let share = if a * a + b * b > limit { (1.0 - 1e-12) * most / said } else { 1.0 };
+    Ok([a, b].map(|part| share * part))
 }

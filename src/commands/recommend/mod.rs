@@ -224,9 +224,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     if answer.solved == Some(false) {
         let begins = args.first.opening_words(BALL_NAMES);
-        let hopeless = args.first.hopeless_words(Point::of(args.rule, coach.table(), &layout));
-        if !hopeless.is_empty() {
-            return Err(Failure::failed(format_args!("there is no point{begins}{hopeless}")));
+        if let Some(rule) = args.first.forbidden_by(Point::of(args.rule, coach.table(), &layout)) {
+            return Err(Failure::failed(format_args!("there is no point{begins}: {rule}")));
         }
         let without = if args.no_jumps { " without jumps and massés" } else { "" };
         let meets_first = answer.shot.description_in_words.as_ref().is_none_or(|words| words.begins_with(args.first));

@@ -294,9 +294,8 @@ fn proposal_message(
         let source = &shot.source;
         let begins = query.first.opening_words(names);
         let without = if query.jumps { "" } else { " without jumps and massés" };
-        let hopeless = query.first.hopeless_words(point);
-        if !hopeless.is_empty() {
-            return Message::poor(format!("there is no point{begins}{hopeless}"));
+        if let Some(rule) = query.first.forbidden_by(point) {
+            return Message::poor(format!("there is no point{begins}: {rule}"));
         }
         let keeps_wish = query.first.allows_words(&shot.words);
         let attempt = if keeps_wish { "this is the best attempt" } else { NO_MATCHING_ATTEMPT };
