@@ -108,7 +108,6 @@ fn marks(table: &Table, test: &Test, cue: &CueInputs, layout: &Layout) -> Vec<Op
     let mut observed =
         Observed { rails: Default::default(), short: [0; BALLS], positions: layout.balls, stops: [0.0; BALLS] };
     watch(table, layout, &strike(table, cue), &mut observed);
-    let diamonds = |position: DVec2| (position + 0.5 * DVec2::new(table.length, table.width)) / table.diamond();
     let rail = |ball: usize, number: usize| observed.rails[ball].get(number - 1);
     let moment = |moment: Moment| match moment {
         Moment::Stroke => Some(0.0),
@@ -117,11 +116,11 @@ fn marks(table: &Table, test: &Test, cue: &CueInputs, layout: &Layout) -> Vec<Op
     };
     let value = |quantity: Quantity| match quantity {
         Quantity::StopAlong(ball) => {
-            Some(test.travel(table, observed.short[ball], diamonds(observed.positions[ball]).x))
+            Some(test.travel(table, observed.short[ball], table.to_diamonds(observed.positions[ball]).x))
         }
-        Quantity::StopAcross(ball) => Some(diamonds(observed.positions[ball]).y),
-        Quantity::RailAlong(ball, number) => rail(ball, number).map(|(_, position)| diamonds(*position).x),
-        Quantity::RailAcross(ball, number) => rail(ball, number).map(|(_, position)| diamonds(*position).y),
+        Quantity::StopAcross(ball) => Some(table.to_diamonds(observed.positions[ball]).y),
+        Quantity::RailAlong(ball, number) => rail(ball, number).map(|(_, position)| table.to_diamonds(*position).x),
+        Quantity::RailAcross(ball, number) => rail(ball, number).map(|(_, position)| table.to_diamonds(*position).y),
         Quantity::Time(from, to) => Some(moment(to)? - moment(from)?),
     };
     test.marks.iter().map(|mark| value(mark.quantity)).collect()

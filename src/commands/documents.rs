@@ -6,7 +6,14 @@ use clap::CommandFactory;
 use clap_complete::Shell;
 
 use super::{Cli, Failure};
-use crate::printing;
+use crate::{
+    coach::Skill,
+    drills::Category,
+    game::{Reward, Rule},
+    learning::agents::AGENTS,
+    printing,
+    table::{CueBall, Side},
+};
 
 /// Print the completions for a shell.
 #[derive(Debug, clap::Args)]
@@ -25,9 +32,29 @@ pub struct Man {
 
 pub(super) fn completions(args: &Completions) -> Result<(), Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "carom", &mut script);
+    clap_complete::generate(args.shell, &mut with_known_words(Cli::command()), "carom", &mut script);
     // Not directly to the pipe: clap_complete panics if the reader has closed it.
     Ok(printing::stdout().exact(true).write_all(&script)?)
+}
+
+/// Lists the words that complete a value, for options whose parser accepts other forms too, or has a message of its own.
+fn with_known_words(command: clap::Command) -> clap::Command {
+    let words = |option: &str| match option {
+        "rule" | "games" => Rule::ALL.map(Rule::name).to_vec(),
+        "skill" => Skill::NAMED.map(|(name, _)| name).into_iter().chain(["own"]).collect(),
+        "first" => vec!["any", "yellow", "red", "cushion"],
+        "ball" => [CueBall::White, CueBall::Yellow].map(CueBall::name).to_vec(),
+        "side" => [Side::Left, Side::Right].map(Side::name).to_vec(),
+        "category" => Category::ALL.map(Category::name).to_vec(),
+        "reward" => Reward::ALL.map(Reward::name).to_vec(),
+        "agent" => AGENTS.map(|agent| agent.name).to_vec(),
+        _ => Vec::new(),
+    };
+    let with_words = |arg: clap::Arg| match words(arg.get_id().as_str()) {
+        known if known.is_empty() => arg,
+        known => arg.value_parser(known),
+    };
+    command.mut_args(with_words).mut_subcommands(with_known_words)
 }
 
 pub(super) fn man(args: &Man) -> Result<(), Failure> {

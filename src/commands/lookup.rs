@@ -175,7 +175,7 @@ pub fn skill_by_name(name: &str) -> Result<Skill, Failure> {
         SkillError::Unknown(_) => {
             Failure::wrong_input(format_args!("{error}; \"{OWN}\" is what carom drill skill --keep saved"))
         }
-        SkillError::Range { .. } | SkillError::Average(_) => Failure::wrong_input(error),
+        error => Failure::wrong_input(error),
     })
 }
 

@@ -200,7 +200,8 @@ impl Cli {
 /// Makes numeric options of the command accept negative numbers as values, instead of reading them as unknown options. A value out of range
 /// is then refused with the accepted range.
 fn with_negative_numbers(command: clap::Command) -> clap::Command {
-    let numbers = [TypeId::of::<f64>(), TypeId::of::<u64>(), TypeId::of::<u32>(), TypeId::of::<u8>()];
+    let numbers =
+        [TypeId::of::<f64>(), TypeId::of::<u64>(), TypeId::of::<u32>(), TypeId::of::<u16>(), TypeId::of::<u8>()];
     let with_negative = |option: Arg| {
         let value = option.get_value_parser().type_id();
         if numbers.iter().any(|number| value == *number) { option.allow_negative_numbers(true) } else { option }

@@ -5,6 +5,7 @@ use std::{
     io::{self, IsTerminal, Write},
     iter,
     path::Path,
+    sync::LazyLock,
 };
 
 use ratatui::text::Span;
@@ -17,7 +18,7 @@ use crate::{
     physics::{CueInputs, Impulse},
     printing::{self, OneLine},
     storage::{MAX_LINE_BYTES, NextLine, folder_state, next_line},
-    terminal::Settings,
+    terminal::{Mistake, Settings},
 };
 
 /// Prints a sentence to the standard error. Errors are ignored: if the terminal is gone, such as after a broken ssh connection, the work
@@ -34,8 +35,11 @@ pub fn check_writable(folder: &Path, path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Reads the next line of the standard input and trims it; `None` at the end of the input. At a terminal, `words` is the prompt. The inner
-/// failure is a line that is too long; more lines may follow it.
+/// The words that end a session in lines, as the end of the input does.
+const ENDS: [&str; 2] = ["quit", "done"];
+
+/// Reads the next line of the standard input and trims it; `None` at the end of the input or at a word of [`ENDS`]. At a terminal, `words`
+/// is the prompt. The inner failure is a line that is too long; more lines may follow it.
 pub fn prompt_line(words: &str) -> Result<Option<Result<String, Failure>>, Failure> {
     if io::stdin().is_terminal() {
         // A prompt that cannot be written has no reader.
@@ -43,7 +47,10 @@ pub fn prompt_line(words: &str) -> Result<Option<Result<String, Failure>>, Failu
     }
     let mut line = Vec::new();
     match next_line(&mut io::stdin().lock(), &mut line) {
-        Ok(NextLine::Line) => Ok(Some(Ok(String::from_utf8_lossy(line.trim_ascii()).into_owned()))),
+        Ok(NextLine::Line) => {
+            let text = String::from_utf8_lossy(line.trim_ascii());
+            Ok((!ENDS.contains(&&*text)).then(|| Ok(text.into_owned())))
+        }
         Ok(NextLine::End) => Ok(None),
         Ok(NextLine::TooLong) => Ok(Some(Err(Failure::wrong_input(format_args!(
             "a line is too long; accepted are up to {MAX_LINE_BYTES} bytes"
@@ -107,9 +114,18 @@ pub fn player_and_rule_words(skill: Skill, rule: Rule) -> String {
     )
 }
 
-/// Returns the units that the user has chosen. Mistakes in the settings file are ignored here: `carom config --check` reports them.
+/// Returns the units that the user has chosen. The first call notes mistakes in their settings; `carom config --check` reports all mistakes.
 pub fn units() -> Units {
-    Settings::load(&Settings::path()).0.units
+    static UNITS: LazyLock<Units> = LazyLock::new(|| {
+        let path = Settings::path();
+        let (settings, mistakes) = Settings::load(&path);
+        let is_about_units = |mistake: &&Mistake| mistake.line.is_none() || mistake.text.contains("_unit");
+        for mistake in mistakes.iter().filter(is_about_units) {
+            print_note(format_args!("note: {}: {mistake}", path.display()));
+        }
+        settings.units
+    });
+    *UNITS
 }
 
 /// Formats the equivalent ball impulse, with speeds in the unit that belongs to the length `unit`.

@@ -34,9 +34,9 @@ pub struct Args {
     /// ("2d,2d 6d,2d 2d,2.5d"). Default: the opening position.
     #[arg(long, allow_hyphen_values = true)]
     layout: Option<String>,
-    /// Initial side of the cue ball next to the opponent's ball, on tables where the player may choose: left or right.
-    #[arg(long, default_value = "left", conflicts_with = "layout")]
-    side: Side,
+    /// Initial side of the cue ball next to the opponent's ball, on tables where the player may choose: left or right. Default: left
+    #[arg(long, conflicts_with = "layout")]
+    side: Option<Side>,
     /// The ball that you play with: white or yellow.
     #[arg(long, default_value = "white")]
     ball: CueBall,
@@ -56,7 +56,7 @@ pub struct Args {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let (table, bundled) = tables(args.options.table.as_deref().unwrap_or(PRESETS[0]))?;
     let layout = match &args.layout {
-        None => Layout::opening_on(&table, args.side),
+        None => opening(&table, args.side)?,
         Some(text) => Layout::parse(text, &table).map_err(Failure::wrong_input)?,
     };
     layout.validate(&table).map_err(Failure::wrong_input)?;
@@ -69,6 +69,19 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     session.cue_ball = args.ball;
     let workspace = Workspace::open();
     play(&workspace.store, session, &args.options, strokes(args.coach), args.strokes as usize)
+}
+
+/// Returns the opening position with the cue ball on this side.
+fn opening(table: &Table, side: Option<Side>) -> Result<Layout, Failure> {
+    let layout = Layout::opening_on(table, side.unwrap_or_default());
+    match side {
+        Some(side) if layout == Layout::opening_on(table, side.other()) => Err(Failure::wrong_input(format_args!(
+            "--side {} has no effect on \"{}\", where the cue ball has one place at the opening; leave it out",
+            side.name(),
+            table.name
+        ))),
+        _ => Ok(layout),
+    }
 }
 
 /// Returns the table called `name` and a bundled table of the same size, on which positions are the same. A bundled table is its own

@@ -240,6 +240,8 @@ struct SimulateAnswer {
     rule: Rule,
     /// Whether the shot makes the point.
     point: bool,
+    /// The same in words, with what was missing.
+    verdict: String,
     /// Description of the foul, if there was one.
     #[serde(skip_serializing_if = "Option::is_none")]
     foul: Option<String>,
@@ -322,6 +324,7 @@ impl SimulateAnswer {
         Self {
             rule: verdict.point.rule,
             point: verdict.is_made(),
+            verdict: verdict.words(CueBall::White, LengthUnit::default()),
             foul: verdict.foul(CueBall::White),
             cushions_before_second: verdict.tally.has_hit_both().then_some(verdict.tally.cushions_before_second),
             cue: None,

@@ -190,7 +190,7 @@ impl Session {
     pub fn new(goal: Goal, venue: Venue, exercises: Vec<Exercise>, skill: Skill, seed: u64) -> Self {
         let since = since_epoch();
         let started = since.as_secs();
-        let day = format_timestamp(UNIX_EPOCH + Duration::from_secs(started));
+        let day = format_timestamp(started);
         // Keeps sessions of the same second in order, and avoids collisions between programs that start in the same
         // millisecond.
         let id = format!("{day}-{:03}{:08x}", since.subsec_millis(), rand::random::<u32>());

@@ -18,7 +18,7 @@ mod wrapping;
 
 pub use self::{
     ascii::{is_unicode, is_windows_terminal, to_ascii},
-    calendar::{format_timestamp, format_utc, now, timestamp},
+    calendar::{format_timestamp, format_utc, local_time, now, timestamp, unix_seconds},
     escaping_writer::{EscapingWriter, clear_line, is_stderr_terminal, redraw_line, stderr, stdout},
     json::{json_line, json_text},
     number::{fixed, number, parse_number},

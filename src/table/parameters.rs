@@ -295,6 +295,11 @@ impl Table {
     pub fn diamond(&self) -> f64 {
         self.length / 8.0
     }
+
+    /// Converts a position in metres from the centre to diamonds from the lower left corner of the cushion noses, as layouts are typed.
+    pub fn to_diamonds(&self, position: DVec2) -> DVec2 {
+        (position + 0.5 * DVec2::new(self.length, self.width)) / self.diamond()
+    }
 }
 
 /// With `remote = "Self"` serde derives inherent functions. The traits are implemented here, because reading must also validate.

@@ -1,6 +1,5 @@
 //! Numbers and events in words for players.
 
-use glam::DVec2;
 use indicatif::HumanCount;
 
 pub use crate::printing::fixed;
@@ -12,7 +11,7 @@ use crate::{
     game::Rule,
     simulation::{EventKind, Rail},
     statistics::SuccessRate,
-    table::{CueBall, Table},
+    table::CueBall,
 };
 
 /// Name of the cushion by its position on the screen.
@@ -159,12 +158,6 @@ pub fn format_fine(metres: f64, unit: LengthUnit) -> String {
 pub fn speed_words(speed: f64, unit: LengthUnit, decimals: usize) -> String {
     let (factor, symbol) = unit.speed();
     format!("{} {symbol}", fixed(factor * speed, decimals))
-}
-
-/// Converts a position in metres from the centre of `table` to diamonds from the lower left corner of the cushion noses, as layouts are
-/// typed.
-pub fn to_diamonds(table: &Table, place: DVec2) -> DVec2 {
-    (place + 0.5 * DVec2::new(table.length, table.width)) / table.diamond()
 }
 
 /// Formats a step, given in millimetres, in the fine unit for placing balls, without trailing zeros.

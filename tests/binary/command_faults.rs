@@ -201,12 +201,12 @@ fn directions_are_printed_from_0_to_below_360_degrees() {
         let phi: f64 = other.split(',').nth(3).unwrap().parse().unwrap();
         assert!((0.0..360.0).contains(&phi), "{other}");
     }
-    let save = ["drill", "save", "down", "--replace", "--layout", layout, "--shot", "0,0,0,-27,3"];
+    let save = ["drill", "save", "down", "--replace", "--layout", layout, "--shot", "0,0,2,-30,3"];
     let home = tempfile::tempdir().unwrap();
     carom(&save).env("XDG_DATA_HOME", home.path()).assert().success();
     let shown = carom(&["drill", "show", "down"]).env("XDG_DATA_HOME", home.path()).output().unwrap().stdout;
     let shown = String::from_utf8(shown).unwrap();
-    assert!(shown.contains("0.0000,0.0000,0.000,333.000,3.000"), "{shown}");
+    assert!(shown.contains("0.0000,0.0000,2.000,330.000,3.000"), "{shown}");
 }
 
 #[test]

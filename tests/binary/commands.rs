@@ -283,6 +283,7 @@ fn negative_numbers_are_refused_by_range_not_as_options() {
         (&["drill", "list", "--grade", "-1"], &["from 0 to 5", "--grade"]),
         (&["bench", "--seconds", "-1"], &["-1"]),
         (&["evaluate", "--layouts", "-2"], &["from 1 to 10000000", "--layouts"]),
+        (&["train", "--threads", "-1"], &["from 1 to 1024", "--threads"]),
     ] {
         let (code, message) = refusal(&mut carom(args));
         assert_eq!(code, 2, "{args:?}: {message}");

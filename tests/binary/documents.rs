@@ -81,6 +81,11 @@ fn every_shell_has_completions() {
     for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
         let script = stdout(&["completions", shell]);
         assert!(script.contains("recommend") && script.contains("budget-ms"), "{shell}");
+        let has_values = ["bash", "fish", "zsh"].contains(&shell);
+        assert!(
+            !has_values || ["three-cushion", "world-class", "gather"].iter().all(|word| script.contains(word)),
+            "{shell}"
+        );
     }
     assert!(stderr(&["completions", "tcsh"], 2).contains("bash"));
 }

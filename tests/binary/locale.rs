@@ -13,7 +13,7 @@ fn text_is_ascii_in_ascii_locales_and_json_is_unchanged() {
     let tried = ["drill", "try", "mine", "--shot", "0,0.3,3,5,4", "--skill", "perfect", "--seed", "1"];
     let miscue = ["simulate", "--layout", "-0.5,0 0,0 0.5,0.03", "--shot", "0.6,0,5,1,2"];
     for (args, word, instead) in [
-        (&tried[..], "aim right 4.00\u{b0}", "aim right 4.00 degrees"),
+        (&tried[..], "aim right 4.70\u{b0}", "aim right 4.70 degrees"),
         (&miscue, "a\u{b2} + b\u{b2}", "a^2 + b^2"),
         (&["drill", "history", "mine"], "\u{2586}\u{2581}\u{2581}", "*.."),
         (&["drill", "show", "jump-red"], "", ""),

@@ -27,7 +27,7 @@ pub fn carom_command(args: &[&str]) -> assert_cmd::Command {
 }
 
 /// A position with a shot that an expert makes sometimes.
-pub const SAVE: &[&str] = &["save", "mine", "--layout", "-0.5,0 0,0 0.5,0.03", "--shot", "0,0.3,3,1,4"];
+pub const SAVE: &[&str] = &["save", "mine", "--layout", "-0.5,0 0,0 0.5,0.03", "--shot", "0,0.3,3,0.3,4"];
 
 pub struct Outcome {
     pub code: Option<i32>,

@@ -17,13 +17,11 @@ const FULLNESS: [(&str, f64); 2] = [("thin", 0.25), ("thick", 0.75)];
 /// Parses a stroke text.
 pub fn parse(text: &str) -> Result<StrokeText, StrokeTextError> {
     let mut stroke = StrokeText::default();
-    for line in text.lines() {
-        // Skips the coach's lines that follow from the stroke: the course, the pattern and the reason.
-        let line = line.trim().to_lowercase();
-        if line.contains(" \u{2013} ") || ["pattern:", "why:"].iter().any(|begin| line.starts_with(begin)) {
-            continue;
-        }
-        for part in parts(&line) {
+    for line in text.to_lowercase().lines() {
+        // Skips what follows from the stroke in the coach's words: the course, the pattern, and the reason up to the end of its line.
+        let told = line.split("why:").next().unwrap_or_default();
+        let sentences = told.split(". ").filter(|said| !said.contains(" \u{2013} ") && !said.contains("pattern:"));
+        for part in sentences.flat_map(parts) {
             let twice = |what| StrokeTextError::Duplicate(what, part.clone());
             parse_part(&part, &mut stroke, twice)?;
         }

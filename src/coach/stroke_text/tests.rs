@@ -41,6 +41,21 @@ fn stated_fullness_is_hit_with_any_tip_and_cue() {
 }
 
 #[test]
+fn the_coachs_words_are_parsed_from_one_line_and_from_several() {
+    let told = [
+        "Red, half full on the right; two tips of right at 2 o'clock, one tip above centre; soft (2 table lengths), level cue.",
+        "Red \u{2013} bottom 6.1 \u{2013} right 0.5 \u{2013} yellow, three quarters on the left.",
+        "Cue from 1.6 on the left short rail to 2.5 on the right short rail.",
+        "Pattern: two cushions (a ball, two cushions, the other ball).",
+        "Why: It is made 93 % of the time, the second shot 88 %. The second shot is two cushions, softer.",
+    ];
+    let cue = stroke(&format!("{} {}", told[0], told[2]), None);
+    assert!(cue.is_ok(), "{cue:?}");
+    assert_eq!(stroke(&told.join(" "), None), cue);
+    assert_eq!(stroke(&told.join("\n"), None), cue);
+}
+
+#[test]
 fn tips_lengths_degrees_and_lines_are_parsed() {
     let table = Table::default();
     let read = |text: &str| stroke(&format!("to 2 right, {text}"), None).unwrap();

@@ -18,9 +18,9 @@ use crate::{
 /// The commands that can be typed instead of marks.
 const HELP: &str = "type the marks of a stroke on one line, in their order or by name (stop 3.4 rails 5), - for one that is not \
                     known, far-end yes after a test that was played from the far end; or skip, again (the last test once \
-                    more), undo (the last entry), done";
+                    more), undo (the last entry), quit";
 
-/// Asks for tests until all are played, the input ends or the player types "done"; then reports the result.
+/// Asks for tests until all are played, the input ends or the player types "quit"; then reports the result.
 pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure> {
     let places = DataPaths::of_this_user();
     let path = if args.daily { places.daily_check } else { places.calibration };
@@ -46,7 +46,6 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
         };
         match text.as_str() {
             "" => {}
-            "done" => break,
             "skip" => session.skip(test),
             "again" => session.repeat_last(),
             "undo" => session.undo()?,

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{
     Workspace,
-    score::{Score, time, words},
+    score::{Score, words},
 };
 use crate::{
     commands::{
@@ -13,6 +13,7 @@ use crate::{
     },
     drills::{Goal, Record, Session, Venue},
     game::Rule,
+    printing::{format_utc, local_time},
 };
 
 /// Show the records of all exercises and games, or the sessions of one of them.
@@ -135,7 +136,7 @@ fn all(sessions: &[Session], json: bool) -> Result<(), Failure> {
                 share(&record),
                 average(&record),
                 high_run(&record),
-                record.last.map_or_else(String::new, time),
+                record.last.map_or_else(String::new, |last| local_time(&format_utc(last))),
             ]);
         }
         if json {
@@ -145,7 +146,7 @@ fn all(sessions: &[Session], json: bool) -> Result<(), Failure> {
     if rows.is_empty() {
         print_note("nothing was practised yet; carom drill list shows the exercises");
     } else if !json {
-        let heads = ["name", "where", "made", "tried", "rate", "average", "high run", "last (UTC)"];
+        let heads = ["name", "where", "made", "tried", "rate", "average", "high run", "last"];
         print_table(heads, rows, &[2, 3, 4, 5, 6])?;
     }
     Ok(())
@@ -159,14 +160,14 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
         if json {
             json_line(&SessionRow {
                 session: &session.id,
-                started: time(session.started),
+                started: format_utc(session.started),
                 goal: session.goal,
                 venue: session.venue,
                 score: (*record).into(),
             })?;
         }
         rows.push([
-            time(session.started),
+            local_time(&format_utc(session.started)),
             session.venue.word().to_owned(),
             session.score_words().unwrap_or_else(|| session.goal.words()),
             record.made.to_string(),
@@ -182,7 +183,7 @@ fn one(subject: &Subject, sessions: &[Session], json: bool) -> Result<(), Failur
         print_note(format_args!("{}: not tried yet", subject.name()));
         return Ok(());
     }
-    print_table(["started (UTC)", "where", "goal or score", "made", "tried", "rate", "high run"], rows, &[3, 4, 5, 6])?;
+    print_table(["started", "where", "goal or score", "made", "tried", "rate", "high run"], rows, &[3, 4, 5, 6])?;
     print_line(format_args!("rate   {}", bars(&tried)))?;
     for (venue, record) in Record::by_venue(sessions, |sessions| subject.record(sessions)) {
         print_line(format_args!("{:<6} {}", venue.word(), words(&record)))?;

@@ -105,8 +105,7 @@ pub fn show(args: &ShowArgs) -> Result<(), Failure> {
     let code = encode(exercise).map_err(Failure::failed)?;
     let sessions = workspace.sessions();
     let record = Record::of_exercise(&sessions, &exercise.name);
-    let corner = 0.5 * glam::DVec2::new(table.length, table.width);
-    let diamonds = exercise.layout.balls.map(|ball| ((ball + corner) / table.diamond()).to_array());
+    let diamonds = exercise.layout.balls.map(|ball| table.to_diamonds(ball).to_array());
     if args.json {
         let entry = Entry { exercise, diamonds: Some(diamonds), code: Some(code), record: record.into() };
         return Ok(json_line(&entry)?);

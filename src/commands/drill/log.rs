@@ -200,7 +200,7 @@ impl Log {
     /// Reads results from the standard input, and answers each.
     fn read(&mut self) -> Result<(), Failure> {
         let (mut refused, mut lacked_undo) = (0, false);
-        while let Some(text) = prompt_line("make, miss or undo: ")? {
+        while let Some(text) = prompt_line("make, miss, undo or quit: ")? {
             if text.as_ref().is_ok_and(String::is_empty) {
                 continue;
             }

@@ -1,7 +1,5 @@
 //! Options that the playing subcommands share, and the typed stroke.
 
-use std::io::{self, IsTerminal};
-
 use super::workspace::skill_or_default;
 use crate::{
     coach::Skill,
@@ -64,9 +62,9 @@ impl PlayOptions {
         Ok(session)
     }
 
-    /// Prints whose errors are played, and a game's rule, for a user at the terminal, who may expect those of the full-screen program.
+    /// Prints whose errors are played, and a game's rule, for a user who may expect those of the full-screen program.
     pub fn print_player(&self, session: &Session) {
-        if self.json || !io::stdin().is_terminal() {
+        if self.json {
             return;
         }
         let skill = session.skill;

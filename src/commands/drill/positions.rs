@@ -2,17 +2,12 @@
 
 use super::Workspace;
 use crate::{
-    commands::{
-        Failure,
-        input::bundled_table,
-        output::{print_line, print_note},
-        typed_stroke::TypedStroke,
-    },
+    commands::{Failure, input::bundled_table, output::print_line, typed_stroke::TypedStroke},
     drills::{
         Exercise, LibraryError, MAX_POINT_BYTES, MAX_TITLE_BYTES, bare_tag, check, decode, encode, store::StoreError,
     },
     game::{Rule, scores},
-    physics::has_room,
+    physics::{has_room, least_elevation},
     table::{CueBall, Layout},
 };
 
@@ -104,18 +99,23 @@ pub fn save(args: &SaveArgs) -> Result<(), Failure> {
             )));
         }
     }
+    if let Some(cue) = &shot {
+        let refused = |why| Failure::wrong_input(format_args!("not a model shot: {why}; give another, or none"));
+        if !has_room(&table, &layout, cue) {
+            let why = least_elevation(&table, &layout, cue).map_or_else(
+                |blocked| blocked.to_string(),
+                |least| format!("the cue has no room below {:.2} degrees", least.theta.to_degrees()),
+            );
+            return Err(refused(why));
+        }
+        if !scores(args.rule, &table, &layout, cue) {
+            return Err(refused(format!("it makes no point under the rule {}", args.rule)));
+        }
+    }
     save_position(
         &Exercise { title, point: args.point.clone(), tags: args.tags.clone(), shot, ..position },
         args.replace,
-    )?;
-    if let Some(cue) = &shot {
-        if !has_room(&table, &layout, cue) {
-            print_note("note: the cue has no room for the shot at this elevation, so it is not a model shot");
-        } else if !scores(args.rule, &table, &layout, cue) {
-            print_note(format_args!("note: the shot makes no point under the rule {}", args.rule));
-        }
-    }
-    Ok(())
+    )
 }
 
 pub fn share(args: &ShareArgs) -> Result<(), Failure> {

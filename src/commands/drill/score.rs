@@ -1,10 +1,14 @@
-//! Scores, layouts and times in the form in which they are printed.
-
-use std::time::{Duration, UNIX_EPOCH};
+//! Scores and positions in the form in which they are printed.
 
 use serde::Serialize;
 
-use crate::{commands::output::plural, drills::Record, printing::format_utc, table::Layout};
+use crate::{
+    coach::words::format_trimmed,
+    commands::output::plural,
+    drills::Record,
+    printing::format_utc,
+    table::{CueBall, Layout, Table},
+};
 
 /// A record in JSON.
 #[derive(Clone, Debug, Serialize)]
@@ -37,7 +41,7 @@ impl From<Record> for Score {
             average: record.average,
             high_run: record.high_run,
             helped: record.helped,
-            last: record.last.map(time),
+            last: record.last.map(format_utc),
         }
     }
 }
@@ -62,12 +66,11 @@ pub fn words(record: &Record) -> String {
     )
 }
 
-/// Formats a Unix time as `2026-11-20T14:30:05Z`.
-pub fn time(seconds: u64) -> String {
-    format_utc(UNIX_EPOCH + Duration::from_secs(seconds))
-}
-
-/// Formats a layout in the form that the command line accepts, to 0.1 mm.
-pub fn layout_text(layout: &Layout) -> String {
-    layout.balls.map(|ball| format!("{:.4},{:.4}", ball.x, ball.y)).join(" ")
+/// Names the balls and their positions in diamonds, cue ball first.
+pub fn positions_text(table: &Table, layout: &Layout, cue_ball: CueBall) -> String {
+    let place = |(name, ball)| {
+        let [along, up] = table.to_diamonds(ball).to_array().map(|diamonds| format_trimmed(diamonds, 2));
+        format!("{name} {along}d,{up}d")
+    };
+    cue_ball.names().into_iter().zip(layout.balls).map(place).collect::<Vec<_>>().join("  ")
 }

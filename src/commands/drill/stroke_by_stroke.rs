@@ -6,11 +6,11 @@ use serde::Serialize;
 
 use super::{
     options::{PlayOptions, StrokeInput},
-    score::{Score, layout_text, words},
+    score::{Score, positions_text, words},
 };
 use crate::{
     coach::{
-        Coach, Request, Shooter,
+        Coach, Request, Shooter, ShotWords, Skill,
         words::{TipUnit, Units},
     },
     commands::{
@@ -50,6 +50,8 @@ struct Position<'a> {
     exercise: &'a str,
     title: &'a str,
     rule: &'static str,
+    /// Whose errors are played.
+    skill: Skill,
     table: &'a str,
     /// The colour of the cue ball, which comes first in the layout.
     cue_ball: CueBall,
@@ -162,6 +164,7 @@ impl<'a> StrokeByStroke<'a> {
                 exercise: name,
                 title,
                 rule,
+                skill: self.session.skill,
                 table: &table.name,
                 cue_ball,
                 layout,
@@ -171,7 +174,7 @@ impl<'a> StrokeByStroke<'a> {
             // A cue ball that is always white is not mentioned.
             let is_mentioned = self.session.is_match() || cue_ball != CueBall::White;
             let turn = if is_mentioned { format!("; the cue ball is {cue_ball}") } else { String::new() };
-            print_line(format_args!("{name} ({rule}): {title}balls {}{turn}", layout_text(layout)))?;
+            print_line(format_args!("{name} ({rule}): {title}{}{turn}", positions_text(table, layout, cue_ball)))?;
         }
         self.shown = shown;
         Ok(())
@@ -262,12 +265,15 @@ impl<'a> StrokeByStroke<'a> {
             percent(&share)
         ))?;
         if by_coach {
-            print_line(format_args!("   the coach played {}", shot_text(&meant)))?;
-        } else if let Some(advice) = advice {
-            let changes = if changes.is_empty() { String::new() } else { format!(": {}", changes.join(", ")) };
-            let (shot, share) = (shot_text(&advice.cue), percent(&advice.chance));
+            return print_shot("the coach played", table, layout, &meant, cue_ball).map(|()| true);
+        }
+        if let Some(Advice { cue, chance, .. }) = &advice {
             let whose = if own.is_some() { "model shot" } else { "coach's shot" };
-            print_line(format_args!("   the {whose} {shot} is made {share} of the time{changes}"))?;
+            let share = percent(chance);
+            print_shot(&format!("the {whose}, made {share} of the time:"), table, layout, cue, cue_ball)?;
+            if !changes.is_empty() {
+                print_line(format_args!("   change: {}", changes.join(", ")))?;
+            }
         }
         Ok(true)
     }
@@ -353,6 +359,18 @@ impl<'a> StrokeByStroke<'a> {
             _ => Ok(()),
         }
     }
+}
+
+/// Prints a shot in words, and its inputs in the form that is typed.
+fn print_shot(
+    beginning: &str,
+    table: &Table,
+    layout: &Layout,
+    cue: &CueInputs,
+    cue_ball: CueBall,
+) -> Result<(), Failure> {
+    let words = ShotWords::of(table, layout, cue).map_err(Failure::failed)?.sentence(cue_ball, units());
+    print_line(format_args!("   {beginning} {} ({words})", shot_text(cue)))
 }
 
 fn exam_words(ExamScore { tried, made, expected, spread, nearest }: &ExamScore, of: usize) -> String {

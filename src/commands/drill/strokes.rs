@@ -12,8 +12,15 @@ use crate::{
     drills::{Session, Store},
 };
 
-/// The word that ends a session, as the end of the input does.
-const QUIT: &str = "quit";
+/// The word that asks what can be typed, and the answer.
+const HELP: (&str, &str) = (
+    "help",
+    "red 1/2 right, 1.5 left, 2 up, 3 lengths: the ball and how full; side and height in tips; speed in table lengths or a word like soft\n\
+     to 3.2 bottom, medium, raised 20: the line of the cue to a point of a cushion; the cue raised 20 degrees\n\
+     0,0.2,5,12.5,3: the inputs a, b (radii), theta, phi (degrees) and V (m/s)\n\
+     coach: the coach's shot\n\
+     quit: ends the session, and its score is printed",
+);
 
 /// Largest accepted value of `--strokes`.
 pub const MAX_STROKES: u32 = 10_000;
@@ -48,15 +55,16 @@ pub fn play(
             Strokes::Same(stroke) => Ok(stroke),
             _ if !is_line => Ok(StrokeInput::Coach),
             _ => {
-                let Some(text) = prompt_line("shot in words, a,b,theta,phi,V, coach or quit: ")? else { break };
+                let Some(text) = prompt_line("shot, coach, help or quit: ")? else { break };
                 lines += 1;
-                if text.as_ref().is_ok_and(String::is_empty) {
-                    continue;
+                match text.as_deref() {
+                    Ok("") => continue,
+                    Ok(word) if word == HELP.0 => {
+                        HELP.1.lines().for_each(print_note);
+                        continue;
+                    }
+                    _ => text.and_then(|text| text.parse()),
                 }
-                if text.as_ref().is_ok_and(|text| text == QUIT) {
-                    break;
-                }
-                text.and_then(|text| text.parse())
             }
         };
         let (failure, is_refused) = match stroke.and_then(|stroke| game.stroke(&table, &layout, stroke)) {

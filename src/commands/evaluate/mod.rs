@@ -81,8 +81,9 @@ pub struct Args {
     skill: Option<Skill>,
     /// Uncertainty in addition to the errors of the hand: full, none, or like "table=1,placing=3". Shots are chosen with it and played on
     /// tables and from positions that are drawn from it.
-    #[arg(long, default_value_t = Doubt::FULL, conflicts_with_all = ["random_search", "reward"])]
-    doubt: Doubt,
+    /// Default: full
+    #[arg(long, conflicts_with_all = ["random_search", "reward"])]
+    doubt: Option<Doubt>,
     /// Choose shots with this doubt instead, but still play them with --doubt.
     #[arg(long, value_name = "DOUBT", requires = "skill", conflicts_with_all = ["policy_only", "random_search", "self_play"])]
     choose_doubt: Option<Doubt>,
@@ -159,6 +160,12 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
     let shard = args.shard.unwrap_or(Shard::WHOLE);
     let reward = args.reward.unwrap_or_else(|| Reward::for_rule(args.rule));
     let skill = if args.self_play { args.skill.or(Some(Skill::EXPERT)) } else { args.skill };
+    if (args.doubt.is_some() || args.plan) && skill.is_none_or(|skill| skill.is_perfect()) {
+        return Err(Failure::wrong_input(
+            "--doubt and --plan change nothing for a player without errors; accepted are both with --skill, like \"--skill club\", or with \
+             --self-play",
+        ));
+    }
     let player = if let Some(shots) = args.random_search {
         Player::RandomSearch(shots)
     } else if args.policy_only {
@@ -195,7 +202,7 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
         layouts: args.layouts,
         drawn_tables: args.drawn_tables,
         skill,
-        doubt: args.doubt,
+        doubt: args.doubt.unwrap_or(Doubt::FULL),
         choose_doubt: args.choose_doubt,
         plan: args.plan,
         no_jumps: args.no_jumps,
@@ -221,7 +228,7 @@ fn request(args: &Args, skill: Skill) -> Request {
         Some(simulations) => (Duration::MAX, simulations),
         None => (Duration::from_millis(args.budget_ms), u64::MAX),
     };
-    let doubt = args.choose_doubt.unwrap_or(args.doubt);
+    let doubt = args.choose_doubt.or(args.doubt).unwrap_or(Doubt::FULL);
     let Args { rule, plan, no_jumps, seed, .. } = *args;
     Request { rule, skill, doubt, plan, jumps: !no_jumps, budget, simulations, seed, ..Request::default() }
 }

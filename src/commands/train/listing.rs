@@ -8,7 +8,7 @@ use crate::{
         output::{json_line, print_note, print_table},
     },
     learning::run::list::{Listing, Summary, runs_in},
-    printing::OneLine,
+    printing::{OneLine, local_time},
     storage::DataPaths,
 };
 
@@ -36,7 +36,7 @@ pub fn print(folder: Option<&Path>, json: bool) -> Result<bool, Failure> {
 }
 
 const HEADINGS: [&str; 11] =
-    ["name", "agent", "reward", "table", "seed", "shots", "of", "best", "last", "last written (UTC)", "state"];
+    ["name", "agent", "reward", "table", "seed", "shots", "of", "best", "last", "last written", "state"];
 
 /// The columns with numbers, which are right-aligned.
 const NUMBERS: [usize; 5] = [4, 5, 6, 7, 8];
@@ -53,7 +53,7 @@ fn row(run: &Summary) -> [String; HEADINGS.len()] {
         run.planned_shots.to_string(),
         reward(run.best_reward),
         reward(run.last_reward),
-        run.changed.clone(),
+        local_time(&run.changed),
         run.state.word().to_owned(),
     ]
 }

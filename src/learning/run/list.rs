@@ -17,7 +17,10 @@ use super::{
     follow::{Condition, Followed, Follower},
     status,
 };
-use crate::{game::Reward, printing::format_utc};
+use crate::{
+    game::Reward,
+    printing::{format_utc, unix_seconds},
+};
 
 /// Summary of a run, for one line of a list.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -118,7 +121,7 @@ impl RunsFolder {
             planned_shots: plan.shots,
             best_reward: run.best(),
             last_reward: run.held_out(),
-            changed: last_written(folder).map_or_else(|| started.clone(), format_utc),
+            changed: last_written(folder).map_or_else(|| started.clone(), |time| format_utc(unix_seconds(time))),
             started,
             state: match follower.condition_after(shots, plan.shots) {
                 Condition::Stalled(_) => Condition::Stalled(Duration::ZERO),

@@ -14,6 +14,17 @@ pub enum SkillError {
          three-cushion like 0.6, or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\""
     )]
     Unknown(String),
+    /// Some of the five standard errors are missing.
+    #[error(
+        "the skill \"{text}\" has no {missing}; all five errors are needed, like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\" or with V=5%, \
+         and growth=0.5 and raised=1 may follow"
+    )]
+    Missing {
+        /// The text.
+        text: String,
+        /// The names of the errors that it does not state.
+        missing: String,
+    },
     /// The average is outside the measured range.
     #[error(
         "no measured player averages {}; accepted are {} to {} points an inning at three-cushion, or world-class \
@@ -122,7 +133,10 @@ impl FromStr for Skill {
                 return Err(unknown());
             }
         }
-        let [Some(a), Some(b), Some(theta), Some(phi), Some(speed)] = values else { return Err(unknown()) };
+        let [Some(a), Some(b), Some(theta), Some(phi), Some(speed)] = values else {
+            let names = ERROR_FORMATS.iter().zip(values).filter(|(_, value)| value.is_none()).map(|(form, _)| form.0);
+            return Err(SkillError::Missing { text: text.to_owned(), missing: names.collect::<Vec<_>>().join(", ") });
+        };
         let [by_speed, by_elevation] = growths.map(Option::unwrap_or_default);
         Ok(Self { a, b, theta, phi, speed, growth: Growth { speed: by_speed, elevation: by_elevation, is_share } })
     }

@@ -16,7 +16,7 @@ use crate::{
 /// Version of the file format.
 const VERSION: u32 = 1;
 
-/// Most earlier sessions kept with the last one.
+/// Most earlier sessions kept with the last one, and as many with an unfinished exam, game or match.
 const MAX_FORMER: usize = 4;
 
 /// The part of the file with its version.
@@ -76,8 +76,20 @@ impl SavedSession {
     /// Appends earlier sessions that were not continued, the latest first.
     #[must_use]
     pub fn with_former_sessions(self, mut former: Vec<Self>) -> Self {
-        former.truncate(MAX_FORMER);
+        let mut counts = [0; 2];
+        former.retain(|session| {
+            let is_offered = session.practice.as_ref().is_some_and(|practice| practice.is_exam() || practice.is_game());
+            let count = &mut counts[usize::from(is_offered)];
+            *count += 1;
+            *count <= MAX_FORMER
+        });
         Self { former, ..self }
+    }
+
+    /// Joins sessions, the latest first, as [`into_sessions`](Self::into_sessions) returns them. `None` if there is none.
+    pub fn of_sessions(sessions: &[Self]) -> Option<Self> {
+        let (last, former) = sessions.split_first()?;
+        Some(last.clone().with_former_sessions(former.to_vec()))
     }
 
     /// Loads the file; `None` if it does not exist.
@@ -152,6 +164,7 @@ fn renewed(table: Table) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drills::{Exercise, Goal, Venue};
 
     fn session(table: Table) -> SavedSession {
         let terms = Terms { rule: Rule::OneCushion, skill: Skill::CLUB, plan: false, first: FirstContact::Any };
@@ -224,6 +237,19 @@ mod tests {
         }
         let kept = SavedSession::load(&path).unwrap().unwrap().into_sessions();
         assert_eq!(kept, (1..=9).rev().take(1 + MAX_FORMER).map(by).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn an_unfinished_match_outlives_any_number_of_later_sessions() {
+        let half_ball = Exercise::new_own("half-ball", Rule::StraightRail, "match", Layout::opening(&Table::default()));
+        let goal = Goal::Match { innings: 10, against_coach: true };
+        let open = Session::new(goal, Venue::Program, vec![half_ball], Skill::CLUB, 1);
+        let mut last = SavedSession { practice: Some(open.clone()), ..session(Table::default()) };
+        for _ in 0..20 {
+            last = session(Table::default()).with_former_sessions(last.into_sessions());
+        }
+        let practised: Vec<_> = last.into_sessions().into_iter().filter_map(|before| before.practice).collect();
+        assert_eq!(practised, [open]);
     }
 
     #[test]

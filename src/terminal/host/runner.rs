@@ -169,12 +169,21 @@ impl Runner {
             self.saved.1 = Instant::now();
             return;
         }
-        if let Some(Err(error)) = last.as_ref().map(|last| last.save(&self.paths.last_session)) {
+        let path = &self.paths.last_session;
+        let coach = &self.app.coach;
+        let saved = match last.clone().or_else(|| coach.earlier_session()) {
+            // Another player's table is shown; the player's own session stays.
+            _ if coach.followed().is_some() => Ok(()),
+            Some(last) => last.save(path),
+            // What was saved is over, and nothing was saved before it.
+            None => fs::remove_file(path),
+        };
+        if let Err(error) = saved.or_else(|error| if error.kind() == io::ErrorKind::NotFound { Ok(()) } else { Err(error) })
             // Report the failure once: repeating it would not help.
-            if !std::mem::replace(&mut self.has_save_failed, true) {
-                let path = self.paths.last_session.display();
-                self.app.report_failure(format!("{path}: {error}; the next start cannot go on from here"));
-            }
+            && !std::mem::replace(&mut self.has_save_failed, true)
+        {
+            let path = path.display();
+            self.app.report_failure(format!("{path}: {error}; the next start cannot go on from here"));
         }
         self.saved = (last, Instant::now());
     }

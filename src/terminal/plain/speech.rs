@@ -11,7 +11,7 @@ use crate::{
     simulation::{Event, EventKind, Recording},
     statistics::SuccessRate,
     table::{CueBall, Layout, Table},
-    terminal::words::{event_words, fixed, percent, rail_name, to_diamonds},
+    terminal::words::{event_words, fixed, percent, rail_name},
 };
 
 /// Small unit of length: how many make a metre, its name, and the decimals to display.
@@ -53,7 +53,7 @@ pub fn positions(table: &Table, layout: &Layout, cue_ball: CueBall, unit: Length
     let names = cue_ball.to_ball_order(["White", "Yellow", "Red"]);
     let place = |ball: usize| {
         let at = layout.balls[ball];
-        let diamonds = to_diamonds(table, at);
+        let diamonds = table.to_diamonds(at);
         format!(
             "{} lies at {} diamonds along and {} up, {} and {} {small} from the middle.",
             names[ball],

@@ -120,10 +120,7 @@ mod tests {
     fn steps_go_to_successive_quarter_diamonds_from_any_position() {
         let table = Table::default();
         let place = Layout::parse("2.1d,2d 6d,2d 4d,3d", &table).unwrap().balls[0];
-        let at = |count: [f64; 2]| {
-            let there = place + quarter_diamonds(&table, place, DVec2::from(count));
-            (there + 0.5 * DVec2::new(table.length, table.width)) / table.diamond()
-        };
+        let at = |count: [f64; 2]| table.to_diamonds(place + quarter_diamonds(&table, place, DVec2::from(count)));
         for (count, wanted) in [
             ([1.0, 0.0], [2.25, 2.0]),
             ([-1.0, 0.0], [2.0, 2.0]),

@@ -127,7 +127,7 @@ impl Tasks {
             Poll::start("viewer", FOLLOW_INTERVAL, to_screen.clone(), move || watcher.poll().map(Event::FollowedTable))
         })?;
         for (n, slot) in FollowSlot::ALL.into_iter().enumerate() {
-            restart_if_changed(&mut self.followed[n], [&before.followed[n], &now.followed[n]], |folder| {
+            restart_if_changed(&mut self.followed[n], [&before.followed[n], &now.followed[n]], |(folder, _)| {
                 let look = follow(slot, folder, to_screen.clone())?;
                 Poll::start("follower", FOLLOW_INTERVAL, to_screen.clone(), look)
             })?;
@@ -258,11 +258,11 @@ impl Tasks {
     }
 }
 
-/// If the folder has changed, ends the poll and starts one for the new folder, if there is one.
-fn restart_if_changed(
+/// If what is polled has changed, ends the poll and starts a new one, if there is anything to poll.
+fn restart_if_changed<T: Clone + PartialEq>(
     poll: &mut Option<Poll>,
-    [before, now]: [&Option<PathBuf>; 2],
-    start: impl FnOnce(PathBuf) -> io::Result<Poll>,
+    [before, now]: [&Option<T>; 2],
+    start: impl FnOnce(T) -> io::Result<Poll>,
 ) -> io::Result<()> {
     if before != now {
         // Dropping a poll stops it.

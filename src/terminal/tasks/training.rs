@@ -38,8 +38,8 @@ impl FollowSlot {
 pub struct Subscriptions {
     /// The folder whose runs are listed.
     pub runs: Option<PathBuf>,
-    /// The followed runs, in the order of [`FollowSlot::ALL`].
-    pub followed: [Option<PathBuf>; 2],
+    /// The folders of the followed runs, each with the number of its opening, in the order of [`FollowSlot::ALL`].
+    pub followed: [Option<(PathBuf, u64)>; 2],
     /// The folder in which another player shares their table.
     pub followed_table: Option<PathBuf>,
 }

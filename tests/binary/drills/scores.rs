@@ -88,7 +88,7 @@ fn a_seed_repeats_attempts_and_compares_with_the_model_shot() {
         assert!(!attempt["changes"].as_array().unwrap().is_empty());
         assert_eq!(attempt["advised_by"], "exercise");
     }
-    let own = drill(folder.path(), &["try", "mine", "--shot", "0,0.3,3,1,4", "--json"]).json();
+    let own = drill(folder.path(), &["try", "mine", "--shot", "0,0.3,3,0.3,4", "--json"]).json();
     let own = of_kind(&own, "attempt")[0];
     assert_eq!([&own["changes"], &own["advised_chance"]], [&json!([]), &own["chance"]], "as the model shot");
     assert_ne!(attempts[0]["played"], attempts[1]["played"], "every attempt has its own errors");

@@ -174,6 +174,28 @@ fn a_kill_loses_at_most_two_seconds_of_work() {
 }
 
 #[test]
+fn a_session_that_is_left_is_not_offered_again() {
+    let mut session = Session::start(80, 24);
+    session.wait_for(START_TEXT);
+    let wait_until_saved = |session: &mut Session, is_saved: fn(&str) -> bool| {
+        let start = Instant::now();
+        while !is_saved(&session.saved_session()) {
+            assert!(start.elapsed() < TIMEOUT, "{}", session.saved_session());
+            session.count_bytes(Duration::from_millis(50));
+        }
+    };
+    session.send("d");
+    session.wait_for("The half ball");
+    session.send("\r");
+    wait_until_saved(&mut session, |saved| saved.contains("half-ball"));
+    session.send("\x1b");
+    session.wait_for("Enter open");
+    wait_until_saved(&mut session, str::is_empty);
+    session.send("\x03");
+    session.wait_for_exit(TIMEOUT);
+}
+
+#[test]
 fn an_interrupted_exam_can_be_resumed() {
     let home = tempfile::tempdir().unwrap();
     let start = || Session::start_at(home.path(), carom(), 80, 24);

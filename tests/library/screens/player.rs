@@ -56,7 +56,7 @@ pub struct Player {
     pub copied: Vec<String>,
     /// Requests to processes and to the terminal.
     pub effects: Vec<Effect>,
-    practice: PracticeWorker,
+    pub practice: PracticeWorker,
     settings: SettingsFile,
     folder: TempDir,
 }
@@ -405,6 +405,11 @@ impl Player {
         self.folder.path().join(name)
     }
 
+    /// Returns the folder of the followed run in this slot.
+    pub fn followed_run(&self, slot: usize) -> Option<PathBuf> {
+        self.app.subscriptions().followed[slot].clone().map(|(folder, _)| folder)
+    }
+
     /// Returns the number of attempts on the disk.
     pub fn attempt_count(&self) -> usize {
         self.store().sessions().items.iter().map(|session| session.attempts.len()).sum()
@@ -434,16 +439,19 @@ pub fn check_text(name: &str, text: &str) {
     });
 }
 
-/// Returns the text with recent timestamps of the form 20261120-143005 replaced.
+/// Returns the text with recent timestamps of the form 20261120-143005 and all local times of the form 2026-11-20 14:30 replaced.
 fn without_timestamps(text: &str) -> String {
     let mut text = text.to_owned();
-    let is_timestamp = |part: &[u8]| {
-        part.iter().enumerate().all(|(n, byte)| if n == 8 { *byte == b'-' } else { byte.is_ascii_digit() })
-    };
-    for start in 0..text.len().saturating_sub(15) {
-        let part = &text.as_bytes()[start..start + 15];
-        if is_timestamp(part) && !RUN.as_bytes().starts_with(part) && !OTHER_RUN.as_bytes().starts_with(part) {
-            text.replace_range(start..start + 15, "yyyymmdd-hhmmss");
+    for mask in ["yyyymmdd-hhmmss", "yyyy-mm-dd hh:mm"] {
+        for start in 0..=text.len().saturating_sub(mask.len()) {
+            let Some(part) = text.as_bytes().get(start..start + mask.len()) else { break };
+            let is_time = part.iter().zip(mask.bytes()).all(|(byte, shape)| match shape {
+                b'a'..=b'z' => byte.is_ascii_digit(),
+                separator => *byte == separator,
+            });
+            if is_time && !RUN.as_bytes().starts_with(part) && !OTHER_RUN.as_bytes().starts_with(part) {
+                text.replace_range(start..start + mask.len(), mask);
+            }
         }
     }
     text

@@ -58,7 +58,7 @@ fn the_newest_run_is_first_and_the_selection_stays() {
     let mut more = listing();
     more.runs.push(summary("20261121-000000-ddpg-match-r3-9", 0, None, Condition::InPhase(Phase::Training)));
     let player = player.report(TrainingReport::Runs(Ok(more))).press("Enter");
-    assert_eq!(player.app.subscriptions().followed[0].as_deref(), Some(Path::new(RUNS).join(OTHER_RUN).as_path()));
+    assert_eq!(player.followed_run(0).as_deref(), Some(Path::new(RUNS).join(OTHER_RUN).as_path()));
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn a_new_run_is_configured_and_started() {
     assert_eq!(arguments[..9], wanted);
     assert_eq!(arguments[9..], ["--seed", "2", "--from", &format!("{RUNS}/{RUN}"), "--run", folder]);
     assert!(folder.starts_with("/runs/20") && folder.ends_with("-ddpg-textbook-one-cushion-2"), "{folder}");
-    assert_eq!(player.app.subscriptions().followed[0].as_deref(), Some(launch.folder.as_path()));
+    assert_eq!(player.followed_run(0).as_deref(), Some(launch.folder.as_path()));
     let missing = Update { condition: Some(Condition::Missing), ..Update::default() };
     let failed = player
         .report(TrainingReport::Followed(FollowSlot::Main, launch.folder.clone(), Box::new(missing)))
@@ -194,7 +194,7 @@ fn a_run_is_compared_with_another() {
     // The nearest other run is selected.
     player.shows(&["compare with", RUN, OTHER_RUN, "Run 2 of 3", "Enter compare"]);
     let player = player.press("Enter");
-    assert_eq!(player.app.subscriptions().followed[1].as_deref(), Some(Path::new(RUNS).join(OTHER_RUN).as_path()));
+    assert_eq!(player.followed_run(1).as_deref(), Some(Path::new(RUNS).join(OTHER_RUN).as_path()));
     let mut other = full_update();
     other.records = (1..=250).map(record).collect();
     let player = player.update(FollowSlot::Compared, OTHER_RUN, other);

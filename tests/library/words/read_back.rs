@@ -39,7 +39,7 @@ pub fn stroke(text: &str, reading: Reading, table: &Table, layout: &Layout) -> R
         let stroke = StrokeText::parse(text).and_then(|spoken| spoken.stroke(table, layout, CueBall::White, None));
         stroke.map_err(|error| error.to_string())
     };
-    let (by_sentence, by_aim) = (parse(sentence)?, parse(&format!("{sentence}\n{aim}"))?);
+    let (by_sentence, by_aim) = (parse(sentence)?, parse(&format!("{sentence} {aim}"))?);
     let stops = parse_course(course_text).ok_or("the course")?;
     let found = match reading {
         Reading::Sentence => Some(by_sentence),

@@ -13,6 +13,9 @@ use crate::{
     },
 };
 
+/// End of the suggested name for a table of a daily check.
+const TODAY: &str = " today";
+
 /// Maximum length of a table's name, bytes.
 const MAX_TEXT_LENGTH: usize = 60;
 
@@ -45,7 +48,7 @@ impl CalibrationPage {
                 (sheet.calibration().is_some(), "nothing is entered yet that a table could follow from")
             }
             Condition::HasSavedTable => {
-                (self.saved.is_some(), "save the table first (s), or choose a saved one by name in F5")
+                (sheet.saved.is_some(), "save the table first (s), or choose a saved one by name in F5")
             }
             Condition::CalibratedTable => {
                 (self.table.doubt.is_some(), "a daily check needs a calibrated table: save one and play on it")
@@ -108,13 +111,17 @@ impl CalibrationPage {
             }
             Action::SaveTable => {
                 // A table that was saved before keeps its name.
-                let saved = self.saved.as_ref().filter(|_| !self.is_daily).and_then(|path| path.file_stem());
-                let today = if self.is_daily { " today" } else { "" };
-                let name = saved
-                    .map_or_else(|| self.sheet().name(&self.table) + today, |name| name.to_string_lossy().into_owned());
+                let saved = self.sheet().saved.as_ref().and_then(|path| path.file_stem());
+                let name = saved.map_or_else(
+                    || {
+                        let name = self.sheet().name(&self.table);
+                        if self.is_daily { name.trim_end_matches(TODAY).to_owned() + TODAY } else { name }
+                    },
+                    |name| name.to_string_lossy().into_owned(),
+                );
                 self.question = Some(Question::Name(TextField::new(MAX_TEXT_LENGTH).with_suggestion(&name)));
             }
-            Action::UseTable => self.table_to_use.clone_from(&self.saved),
+            Action::UseTable => self.table_to_use = self.sheet().saved.clone(),
             Action::StartOver => self.question = Some(Question::StartOver),
             Action::MoveField(_) | Action::ToggleTape | Action::ToggleFarEnd => self.change_form(action),
             Action::Answer(false) => self.close_question(),

@@ -69,8 +69,6 @@ pub struct CalibrationPage {
     all: Sheet,
     daily: Sheet,
     is_daily: bool,
-    /// The file of the last saved table.
-    pub saved: Option<PathBuf>,
     /// The file of a table that must become the current one, until the app takes it.
     pub table_to_use: Option<PathBuf>,
     /// Whether the user has left the page.
@@ -94,7 +92,6 @@ impl CalibrationPage {
             all,
             daily,
             is_daily: false,
-            saved: None,
             table_to_use: None,
             is_closed: false,
         }
@@ -224,7 +221,7 @@ impl CalibrationPage {
                 let strokes = if played == 1 { "one stroke".to_owned() } else { format!("{played} strokes{misread}") };
                 let text = format!("saved as {name}, from {strokes}; p plays on it from now on");
                 self.message = Some(Message::good(text));
-                self.saved = Some(path);
+                self.sheet_mut().saved = Some(path);
             }
             CalibrationReport::Saved(path, Ok(false)) => {
                 let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();

@@ -32,6 +32,8 @@ pub struct Sheet {
     pub is_daily: bool,
     /// The entries; `None` until the file has been read, or if it cannot be read.
     pub entries: Option<Entries>,
+    /// The file of the table that was last saved from this sheet.
+    pub saved: Option<PathBuf>,
     /// The reason why the file cannot be read.
     pub trouble: Option<String>,
     /// The latest evaluation of the entries; `None` until there is one.
@@ -244,6 +246,22 @@ impl Sheet {
             Ok(judged) => (Some(judged), None),
             Err(sentence) => (self.judged.take(), Some(sentence)),
         };
+    }
+
+    /// Names the stroke with the number `trial` among all entries, by its number among those of its test.
+    pub fn stroke_name(&self, trial: usize, test: &str) -> String {
+        let strokes = Test::named(test).map_or_else(Vec::new, |test| self.strokes(test));
+        let number = strokes.iter().position(|(place, _)| place + 1 == trial).map_or(trial, |place| place + 1);
+        format!("stroke {number} of {test}")
+    }
+
+    /// Explains why the stroke that was entered last looks wrong; `None` if it does not.
+    pub fn doubt_about_last_stroke(&self) -> Option<String> {
+        let (found, last) = (self.calibration()?, self.entries.as_ref()?.trials.len());
+        let misread = found.mark_checks.iter().find(|check| check.misread && check.trial == last);
+        let misread = misread.map(|check| check.misread_text(&self.stroke_name(last, check.test)));
+        let outlier = found.outlier_strokes.iter().find(|stroke| stroke.trial == last);
+        misread.or_else(|| outlier.map(|stroke| stroke.words(&self.stroke_name(last, stroke.test))))
     }
 
     /// Whether an evaluation is pending.

@@ -249,6 +249,11 @@ impl CoachPage {
         Some(ended(practice).with_former_sessions(former.collect()))
     }
 
+    /// Returns the earlier sessions that have not been resumed, in the form in which they are saved; `None` if there are none.
+    pub fn earlier_session(&self) -> Option<SavedSession> {
+        SavedSession::of_sessions(&self.earlier_sessions)
+    }
+
     /// Whether the user has changed anything since the start.
     fn is_begun(&self) -> bool {
         self.history.can_undo() || !self.history.present().advised.is_empty() || self.query.terms() != self.start_terms

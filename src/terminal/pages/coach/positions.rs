@@ -3,7 +3,7 @@
 use crate::{
     drills::{decode, is_code},
     game::Point,
-    table::CueBall,
+    table::{BALLS, CueBall},
     terminal::{
         pages::coach::{CoachPage, question::Question},
         ui::{Message, TextField},
@@ -48,13 +48,19 @@ impl CoachPage {
             .layout()
             .with_positions(text, self.table(), self.cue_ball(), self.selected)
             .map_err(|error| error.to_string())?;
+        let moved: Vec<usize> = (0..BALLS).filter(|ball| layout.balls[*ball] != self.layout().balls[*ball]).collect();
         self.cancel();
         self.set_layout(layout);
-        let is_opening = Point::of(self.query.rule, self.table(), &layout).red_first;
-        let message = if is_opening {
-            "this is the opening: red must be hit first"
-        } else {
-            "the balls are in the typed positions"
+        let message = match moved[..] {
+            _ if Point::of(self.query.rule, self.table(), &layout).red_first => {
+                "this is the opening: red must be hit first".to_owned()
+            }
+            // Numbers without a unit have two meanings; the position on the table shows which one was taken.
+            [ball] => {
+                let [along, up] = self.table().to_diamonds(layout.balls[ball]).to_array();
+                format!("{} lies at {along:.2}d,{up:.2}d", self.cue_ball().names()[ball])
+            }
+            _ => "the balls are in the typed positions".to_owned(),
         };
         self.message = Some(Message::good(format!("{message}; Enter asks the coach")));
         Ok(())

@@ -111,9 +111,14 @@ impl DrillsPage {
             let kept = self.turn.as_ref().filter(|turn| turn.is_in_progress()).map(|turn| turn.session.goal);
             self.leave_page();
             if let Some(goal) = kept {
-                let later = if goal.is_game() { ", c on the coach's page at the next start" } else { "" };
-                let words = format!("the {} is kept; Enter on the exercise goes on with it{later}", goal.name());
-                self.message = Some(Message::plain(words));
+                let how = match goal {
+                    Goal::Match { against_coach: true, .. } => "F9 goes on with it",
+                    goal if goal.is_game() => {
+                        "Enter on the exercise goes on with it, c on the coach's page at the next start"
+                    }
+                    _ => "Enter on the exercise goes on with it",
+                };
+                self.message = Some(Message::plain(format!("the {} is kept; {how}", goal.name())));
             }
         }
     }

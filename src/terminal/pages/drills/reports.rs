@@ -26,16 +26,24 @@ impl DrillsPage {
                 }
                 return tasks;
             }
-            DrillReport::ModelShot(id, answer) => {
+            DrillReport::ModelShot(id, answer) if self.turn.as_ref().is_some_and(|turn| turn.advice_id == id) => {
                 let model_shot = answer.unwrap_or_else(|sentence| self.refuse(sentence));
                 if let Some(turn) = &mut self.turn {
-                    turn.on_model_shot(id, model_shot);
+                    turn.on_model_shot(model_shot);
                 }
             }
+            // The player has left those balls in the meantime.
+            DrillReport::ModelShot(..) => {}
             DrillReport::Played(id, played, saved) => {
                 match (played, &mut self.turn) {
                     (Ok(outcome), turn) => {
                         self.book.insert(&outcome.session);
+                        // The player may have left the session while the stroke was being played.
+                        let mut left = self.unfinished_sessions.iter();
+                        if let Some(place) = left.position(|left| left.id == outcome.session.id) {
+                            self.unfinished_sessions[place] = outcome.session.clone();
+                        }
+                        self.unfinished_sessions.retain(|left| !left.is_over());
                         if let Some(turn) = turn {
                             turn.on_played(*outcome);
                         }

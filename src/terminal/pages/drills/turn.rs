@@ -85,7 +85,7 @@ pub struct Turn {
     pub(super) what_if: Option<WhatIf>,
     /// Whether the player was warned that the stroke is unchanged. After that it is played nevertheless.
     is_warned: bool,
-    advice_id: u64,
+    pub(super) advice_id: u64,
     cancel: Arc<AtomicBool>,
 }
 
@@ -307,14 +307,12 @@ impl Turn {
     }
 
     /// Handles the answer to request `id`; late answers are dropped.
-    pub(super) fn on_model_shot(&mut self, id: u64, model_shot: Option<ModelShot>) {
-        if id == self.advice_id {
-            if let Some(model_shot) = model_shot.as_ref().filter(|_| self.is_coachs_turn()) {
-                self.stroke = OwnStroke::new(model_shot.advice.cue);
-            }
-            self.model_shot =
-                model_shot.map_or(ModelShotState::Missing, |model_shot| ModelShotState::Known(Box::new(model_shot)));
+    pub(super) fn on_model_shot(&mut self, model_shot: Option<ModelShot>) {
+        if let Some(model_shot) = model_shot.as_ref().filter(|_| self.is_coachs_turn()) {
+            self.stroke = OwnStroke::new(model_shot.advice.cue);
         }
+        self.model_shot =
+            model_shot.map_or(ModelShotState::Missing, |model_shot| ModelShotState::Known(Box::new(model_shot)));
     }
 
     /// Returns the task that plays the stroke.
@@ -338,12 +336,11 @@ impl Turn {
             return;
         }
         self.session = outcome.session.clone();
-        let mut playback = Playback::default();
-        let duration = outcome.shot.as_ref().map_or(0.0, |shot| shot.recording.duration());
-        playback.toggle(duration);
         let noted = outcome.session.attempts.last().and_then(|attempt| attempt.intended);
         let intended = noted.unwrap_or(*self.stroke());
+        let playback = Playback::default();
         let mut watched = Watched { outcome, intended, chance: None, playback, is_end_shown: false };
+        watched.playback.toggle(watched.duration());
         watched.settle();
         self.stage = Stage::Watching(Box::new(watched));
     }
@@ -422,7 +419,7 @@ impl Turn {
     pub(super) fn place_balls(&mut self, table: Table, layout: Layout) -> bool {
         let exercise = self.session.exercise().cloned().unwrap_or_else(|| self.exercise.clone());
         let is_other = exercise.name != self.exercise.name;
-        let is_moved = is_other || layout != self.layout;
+        let is_moved = is_other || layout != self.layout || table != self.table;
         if is_other || is_moved && self.session.is_game() {
             let point = Point::of(exercise.rule, &table, &layout);
             self.stroke = OwnStroke::new(aiming::first_stroke(point, &layout));
@@ -442,10 +439,8 @@ impl Turn {
 
     /// Advances the playback by `seconds`.
     pub fn tick(&mut self, seconds: f64) {
-        if let Some(watched) = self.watched_mut()
-            && let Some(shot) = &watched.outcome.shot
-        {
-            watched.playback.tick(seconds, shot.recording.duration());
+        if let Some(watched) = self.watched_mut() {
+            watched.playback.tick(seconds, watched.duration());
             watched.settle();
         }
     }

@@ -108,7 +108,9 @@ impl Turn {
             (_, Condition::StrokeUndoable | Condition::StrokeSet | Condition::StrokeRedoable) => {
                 self.disabled_reason(Condition::Aiming)
             }
-            (_, Condition::Undoable) => refuse(!self.can_undo(), "there is no note from a real table to undo"),
+            (_, Condition::Undoable) => {
+                refuse(!self.can_undo(), "there is no note from a real table to undo; z undoes the stroke")
+            }
             _ => None,
         }
     }

@@ -121,7 +121,8 @@ impl TrainingPage {
         if watch.folder() == folder {
             self.message = Some(Message::warning("a run cannot be compared with itself; choose another one"));
         } else {
-            watch.other = Some(NamedRun::new(&folder, &self.places.runs));
+            self.openings += 1;
+            watch.other = Some(NamedRun::new(&folder, &self.places.runs, self.openings));
             self.pages.pop();
         }
     }

@@ -69,6 +69,8 @@ pub struct TrainingPage {
     pub is_guest: bool,
     /// The folder and start time of the last started run, until it is seen training or has failed.
     launched: Option<(PathBuf, Instant)>,
+    /// Number of runs opened so far.
+    openings: u64,
     /// The stack of screens; the last one is open.
     pages: Vec<TrainingContext>,
 }
@@ -87,6 +89,7 @@ impl TrainingPage {
             is_only_page: false,
             is_guest: false,
             launched: None,
+            openings: 0,
             pages: Vec::new(),
         }
     }
@@ -114,7 +117,8 @@ impl TrainingPage {
     /// Opens the screen of the run in `folder`.
     fn show(&mut self, folder: &Path) {
         self.list.mark_named(&name_in(&self.folder, folder));
-        self.watch = Some(Watch::new(folder, &self.places.runs));
+        self.openings += 1;
+        self.watch = Some(Watch::new(folder, &self.places.runs, self.openings));
         self.pages.retain(|page| *page == TrainingContext::Runs);
         self.pages.push(TrainingContext::Watch);
     }
@@ -137,12 +141,12 @@ impl TrainingPage {
     /// The data that the page needs from background tasks now.
     pub fn subscriptions(&self) -> Subscriptions {
         let lists = matches!(self.page(), TrainingContext::Runs | TrainingContext::Form | TrainingContext::Compare);
-        let folder = |named: &NamedRun| named.run.folder.clone();
+        let opened = |named: &NamedRun| (named.run.folder.clone(), named.opening);
         Subscriptions {
             runs: lists.then(|| self.folder.clone()),
             followed: [
-                self.watch.as_ref().map(|watch| folder(&watch.own)),
-                self.watch.as_ref().and_then(|watch| watch.other.as_ref()).map(folder),
+                self.watch.as_ref().map(|watch| opened(&watch.own)),
+                self.watch.as_ref().and_then(|watch| watch.other.as_ref()).map(opened),
             ],
             followed_table: None,
         }
@@ -219,7 +223,7 @@ impl TrainingPage {
         if let Some(watch) = self.watch.as_mut().filter(|watch| watch.folder() == folder) {
             watch.failure = Some(failure.sentence.clone());
         }
-        let name = NamedRun::new(folder, &self.places.runs).name;
+        let name = name_in(&self.places.runs, folder);
         self.message = Some(Message::warning(format!("{name}: {}", failure.sentence)));
     }
 

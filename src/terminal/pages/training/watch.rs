@@ -28,12 +28,14 @@ pub struct NamedRun {
     pub name: String,
     /// The followed run.
     pub run: Followed,
+    /// Number of this opening: a run that is opened again is read from its beginning.
+    pub opening: u64,
 }
 
 impl NamedRun {
     /// Creates the entry of the run in `folder`, which has not been read yet. `runs` is the folder to which names are relative.
-    pub fn new(folder: &Path, runs: &Path) -> Self {
-        Self { name: name_in(runs, folder), run: Followed::new(folder) }
+    pub fn new(folder: &Path, runs: &Path, opening: u64) -> Self {
+        Self { name: name_in(runs, folder), run: Followed::new(folder), opening }
     }
 
     /// Whether its reward is success or failure, so that a mean is a success rate. `false` if its reward is not known yet.
@@ -61,9 +63,16 @@ pub struct Watch {
 
 impl Watch {
     /// Creates the state for the run in `folder`, which has not been read yet. `runs` is the folder to which names are relative.
-    pub fn new(folder: &Path, runs: &Path) -> Self {
+    pub fn new(folder: &Path, runs: &Path, opening: u64) -> Self {
         let (charts, replay) = (Charts::default(), Replay::default());
-        Self { own: NamedRun::new(folder, runs), other: None, charts, replay, has_policy: false, failure: None }
+        Self {
+            own: NamedRun::new(folder, runs, opening),
+            other: None,
+            charts,
+            replay,
+            has_policy: false,
+            failure: None,
+        }
     }
 
     /// The folder of the run.
@@ -135,7 +144,7 @@ impl Watch {
 
     /// A sentence on the run's problem or on the possible next steps, and whether it is a problem.
     pub fn advice(&self) -> (String, bool) {
-        let Self { own: NamedRun { name, run }, .. } = self;
+        let Self { own: NamedRun { name, run, .. }, .. } = self;
         let resume = format!("r goes on with it, or: carom train --resume {}", shell_word(name));
         let status = run.status.as_ref();
         let reason = status.and_then(|status| status.reason.as_deref());

@@ -2,6 +2,7 @@
 
 mod exam;
 mod hints;
+mod late;
 mod palette_words;
 mod placing;
 mod saving;

@@ -84,9 +84,14 @@ fn status_line(page: &CalibrationPage) -> Message {
     if sheet.entries.is_none() {
         return Message::plain("reading what was entered so far");
     }
+    if sheet.is_evaluating() {
+        return Message::plain("evaluating the marks");
+    }
+    if let Some(doubt) = sheet.doubt_about_last_stroke() {
+        return Message::warning(doubt);
+    }
     let (entered, wanted) = sheet.count();
     match sheet.best_next_test() {
-        _ if sheet.is_evaluating() => Message::plain("evaluating the marks"),
         Some(best) if entered == 0 => {
             Message::plain(format!("play a test, then Enter; {} helps most ({:.1} bits)", best.test, best.bits))
         }

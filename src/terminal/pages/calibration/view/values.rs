@@ -6,7 +6,7 @@ use ratatui::{
 };
 
 use crate::{
-    calibration::{Calibration, Change, Test},
+    calibration::{Calibration, Change},
     terminal::{
         CalibrationAction,
         pages::calibration::{CalibrationPage, keys::TESTS},
@@ -117,11 +117,7 @@ pub fn draw_constant_name(one: &Change, room: usize, style: Style, at: Position,
 /// The sentences on the results.
 pub fn sentences(page: &CalibrationPage, found: &Calibration, ui: &Ui) -> Vec<(String, Style)> {
     let mut lines: Vec<(String, Style)> = Vec::new();
-    let stroke = |trial: usize, test: &str| {
-        let strokes = Test::named(test).map_or_else(Vec::new, |test| page.sheet().strokes(test));
-        let number = strokes.iter().position(|(place, _)| place + 1 == trial).map_or(trial, |place| place + 1);
-        format!("stroke {number} of {test}")
-    };
+    let stroke = |trial: usize, test: &str| page.sheet().stroke_name(trial, test);
     let misread = found.mark_checks.iter().filter(|verdict| verdict.misread);
     lines.extend(misread.map(|one| (one.misread_text(&stroke(one.trial, one.test)), ui.theme.warning())));
     let outlier_strokes = found.outlier_strokes.iter();

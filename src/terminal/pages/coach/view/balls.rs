@@ -14,7 +14,7 @@ use crate::{
         pages::coach::CoachPage,
         shot::Spin,
         ui::{Theme, Ui, draw_title, list, write_right},
-        words::{fixed, format_fine, to_diamonds},
+        words::{fixed, format_fine},
     },
 };
 
@@ -81,7 +81,7 @@ fn draw_ball(coach: &CoachPage, ball: usize, area: Rect, ui: &mut Ui) {
     if let Some(speed) = speed {
         write_right(ui.buffer, area.x, area.x + SPEED_END, area.y, &fixed(unit.speed().0 * speed, 2), style);
     } else {
-        let diamonds = to_diamonds(coach.table(), place);
+        let diamonds = coach.table().to_diamonds(place);
         write_right(ui.buffer, area.x, area.x + X_DIAMONDS_END, area.y, &fixed(diamonds.x, 2), style);
         write_right(ui.buffer, area.x, area.x + Y_DIAMONDS_END, area.y, &fixed(diamonds.y, 2), style);
     }

@@ -48,7 +48,7 @@ use crate::{
             Message, TableView, Ui, columns, draw_events, draw_profile, draw_spin_or_hit, draw_table, draw_tip,
             to_displayable, write_paragraphs,
         },
-        words::{event_words, fixed, format_fine, percent, to_diamonds},
+        words::{event_words, fixed, format_fine, percent},
     },
 };
 
@@ -339,7 +339,7 @@ fn selected_ball(coach: &CoachPage) -> String {
     let length = |metres: f64| format!("{} {}", format_fine(metres, unit), unit.fine().1);
     let near = nearest.map_or(String::new(), |other| format!(", {} from {}", length(gap(other)), names[other]));
     let place = if coach.quarters {
-        let place = to_diamonds(coach.table(), balls[ball]);
+        let place = coach.table().to_diamonds(balls[ball]);
         format!("{}d,{}d", fixed(place.x, 2), fixed(place.y, 2))
     } else {
         format!("x {}, y {}", length(balls[ball].x), length(balls[ball].y))

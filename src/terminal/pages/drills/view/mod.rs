@@ -27,7 +27,7 @@ use crate::{
             drills::{DrillsPage, Question},
         },
         ui::{self, Message, TableView, Ui, draw_table},
-        words::{self, skill_word, to_diamonds},
+        words::{self, skill_word},
     },
 };
 
@@ -98,7 +98,7 @@ fn best_run(record: &Record) -> String {
 /// or in millimetres.
 fn position_words(table: &Table, layout: &Layout, cue_ball: CueBall, unit: PositionUnit) -> String {
     let place = |ball: usize| {
-        let at = to_diamonds(table, layout.balls[ball]);
+        let at = table.to_diamonds(layout.balls[ball]);
         let along = |diamonds: f64| match unit {
             PositionUnit::Diamonds => format_trimmed(diamonds, 2) + "d",
             PositionUnit::Mm => format_trimmed(1e3 * table.diamond() * diamonds, 0),

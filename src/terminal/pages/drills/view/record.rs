@@ -1,8 +1,6 @@
 //! The records screen: the score of one or all exercises, at a real table and in the program, its chart over the sessions, the list of
 //! sessions, and the skill estimate.
 
-use std::time::{Duration, UNIX_EPOCH};
-
 use ratatui::{
     buffer::Buffer,
     layout::Rect,
@@ -13,7 +11,7 @@ use ratatui::{
 use crate::{
     drills::{Attempt, Goal, Record, Session, Venue},
     learning::run::history::{NonFinite, Point, Span as Values},
-    printing::format_utc,
+    printing::{format_utc, local_time},
     terminal::{
         pages::drills::{
             DrillsPage, Estimate, record_of,
@@ -186,8 +184,7 @@ const VENUE_COLUMN: u16 = 48;
 const GOAL_COLUMN: u16 = 54;
 
 fn draw_sessions(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>, area: Rect, ui: &mut Ui) {
-    let title = vec![Span::styled("Sessions", ui.theme.text()), Span::styled(" UTC", ui.theme.faint())];
-    let inner = draw_title(title, area, ui);
+    let inner = draw_title(vec![Span::styled("Sessions", ui.theme.text())], area, ui);
     if sessions.is_empty() {
         let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2).min(READABLE), ..inner };
         write_paragraphs(&[(EMPTY.to_owned(), ui.theme.faint())], text, ui);
@@ -202,7 +199,8 @@ fn draw_sessions(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>
         let put = |buffer: &mut Buffer, end: u16, text: &str, style: Style| {
             write_right(buffer, inner.x, inner.x + end, y, text, style);
         };
-        ui.buffer.set_string(inner.x + 1, y, started(session), ui.theme.faint());
+        let started = local_time(&format_utc(session.started));
+        ui.buffer.set_string(inner.x + 1, y, started, ui.theme.faint());
         put(ui.buffer, NUMBER_ENDS[0].0, &format!("{}/{}", record.made, record.tried), ui.theme.text());
         put(ui.buffer, NUMBER_ENDS[1].0, &percent_words(record.rate.rate), ui.theme.text());
         put(
@@ -217,12 +215,6 @@ fn draw_sessions(drills: &DrillsPage, sessions: &[&Session], scope: Option<&str>
         let room = usize::from(inner.width.saturating_sub(GOAL_COLUMN));
         ui.buffer.set_string(inner.x + GOAL_COLUMN, y, shorten(&what(session, scope), room, ui.caps), ui.theme.faint());
     }
-}
-
-/// The start time of a session, to the minute, UTC; empty if the time in its file is out of range.
-fn started(session: &Session) -> String {
-    let time = UNIX_EPOCH.checked_add(Duration::from_secs(session.started));
-    time.map_or(String::new(), |time| format_utc(time).replace('T', " ").chars().take(16).collect())
 }
 
 /// The exercise and goal of a session.

@@ -9,6 +9,7 @@ use ratatui::{
 
 use crate::{
     learning::run::{follow::Condition, list::Summary, status::Phase},
+    printing::local_time,
     terminal::{
         TrainingContext,
         pages::{Target, training::TrainingPage},
@@ -134,16 +135,11 @@ fn draw_marked(training: &TrainingPage, run: &Summary, mark: usize, area: Rect, 
             count(run.shots),
             count(run.planned_shots)
         ),
-        format!("started {}, last written {}", readable_time(&run.started), readable_time(&run.changed)),
+        format!("started {}, last written {}", local_time(&run.started), local_time(&run.changed)),
     ];
     for (line, y) in lines.iter().zip(inner.y..inner.bottom()) {
         ui.buffer.set_stringn(inner.x + 2, y, line, usize::from(inner.width.saturating_sub(3)), ui.theme.text());
     }
-}
-
-/// Formats a time like `2026-11-20T14:30:05Z` for reading: `2026-11-20 14:30:05 UTC`.
-fn readable_time(moment: &str) -> String {
-    moment.replace('T', " ").replace('Z', " UTC")
 }
 
 fn draw_empty(training: &TrainingPage, area: Rect, ui: &mut Ui) {
