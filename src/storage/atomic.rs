@@ -6,6 +6,7 @@ use std::{
     time::{Duration, SystemTime},
 };
 
+use serde::Serialize;
 use tempfile::NamedTempFile;
 
 use super::{confinement::check_write_allowed, reading::check_regular};
@@ -47,6 +48,15 @@ pub fn write_atomic_unsynced(path: &Path, bytes: &[u8]) -> io::Result<()> {
     file.as_file_mut().write_all(bytes)?;
     file.persist(path)?;
     Ok(())
+}
+
+/// Writes `value` as JSON like [`write_atomic_unsynced`], and creates its folder if it is missing.
+///
+/// # Errors
+/// Any error of the file system; the old file is then untouched.
+pub fn save_json(path: &Path, value: &impl Serialize) -> io::Result<()> {
+    std::fs::create_dir_all(folder_of(path))?;
+    write_atomic_unsynced(path, &serde_json::to_vec(value)?)
 }
 
 /// A file that is safely on the disk under a temporary name. It is removed if it is dropped without being published.

@@ -13,7 +13,7 @@ mod player;
 mod reading;
 
 pub use atomic::{
-    StagedFile, create_atomic, remove_abandoned_files, remove_partial_files, resolve_symlinks, write_atomic,
+    StagedFile, create_atomic, remove_abandoned_files, remove_partial_files, resolve_symlinks, save_json, write_atomic,
     write_atomic_unsynced,
 };
 pub use confinement::{check_read_allowed, confine};

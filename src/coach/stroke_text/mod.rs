@@ -12,6 +12,7 @@ use super::{
 };
 use crate::{
     physics::{CueError, CueInputs, raise_to_clear, squirt},
+    printing::number,
     simulation::ShotError,
     table::{CueBall, Layout, Table},
 };
@@ -36,6 +37,9 @@ const SEARCH_STEP: f64 = 0.1;
 /// Maximum deviation of the fullness if the requested one is not possible, ball diameters: the precision in which
 /// players state it.
 const MAX_FULLNESS_DEVIATION: f64 = 0.0625;
+
+/// Speeds of the cue that a text can state, m/s; players strike more slowly than the largest.
+const SPEEDS: std::ops::RangeInclusive<f64> = 0.05..=12.0;
 
 /// Precision of a stated position on a cushion before the first ball, diamonds.
 const CUSHION_PRECISION: f64 = 0.06;
@@ -84,6 +88,12 @@ pub enum StrokeTextError {
         /// See `least`.
         most: f64,
     },
+    /// The speed is outside the range of [`SPEEDS`].
+    #[error("{} m/s is outside the range; accepted are {} to {}", number(*_0), SPEEDS.start(), SPEEDS.end())]
+    Speed(f64),
+    /// The cue cannot be raised like this.
+    #[error("a cue raised by {} degrees is outside the range; accepted is {_1}", number(*_0))]
+    Elevation(f64, &'static str),
     /// The tip would slip off the ball.
     #[error("{} tips from the centre, the tip would slip off the ball; accepted are at most {}", format_trimmed(*.0, 1), format_trimmed(*.1, 1))]
     Tips(f64, f64),
@@ -164,6 +174,7 @@ impl StrokeText {
         before: Option<&CueInputs>,
     ) -> Result<CueInputs, StrokeTextError> {
         let speed = match self.speed.or(self.pace.map(Speed::Lengths)) {
+            Some(Speed::Cue(speed)) if !SPEEDS.contains(&speed) => return Err(StrokeTextError::Speed(speed)),
             Some(Speed::Cue(speed)) => speed,
             Some(Speed::Lengths(lengths)) => speed_of(table, lengths)?,
             None => before.ok_or(StrokeTextError::NoSpeed)?.speed,
@@ -172,7 +183,10 @@ impl StrokeText {
         let cue = before.copied().unwrap_or(level);
         let [a, b] = accepted_tip([self.side.unwrap_or(cue.a), self.height.unwrap_or(cue.b)], table.miscue_limit)?;
         let cue = CueInputs { a, b, theta: self.elevation.unwrap_or(cue.theta), speed, ..cue };
-        cue.validate()?;
+        cue.validate().map_err(|error| match error {
+            CueError::Range { name: "theta", value, accepted } => StrokeTextError::Elevation(value, accepted),
+            error => StrokeTextError::Cue(error),
+        })?;
         let at = |phi: f64| {
             let cue = CueInputs { phi, ..cue };
             raise_to_clear(table, layout, &cue).unwrap_or(cue)
@@ -288,7 +302,7 @@ fn aim_at(
 /// Returns the cue speed at which a ball runs this number of table lengths, m/s.
 fn speed_of(table: &Table, lengths: f64) -> Result<f64, StrokeTextError> {
     let of = |speed| table_lengths(table, speed).unwrap_or_default();
-    let (mut low, mut high) = (0.05, 12.0);
+    let (mut low, mut high) = SPEEDS.into_inner();
     // Rounded inwards, so that the limits that the error states are accepted.
     let (least, most) = ((100.0 * of(low)).ceil() / 100.0, of(high).floor());
     if !(least..=most).contains(&lengths) {

@@ -122,9 +122,10 @@ fn errors_name_the_unreadable_or_unplayable_part() {
         ("red 1/2 left, 9 left, soft", "9 tips from the centre"),
         ("red 1/2 left, 4 lengths, soft", "4 lengths are hard, not soft"),
         (" ; ,", "the text has no stroke"),
+        ("to 2 right, 50 m/s", "50 m/s is outside the range; accepted are 0.05 to 12"),
         ("to 4.1 right, soft", "\"to 4.1 right\" is not understood"),
         ("to nan right, soft", "\"to nan right\" is not understood"),
-        ("red full, raised 95, soft", "theta = 95"),
+        ("red full, raised 95, soft", "a cue raised by 95 degrees is outside the range; accepted is 0"),
     ] {
         let error = stroke(text, None).unwrap_err().to_string();
         assert!(error.contains(named), "{text}: {error}");

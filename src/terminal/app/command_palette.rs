@@ -3,7 +3,7 @@
 use crate::terminal::{
     Action, App, Capabilities, Condition, Effect, KeyContext, Keys,
     app::bindings::{AppBinding, listed},
-    keymap::{Chord, keys_text},
+    keymap::keys_text,
     ui::{TextField, Typed},
 };
 
@@ -15,8 +15,6 @@ const MAX_QUERY_LENGTH: usize = 200;
 pub struct Command {
     /// Its keys as displayed.
     pub keys: String,
-    /// Its default keys.
-    pub chords: Vec<Chord>,
     /// What it does.
     pub description: &'static str,
     /// Description of the whole binding in the help, which may cover other commands too.
@@ -58,7 +56,6 @@ pub fn commands(context: KeyContext, keys: &Keys, caps: Capabilities) -> Vec<Com
         let all = binding.commands().into_iter().filter(|(action, ..)| *action != Action::OpenPalette);
         all.map(move |(action, description, chords)| Command {
             keys: keys_text(chords.iter().flat_map(|chord| keys.keys_for(*chord)), caps),
-            chords,
             description,
             group: binding.description,
             hint: binding.hint.map_or("", |(word, _)| word),

@@ -324,7 +324,7 @@ impl App {
             Action::Training(action) => {
                 let effect = self.training.update(action);
                 if self.training.is_closed() {
-                    return self.leave_training();
+                    return if self.training.is_only_page { Some(Effect::Quit) } else { self.open(PageId::Coach) };
                 }
                 return effect;
             }

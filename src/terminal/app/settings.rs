@@ -6,6 +6,7 @@ use crate::{
     table::{PRESETS, Table},
     terminal::{
         App, Capabilities, CoachQuery, Depth, Effect, Glyphs, Settings, SettingsReport, ThemeName,
+        pages::neighbour,
         ui::{Message, Theme},
     },
 };
@@ -84,7 +85,7 @@ impl App {
         } else if self.full_caps.depth == Depth::Mono {
             "no colours here: NO_COLOR is set or the terminal has none".to_owned()
         } else {
-            self.choose_theme(self.theme_name.next());
+            self.choose_theme(neighbour(&ThemeName::ALL, self.theme_name, 1));
             self.show_session();
             format!("theme: {}, for this session; F5 keeps it", self.theme_name)
         };

@@ -58,14 +58,6 @@ impl App {
         }
     }
 
-    /// Returns to the coach, or to the shell if the program started with the training screen.
-    pub(super) fn leave_training(&mut self) -> Option<Effect> {
-        if self.training.is_only_page {
-            return Some(Effect::Quit);
-        }
-        self.open(PageId::Coach)
-    }
-
     /// Whether there is no other screen to open.
     pub const fn is_only_screen(&self) -> bool {
         self.training.is_only_page || self.coach.followed().is_some()

@@ -1,13 +1,10 @@
 //! A partly typed stroke of a calibration, saved when the program ends and restored at the next start.
 
-use std::{fs, io, path::Path};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::{
-    calibration::Entry,
-    storage::{self, write_atomic_unsynced},
-};
+use crate::{calibration::Entry, storage};
 
 /// The saved form.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,21 +42,12 @@ impl StrokeDraft {
             format!("{}: {error}; the stroke that was typed in part cannot be restored, and {kept}", path.display())
         })
     }
-
-    /// Writes the draft to `path`.
-    ///
-    /// # Errors
-    /// Any error of the file system.
-    pub fn save(&self, path: &Path) -> io::Result<()> {
-        if let Some(folder) = path.parent() {
-            fs::create_dir_all(folder)?;
-        }
-        write_atomic_unsynced(path, &serde_json::to_vec(self).map_err(io::Error::from)?)
-    }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]

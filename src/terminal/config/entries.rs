@@ -108,7 +108,7 @@ pub const ENTRIES: &[Entry] = &[
         group: "Game",
         key: "skill",
         about: "Who plays: the errors that the coach assumes.",
-        accepted: "\"perfect\", \"expert\", \"world-class\", \"national\", \"club\", \"beginner\", an average at three-cushion like \"0.6\", or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\"; your own skill is stored as its errors",
+        accepted: "\"perfect\", \"expert\", \"world-class\", \"national\", \"club\", \"beginner\", an average at three-cushion from 0.1 to 2.5 like \"0.6\", or standard errors in mm, degrees and m/s like \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\"; your own skill is stored as its errors",
         choices: || Skill::NAMED.map(|(name, _)| quoted(name)).to_vec(),
         get: |settings| quoted(settings.skill.to_string()),
         set: |settings, value| put(&mut settings.skill, parsed(value)),

@@ -1,9 +1,6 @@
 //! Reads and changes the settings file while the program runs, one task after the other.
 
-use std::{
-    io,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
 use crate::{
     storage::{self, DataPaths, write_atomic},
@@ -66,7 +63,7 @@ impl SettingsFile {
                 format!("this change lasts until the program ends; {} was not written: {sentence}", path.display());
             report(settings, false, vec![sentence])
         };
-        let found = match content(path) {
+        let found = match storage::read_if_exists(path, storage::MAX_SMALL_FILE) {
             Ok(found) => found,
             Err(error) if change.is_some() => return unwritten(None, error.to_string()),
             Err(error) => {
@@ -101,15 +98,6 @@ impl SettingsFile {
             }
         }
         report(Some(settings(Some(new.as_bytes()))), !self.has_failed, Vec::new())
-    }
-}
-
-/// The bytes of the file; `None` if it does not exist.
-fn content(path: &Path) -> io::Result<Option<Vec<u8>>> {
-    match storage::read(path, storage::MAX_SMALL_FILE) {
-        Ok(bytes) => Ok(Some(bytes)),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(error),
     }
 }
 

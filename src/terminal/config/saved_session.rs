@@ -1,6 +1,6 @@
 //! The state of the last session, from which the next one can continue.
 
-use std::{io, path::Path};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,7 @@ use crate::{
     coach::{FirstContact, Skill},
     drills::Session,
     game::Rule,
-    storage::{self, describe_json_error, write_atomic_unsynced},
+    storage::{self, describe_json_error},
     table::{CueBall, Layout, Table},
     terminal::Terms,
 };
@@ -141,18 +141,6 @@ impl SavedSession {
         }
         sessions
     }
-
-    /// Writes the session to `path`.
-    ///
-    /// # Errors
-    /// Any error of the file system; the old file then stays.
-    pub fn save(&self, path: &Path) -> io::Result<()> {
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder)?;
-        }
-        let bytes = serde_json::to_vec(self).map_err(io::Error::from)?;
-        write_atomic_unsynced(path, &bytes)
-    }
 }
 
 /// Replaces the table that "match" meant in older versions by the one that it means now.
@@ -164,7 +152,10 @@ fn renewed(table: Table) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drills::{Exercise, Goal, Venue};
+    use crate::{
+        drills::{Exercise, Goal, Venue},
+        storage::save_json,
+    };
 
     fn session(table: Table) -> SavedSession {
         let terms = Terms { rule: Rule::OneCushion, skill: Skill::CLUB, plan: false, first: FirstContact::Any };
@@ -182,7 +173,7 @@ mod tests {
             let said = SavedSession::load(&path).unwrap_err();
             assert!(said.starts_with(what), "{said}");
         };
-        last.save(&path).unwrap();
+        save_json(&path, &last).unwrap();
         assert_eq!(SavedSession::load(&path).as_ref(), Ok(&Some(last.clone())));
         // After some thousand attempts, a session is larger than one mebibyte.
         let mut long = std::fs::read(&path).unwrap();
@@ -190,15 +181,15 @@ mod tests {
         std::fs::write(&path, long).unwrap();
         assert_eq!(SavedSession::load(&path).as_ref(), Ok(&Some(last.clone())));
         let newer = SavedSession { version: VERSION + 1, ..last.clone() };
-        newer.save(&path).unwrap();
+        save_json(&path, &newer).unwrap();
         refused("it is of version 2");
         let mut impossible = last;
         impossible.layout.balls[1] = impossible.layout.balls[0];
-        impossible.save(&path).unwrap();
+        save_json(&path, &impossible).unwrap();
         refused("it is damaged");
         let mut endless = session(Table::default());
         endless.table.sliding_friction = 0.0;
-        endless.save(&path).unwrap();
+        save_json(&path, &endless).unwrap();
         refused("it is damaged");
         std::fs::write(&path, "{").unwrap();
         refused("it is damaged");
@@ -213,12 +204,12 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("last.json");
         let last = session(Table::default());
-        last.save(&path).unwrap();
+        save_json(&path, &last).unwrap();
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(!text.contains("settings"), "as older versions wrote it: {text}");
         assert_eq!(SavedSession::load(&path).unwrap().unwrap().settings, None);
         let set = Terms { skill: Skill::EXPERT, ..last.terms() };
-        last.with_settings(set).save(&path).unwrap();
+        save_json(&path, &last.with_settings(set)).unwrap();
         assert_eq!(SavedSession::load(&path).unwrap().unwrap().settings, Some(set));
     }
 
@@ -233,7 +224,7 @@ mod tests {
         };
         for number in 1..=9 {
             let former = SavedSession::load(&path).unwrap().map_or_else(Vec::new, SavedSession::into_sessions);
-            by(number).with_former_sessions(former).save(&path).unwrap();
+            save_json(&path, &by(number).with_former_sessions(former)).unwrap();
         }
         let kept = SavedSession::load(&path).unwrap().unwrap().into_sessions();
         assert_eq!(kept, (1..=9).rev().take(1 + MAX_FORMER).map(by).collect::<Vec<_>>());
@@ -258,7 +249,7 @@ mod tests {
         let path = folder.path().join("last.json");
         let on = |textbook: &str, name: &str| {
             let table = Table { name: name.to_owned(), ..Table::preset(textbook).unwrap() };
-            session(table).save(&path).unwrap();
+            save_json(&path, &session(table)).unwrap();
             SavedSession::load(&path).unwrap().unwrap().table
         };
         assert_eq!(on("textbook", "match"), Table::default());

@@ -13,7 +13,7 @@ use tracing::{info, warn};
 use crate::{
     platform::{self, Signal},
     printing::{self, FULL_VERSION, OneLine},
-    storage::DataPaths,
+    storage::{DataPaths, save_json},
     terminal::{
         App, CoachAnswer, CoachEvent, Effect, SavedSession, TrainingReport,
         host::{events, guard::TerminalGuard, log, pace::Pace, table_sharing::TableSharing},
@@ -174,7 +174,7 @@ impl Runner {
         let saved = match last.clone().or_else(|| coach.earlier_session()) {
             // Another player's table is shown; the player's own session stays.
             _ if coach.followed().is_some() => Ok(()),
-            Some(last) => last.save(path),
+            Some(last) => save_json(path, &last),
             // What was saved is over, and nothing was saved before it.
             None => fs::remove_file(path),
         };
@@ -193,7 +193,7 @@ impl Runner {
         let path = &self.paths.draft;
         let with_path = |error| io::Error::other(format!("{}: {error}", path.display()));
         match self.app.draft() {
-            Some(draft) => draft.save(path).map_err(with_path),
+            Some(draft) => save_json(path, &draft).map_err(with_path),
             // Another program may have removed the file.
             None if self.app.draft_at_start.is_some() && path.exists() => fs::remove_file(path).map_err(with_path),
             None => Ok(()),

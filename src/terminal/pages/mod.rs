@@ -134,7 +134,7 @@ const fn wrapping_index(from: usize, steps: isize, count: usize) -> usize {
 }
 
 /// Returns the element `steps` after `from`, with wrap-around; the first element if `all` does not contain `from`.
-fn neighbour<T: Clone + PartialEq>(all: &[T], from: T, steps: isize) -> T {
+pub(super) fn neighbour<T: Clone + PartialEq>(all: &[T], from: T, steps: isize) -> T {
     let Some(place) = all.iter().position(|one| *one == from) else { return all.first().cloned().unwrap_or(from) };
     all[wrapping_index(place, steps, all.len())].clone()
 }

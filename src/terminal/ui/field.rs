@@ -51,9 +51,14 @@ pub fn draw_field(area: Rect, ground: Color, ui: &mut Ui, mark: impl Fn(f64, f64
 }
 
 /// The largest ball face that fits into a panel. A row is as high as two columns are wide, so a circle has twice as many columns as rows.
-pub fn face_in(inner: Rect) -> Rect {
+/// In letters both numbers are odd, so that the centre is a letter.
+pub fn face_in(inner: Rect, caps: Capabilities) -> Rect {
     let rows = inner.height.min(inner.width / 2);
-    Rect::new(inner.x + (inner.width - 2 * rows) / 2, inner.y, 2 * rows, rows)
+    let [rows, columns] = match caps.glyphs {
+        Glyphs::Letters => [rows.saturating_sub(u16::from(rows.is_multiple_of(2))), (2 * rows).saturating_sub(1)],
+        _ => [rows, 2 * rows],
+    };
+    Rect::new(inner.x + (inner.width - columns) / 2, inner.y, columns, rows)
 }
 
 /// A spot in a picture. It consists of whole sub-pixels, so that its shape is the same everywhere; in letters it is one cell.

@@ -17,11 +17,12 @@ const LOW: u16 = 5;
 pub fn draw_spin(spin: &Spin, area: Rect, ui: &mut Ui) {
     let inner = draw_title("Spin", area, ui);
     let is_low = inner.height <= LOW;
-    let face = face_in(if is_low {
+    let room = if is_low {
         Rect { width: inner.width.saturating_sub(WORDS_WIDTH), ..inner }
     } else {
         Rect { height: inner.height - WORDS, ..inner }
-    });
+    };
+    let face = face_in(room, ui.caps);
     let has_spin = !spin.word.is_empty();
     draw_face(has_spin.then_some(spin.mark), None, face, ui);
     // Whole numbers: few frames change them.
@@ -40,7 +41,7 @@ pub fn draw_spin(spin: &Spin, area: Rect, ui: &mut Ui) {
         let text = text.as_str();
         if is_low {
             let room = usize::from(inner.right() - face.right());
-            let text = if room > text.len() { text } else { text.trim_end_matches(" side") };
+            let text = if room > text.len() + 1 { text } else { text.trim_end_matches(" side") };
             // The last column stays free if possible.
             write_right(ui.buffer, face.right(), inner.right() - u16::from(room > text.len()), row, text, style);
         } else {

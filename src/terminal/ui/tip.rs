@@ -39,7 +39,7 @@ pub fn draw_titled_tip(title: String, cue: Option<&CueInputs>, table: &Table, ar
     let inner = draw_title(title, area, ui);
     // In ball radii, right and up as seen by the shooter: positive `a` is on the left.
     let tip = cue.map(|cue| DVec2::new(-cue.a, cue.b));
-    draw_face(tip, Some(table.miscue_limit.sqrt()), face_in(inner), ui);
+    draw_face(tip, Some(table.miscue_limit.sqrt()), face_in(inner, ui.caps), ui);
 }
 
 /// Two rows with the tip contact on a ball of this `radius`, m: the direction from the centre, and the distance in `unit`. The direction is
@@ -71,7 +71,7 @@ pub fn draw_face(spot: Option<DVec2>, limit: Option<f64>, face: Rect, ui: &mut U
         // Lines instead of areas: the rim, the limit circle, and the centre.
         let (letter, style) = match limit {
             _ if (radius - (1.0 - cell / 2.0)).abs() <= 0.6 * cell => ('o', ui.theme.text()),
-            Some(limit) if (radius - limit).abs() <= 0.5 * cell => ('.', ui.theme.faint()),
+            Some(limit) if (radius - limit).abs() <= 0.51 * cell => ('.', ui.theme.faint()),
             _ if radius < 0.5 * cell => ('+', ui.theme.faint()),
             _ => return None,
         };

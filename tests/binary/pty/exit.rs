@@ -7,17 +7,6 @@ use portable_pty::CommandBuilder;
 use crate::terminal::{QUIET_TIME, START_TEXT, Session, TIMEOUT, carom};
 
 #[test]
-fn signals_restore_the_terminal_and_end_the_program() {
-    for name in ["TERM", "INT", "HUP", "QUIT"] {
-        let mut session = Session::start(80, 24);
-        session.wait_for(START_TEXT);
-        session.signal(name);
-        let status = session.assert_clean_exit();
-        assert!(!status.success(), "{name}: {status:?}");
-    }
-}
-
-#[test]
 fn the_session_can_be_resumed_and_warnings_are_logged() {
     let home = tempfile::tempdir().unwrap();
     let start = || Session::start_at(home.path(), carom(), 80, 24);

@@ -28,7 +28,7 @@ fn every_setting_is_listed_and_the_selected_one_explained() {
     let player = with(TRUE_COLOUR, "skill = \"a=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1\"\nspeed = 2.0\n");
     check("values", &player);
     let skill = player.press("Down Down Down Down Down");
-    skill.shows(&["2 changed", "Who plays: the errors that the", "standard errors in mm"]);
+    skill.shows(&["2 changed", "Who plays: the errors that the", "errors in mm"]);
     let speed = with(NO_COLOUR, "speed = 2.0\n").press("End Up Up Up Up");
     speed.is_plain().shows(&["1 changed", "Playback speed of shots", "Accepted: 0.1, 0.25, 0.5, 1, 2, 4"]);
     with(ASCII, "speed = 2.0\n").is_plain().shows(&["> theme", "Colours of the screen."]);

@@ -129,20 +129,18 @@ impl CoachPage {
             Action::NextInfoPanel => self.info = neighbour(&InfoPanel::ALL, self.info, 1),
             Action::CycleShot(shots) => self.choose_shot(|advised| advised.cycle(shots)),
             Action::ShowShot(shot) => self.choose_shot(|advised| advised.show_shot(shot)),
-            Action::WhatIf => return self.start_own_stroke(0),
+            Action::WhatIf => return self.start_own_stroke(Vec::new()),
             Action::LeaveStroke => self.leave_own_stroke(),
             Action::ChangeStroke(change) => return self.change_stroke(change),
             Action::TypeStroke => self.ask_stroke(),
             Action::UndoStroke => return self.step_stroke_history(OwnStroke::undo),
             Action::RedoStroke => return self.step_stroke_history(OwnStroke::redo),
-            // The app resumes the practice session.
-            Action::Resume => drop(self.resume()),
             Action::UseBundledPolicies => {
                 self.set_query(&self.table().clone(), CoachQuery { policy: None, ..self.query.clone() });
             }
             Action::Playback(key) => self.apply_playback_key(key),
-            // The app opens the other page.
-            Action::OpenDrills | Action::OpenFilms | Action::OpenTraining => {}
+            // The app opens the other page, or resumes the session.
+            Action::OpenDrills | Action::OpenFilms | Action::OpenTraining | Action::Resume => {}
         }
         None
     }

@@ -30,8 +30,8 @@ pub struct OwnStrokeState {
     pub(super) what_if: WhatIf,
     /// The table, layout and query to which the stroke belongs.
     context: (Arc<Table>, Layout, CoachQuery),
-    /// Number of the player's own strokes that were played one after the other to reach this layout.
-    own_strokes_played: usize,
+    /// The player's own strokes that were played one after the other to reach this layout.
+    played: Vec<OwnStroke>,
 }
 
 impl CoachPage {
@@ -50,9 +50,9 @@ impl CoachPage {
         self.own_stroke.as_ref().map_or((false, false), |own| own.stroke.can_undo_redo())
     }
 
-    /// Starts the player's own stroke from the coach's shot, or aimed full at a ball if there is none.
-    /// `own_strokes_played` is the number of own strokes before this one.
-    pub(super) fn start_own_stroke(&mut self, own_strokes_played: usize) -> Option<Effect> {
+    /// Starts the player's own stroke from the coach's shot, or aimed full at a ball if there is none; `played` are the own strokes that
+    /// led to this layout.
+    pub(super) fn start_own_stroke(&mut self, played: Vec<OwnStroke>) -> Option<Effect> {
         let situation = self.situation();
         let (cue, what_if) = if let Some(coach) = self.proposal().map(|proposal| Arc::clone(&proposal.shot)) {
             (coach.cue, Ok(WhatIf::new(coach, situation)))
@@ -64,8 +64,7 @@ impl CoachPage {
         match what_if {
             Ok(what_if) => {
                 let context = (Arc::clone(&self.history.present().table), *self.layout(), self.query.clone());
-                self.own_stroke =
-                    Some(OwnStrokeState { stroke: OwnStroke::new(cue), what_if, context, own_strokes_played });
+                self.own_stroke = Some(OwnStrokeState { stroke: OwnStroke::new(cue), what_if, context, played });
             }
             Err(error) => return self.refuse(error),
         }
@@ -76,7 +75,7 @@ impl CoachPage {
 
     /// Number of the player's own strokes that led to the current layout.
     pub(super) fn own_strokes_played(&self) -> usize {
-        self.own_stroke.as_ref().map_or(0, |own| own.own_strokes_played)
+        self.own_stroke.as_ref().map_or(0, |own| own.played.len())
     }
 
     /// Continues with the layout after the player's own stroke and starts the next stroke.
@@ -85,16 +84,19 @@ impl CoachPage {
         if let Err(error) = end.validate(self.table()) {
             return self.refuse(error);
         }
-        let own_strokes_played = self.own_strokes_played() + 1;
+        let OwnStrokeState { stroke, mut played, .. } = self.own_stroke.take()?;
+        played.push(stroke);
         self.set_layout(end);
-        self.start_own_stroke(own_strokes_played)
+        self.start_own_stroke(played)
     }
 
-    /// Puts the balls back to the positions before the player's last own stroke.
+    /// Puts the balls back to the positions before the player's last own stroke, with that stroke.
     pub(super) fn undo_own_stroke(&mut self) -> Option<Effect> {
-        let own_strokes_played = self.own_strokes_played().checked_sub(1)?;
+        let mut played = std::mem::take(&mut self.own_stroke.as_mut()?.played);
+        let stroke = played.pop()?;
         self.undo();
-        self.start_own_stroke(own_strokes_played)
+        self.start_own_stroke(played);
+        self.simulate_stroke(stroke)
     }
 
     /// Discards the player's own stroke; the coach's shot stays unchanged.

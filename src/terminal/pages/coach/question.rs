@@ -31,12 +31,8 @@ impl Question {
     pub fn text(&self, names: [&str; 3], selected: usize) -> String {
         match self {
             Self::Positions(_) => {
-                let [cue, other, _] = names;
-                let one = names[selected];
-                format!(
-                    "where? 2d 0.5d for {one}; three such places for {cue}, {other} and red; red 4d 3.5d for red; \
-                     or a share code: "
-                )
+                // In one row of 80 columns, so that it does not cover the positions.
+                format!("where is {}? (2d 0.5d, or all three, or a share code) ", names[selected])
             }
             Self::Stroke(_) => STROKE_PROMPT.to_owned(),
             Self::Title(..) => "save the balls as (a title, and #tags if you like): ".to_owned(),

@@ -40,11 +40,6 @@ pub struct FollowedPlayer {
 }
 
 impl FollowedPlayer {
-    /// Creates the state before the shared table has been read.
-    pub const fn new(name: String, folder: PathBuf) -> Self {
-        Self { name, folder, seen: FollowedTableState::Nothing }
-    }
-
     /// The reason why there is no table to show; `None` if there is one.
     pub fn empty_reason(&self) -> Option<String> {
         let name = &self.name;
@@ -143,7 +138,7 @@ impl CoachPage {
 
     /// Switches the page to the shared table of another player.
     pub fn follow(&mut self, name: String, folder: PathBuf) {
-        self.sharing = Sharing::Following(FollowedPlayer::new(name, folder));
+        self.sharing = Sharing::Following(FollowedPlayer { name, folder, seen: FollowedTableState::Nothing });
     }
 
     /// Handles a new state of the followed table.

@@ -59,8 +59,8 @@ pub enum DrillAction {
     TypeStroke,
     /// Copies the model shot into the stroke; the model shot stays on the table for comparison.
     WhatIf,
-    /// Ends the comparison with the model shot.
-    LeaveWhatIf,
+    /// Takes the model shot off the table.
+    HideModelShot,
     /// Plays the stroke.
     Play,
     /// Goes on to the next repetition, or the next exercise of an exam.
@@ -140,10 +140,10 @@ pub enum DrillCondition {
     HasModelShot,
     /// If the model shot is known, while the player sets the stroke and no comparison is shown.
     ModelShotCopyable,
-    /// While the model shot is compared with the stroke.
-    Comparing,
-    /// While there is no such comparison.
-    NotComparing,
+    /// While the model shot is on the table, alone or next to the stroke.
+    ModelShotShown,
+    /// While it is not.
+    ModelShotHidden,
     /// If a record from a real table can be undone.
     Undoable,
     /// If the stroke was changed.
@@ -304,9 +304,9 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::ChangeStroke, W::Aiming, 
     bind(Position, W::Free, &[letter('c', A::SendToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
     bind(Position, W::Restartable, &[letter('p', A::NextPlayer)], None, "choose the player whose errors are played"),
     bind(Score, W::Always, &[letter('r', A::OpenRecord)], Some(("record", 1)), "the record of this exercise"),
-    bind(Program, W::Comparing, &[key(Esc, A::LeaveWhatIf)], Some(("model shot off", 1)),
+    bind(Program, W::ModelShotShown, &[key(Esc, A::HideModelShot)], Some(("hide shot", 1)),
         "take the model shot off the table; your stroke stays as it is set"),
-    bind(Program, W::NotComparing, &[key(Esc, A::Back)], Some(("back", 1)), "back to the previous page"),
+    bind(Program, W::ModelShotHidden, &[key(Esc, A::Back)], Some(("back", 1)), "back to the previous page"),
 ]);
 
 /// Key bindings of an exam's result.

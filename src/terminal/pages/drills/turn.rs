@@ -224,6 +224,11 @@ impl Turn {
         self.model_shot().filter(|_| self.shows_hint)
     }
 
+    /// Whether the model shot is on the table, alone or next to the player's stroke. At its turn, the coach's shot stays there.
+    pub(super) fn shows_model_shot(&self) -> bool {
+        self.what_if().is_some() || self.hint().is_some() && !self.is_coachs_turn()
+    }
+
     /// The shot on the table: the player's own in a comparison, else the model shot if it is shown, else the watched one.
     pub fn shot(&self) -> Option<&Shot> {
         if let Some(what_if) = self.what_if() {

@@ -14,6 +14,8 @@ use crate::{
 
 /// The reason why a key is disabled before the result of a stroke has been shown.
 pub(super) const IS_RUNNING: &str = "the shot is running; Enter skips to its end";
+/// The reason why a key waits for the model shot to go.
+const MODEL_SHOT_OFF: &str = "Esc takes the model shot off the table first";
 /// The warning before a stroke is played that the player has not changed.
 const UNCHANGED: &str = "the stroke is unchanged; Space again plays it anyway";
 
@@ -88,14 +90,12 @@ impl Turn {
             (_, Condition::HasModelShot) => refuse(self.session.is_exam(), "an exam gives no hints")
                 .or(refuse(matches!(self.model_shot, ModelShotState::Pending), "the coach is still thinking"))
                 .or(refuse(self.model_shot().is_none(), "the coach has found no shot that makes the point")),
-            (_, Condition::NotComparing) => {
-                refuse(self.what_if().is_some(), "Esc takes the model shot off the table first")
-            }
+            (_, Condition::ModelShotHidden) => refuse(self.shows_model_shot(), MODEL_SHOT_OFF),
             (_, Condition::ModelShotCopyable) => self
                 .disabled_reason(Condition::HasModelShot)
                 .or_else(|| self.disabled_reason(Condition::Aiming))
-                .or_else(|| self.disabled_reason(Condition::NotComparing)),
-            (_, Condition::Comparing) => refuse(self.what_if().is_none(), "the model shot is not next to your stroke"),
+                .or(refuse(self.what_if().is_some(), MODEL_SHOT_OFF)),
+            (_, Condition::ModelShotShown) => refuse(!self.shows_model_shot(), "the model shot is not on the table"),
             (Stage::Aiming, Condition::StrokeUndoable) => {
                 refuse(!self.stroke.can_undo_redo().0, "the stroke is unchanged")
             }
@@ -165,7 +165,7 @@ impl DrillsPage {
             Action::UndoStroke => return tasks_effect(turn.step_history(OwnStroke::undo)),
             Action::RedoStroke => return tasks_effect(turn.step_history(OwnStroke::redo)),
             Action::WhatIf => return tasks_effect(turn.copy_model_shot()),
-            Action::LeaveWhatIf => turn.what_if = None,
+            Action::HideModelShot => (turn.what_if, turn.shows_hint) = (None, false),
             Action::Play => return self.play(),
             Action::Next => return self.next(),
             Action::Playback(key) => self.apply_playback_key(key),

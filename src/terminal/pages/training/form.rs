@@ -12,14 +12,13 @@ use crate::{
         run::{list::Summary, run_name},
     },
     printing::{shell_word, timestamp},
+    table::PRESETS,
     terminal::{
         Launch,
         pages::{neighbour, wrapping_index},
     },
 };
 
-/// Tables on which a run can be started.
-pub const TABLES: [&str; 3] = ["match", "textbook", "thesis"];
 /// Numbers of shots to choose from; others can be typed.
 const BUDGETS: [u64; 9] =
     [100_000, 300_000, 1_000_000, 3_000_000, 5_000_000, 10_000_000, 30_000_000, 100_000_000, 300_000_000];
@@ -100,7 +99,7 @@ impl Form {
             is_fresh: true,
             agent: 0,
             reward: Reward::default(),
-            table: TABLES[0],
+            table: PRESETS[0],
             shots: "5000000".into(),
             seed: "1".into(),
             from: None,
@@ -124,7 +123,7 @@ impl Form {
                 self.from = None;
             }
             Field::Reward => self.reward = neighbour(&Reward::ALL, self.reward, step),
-            Field::Table => self.table = neighbour(&TABLES, self.table, step),
+            Field::Table => self.table = neighbour(&PRESETS, self.table, step),
             Field::Shots => {
                 let shots = self.shots.parse::<u64>().unwrap_or(0);
                 let next = if step > 0 {

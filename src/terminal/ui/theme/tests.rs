@@ -179,12 +179,9 @@ fn balls_cloth_and_messages_are_distinguishable_for_colour_blind_people() {
 }
 
 #[test]
-fn theme_names_parse_back_and_cycle() {
-    let mut name = ThemeName::default();
-    for _ in ThemeName::ALL {
+fn theme_names_parse_back() {
+    for name in ThemeName::ALL {
         assert_eq!(name.name().parse(), Ok(name));
-        name = name.next();
     }
-    assert_eq!(name, ThemeName::default());
     assert!("neon".parse::<ThemeName>().unwrap_err().to_string().contains("high-contrast"));
 }

@@ -44,13 +44,6 @@ impl ThemeName {
             Self::Mono => "mono",
         }
     }
-
-    /// The next theme, wrapping at the end.
-    #[must_use]
-    pub fn next(self) -> Self {
-        let place = Self::ALL.iter().position(|one| *one == self).unwrap_or(0);
-        Self::ALL[(place + 1) % Self::ALL.len()]
-    }
 }
 
 impl fmt::Display for ThemeName {

@@ -14,10 +14,7 @@ use crate::{
         Proposal,
         pages::coach::{
             CoachPage,
-            view::{
-                shot::WIDE,
-                words::{place_along, to_hundredths},
-            },
+            view::{shot::WIDE, words::place_along},
         },
         ui::{Ui, columns, draw_title, shorten, to_displayable},
         words::{chance_words, fixed, percent, speed_words},
@@ -75,22 +72,20 @@ pub fn chance_span(proposal: &Proposal, is_wide: bool, ui: &Ui) -> Span<'static>
 
 type Row = (&'static str, String);
 
-/// Formats a position along a cushion before the first ball, in diamonds.
-fn to_tenths(diamonds: f64) -> String {
-    format_trimmed(diamonds, 1)
+/// Formats a position along a cushion before the first ball.
+fn cushion_place(coach: &CoachPage, diamonds: f64) -> String {
+    coach.units.position.words(diamonds, coach.table().diamond(), 1)
 }
 
 /// The rows of a narrow card, at most 14 columns wide, the more important rows first.
 fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
     let words = &proposal.shot.words;
     // There is no room for the unit.
-    let bare = |diamonds: f64, format_diamonds: fn(f64) -> String| {
-        place_along(coach, diamonds, format_diamonds).replace(" mm", "")
-    };
+    let bare = |place: String| place.replace(" mm", "");
     let mut rows = Vec::new();
     rows.extend(words.before.first().map(|cushion| {
         // The card then has no row for the side on which the ball is hit; the sentence in the other panel contains it.
-        format!("off {} {}", cushion.rail.name(), bare(cushion.diamond, to_tenths))
+        format!("off {} {}", cushion.rail.name(), bare(cushion_place(coach, cushion.diamond)))
     }));
     match words.first {
         None => rows.push("no ball".to_owned()),
@@ -109,7 +104,7 @@ fn narrow_rows(proposal: &Proposal, coach: &CoachPage) -> Vec<Row> {
         degrees if words.is_level => format!("low cue {degrees}\u{b0}"),
         degrees => format!("raised {degrees}\u{b0}"),
     });
-    let mark = |mark: RailPoint| format!("{} {}", mark.rail.name(), bare(mark.diamond, to_hundredths));
+    let mark = |mark: RailPoint| format!("{} {}", mark.rail.name(), bare(place_along(coach, mark.diamond)));
     rows.extend([format!("{} to", mark(words.behind)), mark(words.ahead)]);
     rows.into_iter().map(|row| ("", row)).collect()
 }
@@ -129,7 +124,7 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) 
     );
     // The cushions before the first ball share one row.
     let cushions = words.before.split_first().map(|(first, others)| {
-        let first = format!("{} {}", first.rail.name(), place_along(coach, first.diamond, to_tenths));
+        let first = format!("{} {}", first.rail.name(), cushion_place(coach, first.diamond));
         others.iter().fold(first, |words, other| format!("{words}, {}", other.rail.name()))
     });
     let english = match words.english {
@@ -144,8 +139,7 @@ fn wide_rows(proposal: &Proposal, coach: &CoachPage, width: usize, most: usize) 
         degrees => format!("raised {degrees}\u{b0}"),
     };
     // "nose" is written because diamond systems count on the wood behind the noses.
-    let mark =
-        |mark: RailPoint| format!("{} nose {}", mark.rail.name(), place_along(coach, mark.diamond, to_hundredths));
+    let mark = |mark: RailPoint| format!("{} nose {}", mark.rail.name(), place_along(coach, mark.diamond));
     let lengths = lengths_words(words.table_lengths);
     let speed = format!("{lengths}, {}", speed_words(proposal.shot.cue.speed, coach.units.length, 2));
     let whole_speed = format!("{}, {speed}", pace_word(words.table_lengths));

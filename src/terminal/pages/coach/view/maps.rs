@@ -70,7 +70,7 @@ pub fn draw_tip_map(map: &Map, cue: &CueInputs, table: &Table, unit: LengthUnit,
     let inner = draw_title(title, area, ui);
     // Offset of the tip from the centre of the map, as a fraction of half the map; positive `a` is on the left.
     let share = 1e3 * table.radius / reach;
-    let face = face_in(inner);
+    let face = face_in(inner, ui.caps);
     let tip = RoundSpot::new(share * DVec2::new(-cue.a, cue.b), TIP_RADIUS, face, ui.caps);
     draw_signs(face, ui, |x, y, _| match () {
         () if x.hypot(y) > 1.0 => None,

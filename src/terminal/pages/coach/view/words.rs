@@ -68,25 +68,19 @@ fn titles(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [Vec<Span<'static>
     [title(true, Some(&long)), title(true, Some(&short)), title(false, Some(&short)), title(true, None)]
 }
 
-/// Formats a position along a cushion in the player's unit; `format_diamonds` formats a number of diamonds.
-pub fn place_along(coach: &CoachPage, diamonds: f64, format_diamonds: impl FnOnce(f64) -> String) -> String {
+/// Formats a point of aim on a cushion in the player's unit.
+pub fn place_along(coach: &CoachPage, diamonds: f64) -> String {
     match coach.units.position {
-        PositionUnit::Diamonds => format_diamonds(diamonds),
+        PositionUnit::Diamonds => fixed(diamonds, 2),
         PositionUnit::Mm => format!("{} mm", fixed(1e3 * coach.table().diamond() * diamonds, 0)),
     }
-}
-
-/// Formats the diamonds of a point of aim.
-pub fn to_hundredths(diamonds: f64) -> String {
-    fixed(diamonds, 2)
 }
 
 /// The line of aim in a long and a short form: the points behind and ahead of the cue ball, as diamonds or millimetres along the noses
 /// of the rails. Both forms say "noses", because diamond systems count on the wood behind them.
 fn aim_words(coach: &CoachPage, proposal: &Proposal, ui: &Ui) -> [String; 2] {
     let words = &proposal.shot.words;
-    let [behind, ahead] =
-        [words.behind, words.ahead].map(|mark| (mark.rail.name(), place_along(coach, mark.diamond, to_hundredths)));
+    let [behind, ahead] = [words.behind, words.ahead].map(|mark| (mark.rail.name(), place_along(coach, mark.diamond)));
     let arrow = ui.caps.pick("→", ">");
     let line = format!("{} {} {arrow} {} {}", behind.0, behind.1, ahead.0, ahead.1);
     [format!("aim {line}, at noses"), format!("noses {line}")]

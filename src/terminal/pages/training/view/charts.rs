@@ -1,11 +1,9 @@
 //! The charts of a watched run and of the run to compare with.
 
-use std::ops::RangeInclusive;
-
 use ratatui::layout::Rect;
 
 use crate::{
-    learning::run::{follow::Followed, history::Point, quantity::Quantity},
+    learning::run::{follow::Followed, quantity::Quantity},
     terminal::{
         pages::training::{Watch, view::panes::grid},
         ui::{
@@ -35,8 +33,9 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
     for (&n, (place, is_last)) in drawn.iter().zip(grid(drawn.len(), area)) {
         let quantity = Quantity::ALL[n];
         let title = title(n, watch);
-        let own = points(&watch.own.run, quantity, &range);
-        let other = watch.other.as_ref().map(|other| points(&other.run, quantity, &range));
+        let points = |run: &Followed| run.history.points(quantity, range.clone());
+        let own = points(&watch.own.run);
+        let other = watch.other.as_ref().map(|other| points(&other.run));
         let mut curves = Vec::new();
         if let (Some(other), Some(points)) = (&watch.other, &other) {
             curves.push(Curve {
@@ -77,10 +76,6 @@ fn missing(run: &Followed, quantity: Quantity) -> Option<&'static str> {
         Quantity::Exploration if last.exploration.is_none() => Some("the run does not report it"),
         _ => None,
     }
-}
-
-fn points(run: &Followed, quantity: Quantity, range: &RangeInclusive<f64>) -> Vec<Point> {
-    run.history.points(quantity, range.clone())
 }
 
 /// The title of chart `n`: its key and quantity. The held-out measurement is called a reward if the run's reward is not success or failure.
