@@ -76,10 +76,16 @@ pub fn export(args: &ExportArgs) -> Result<(), Failure> {
 pub fn import(args: &ImportArgs) -> Result<(), Failure> {
     let file = args.file.display();
     let mut text = String::new();
+    let most = storage::MAX_PRACTICE_FILE;
     let read = if args.file == Path::new("-") {
-        io::stdin().take(storage::MAX_PRACTICE_FILE).read_to_string(&mut text).map(|_| ())
+        match io::stdin().take(most + 1).read_to_string(&mut text) {
+            Ok(bytes) if bytes as u64 > most => {
+                Err(io::Error::other(format!("it is longer than {most} bytes, the most that is accepted")))
+            }
+            read => read.map(drop),
+        }
     } else {
-        storage::read_text(&args.file, storage::MAX_PRACTICE_FILE).map(|read| text = read)
+        storage::read_text(&args.file, most).map(|read| text = read)
     };
     read.map_err(|error| Failure::failed(format_args!("{file} cannot be read: {error}")))?;
     let practice = Practice::parse(&text).map_err(|error| Failure::wrong_input(format_args!("{file}: {error}")))?;

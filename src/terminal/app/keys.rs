@@ -167,7 +167,7 @@ impl App {
         if self.command_palette.is_some() { KeyContext::CommandPalette } else { self.page_key_context() }
     }
 
-    /// Like [`Self::place`], but ignoring the command palette.
+    /// Like [`Self::key_context`], but ignoring the command palette.
     pub(super) fn page_key_context(&self) -> KeyContext {
         let asked = self.page().open_question(self.caps).filter(|asked| self.overlay.is_none() && !asked.has_own_keys);
         if let Some(asked) = asked {

@@ -246,6 +246,7 @@ impl Conversation {
             Command::NextPosition => {
                 let shot = self.shots.get(self.chosen).ok_or(NO_SHOT)?;
                 let end = self.recorded(shot)?.final_layout();
+                end.validate(self.table()).map_err(|error| error.for_player(self.cue_ball()).to_string())?;
                 self.place(end)
             }
             Command::Films => film::list(),

@@ -46,6 +46,11 @@ impl Canvas {
         (i32::from(self.area.width * self.grid.0), i32::from(self.area.height * self.grid.1))
     }
 
+    /// The cell of the sub-pixel at `x`, `y`, from the upper left one.
+    pub fn cell_of(&self, x: i32, y: i32) -> (i32, i32) {
+        (x.div_euclid(i32::from(self.grid.0)), y.div_euclid(i32::from(self.grid.1)))
+    }
+
     /// Colours the sub-pixel at `x`, `y` if it is on the canvas.
     pub fn set(&mut self, x: i32, y: i32, ink: Ink) {
         let (width, height) = self.size();

@@ -1,5 +1,7 @@
 //! Sprites of the balls in sub-pixels. The shape is always the same, wherever the ball lies.
 
+use std::collections::HashSet;
+
 use glam::DVec2;
 
 use crate::terminal::{
@@ -77,9 +79,41 @@ impl Sprite {
         (x.clamp(0, (width - self.width).max(0)), y.clamp(0, (height - self.height).max(0)))
     }
 
+    /// The cells that a ball touches whose upper left corner is at `corner`.
+    fn cells(self, canvas: &Canvas, corner: (i32, i32)) -> HashSet<(i32, i32)> {
+        let all = (0..self.height).flat_map(|y| (0..self.width).map(move |x| (x, y)));
+        all.filter(|&(x, y)| self.covers(x, y)).map(|(x, y)| canvas.cell_of(corner.0 + x, corner.1 + y)).collect()
+    }
+
+    /// The upper left corners of balls at rest in these places. A cell has room for the cloth and one ball; a ball that shares a cell with
+    /// one before it is drawn one sub-pixel further, if that helps.
+    fn corners(self, canvas: &Canvas, mapping: &Mapping, places: impl Iterator<Item = DVec2>) -> Vec<(i32, i32)> {
+        let (width, height) = canvas.size();
+        let is_inside =
+            |(x, y): &(i32, i32)| (0..=width - self.width).contains(x) && (0..=height - self.height).contains(y);
+        let mut taken = HashSet::new();
+        let free = |place: DVec2| {
+            let (left, top) = self.corner(canvas, mapping, place);
+            let near = [(0, 0), (0, 1), (0, -1), (1, 0), (-1, 0)].map(|(x, y)| (left + x, top + y));
+            let is_free = |corner: &(i32, i32)| self.cells(canvas, *corner).is_disjoint(&taken);
+            let corner = near.into_iter().filter(is_inside).find(is_free).unwrap_or((left, top));
+            taken.extend(self.cells(canvas, corner));
+            corner
+        };
+        places.map(free).collect()
+    }
+
+    /// Draws balls at rest, the uppermost first.
+    pub fn stamp_at_rest(self, canvas: &mut Canvas, mapping: &Mapping, balls: &[(DVec2, Ink)]) {
+        let corners = self.corners(canvas, mapping, balls.iter().map(|(place, _)| *place));
+        for (corner, (_, ink)) in corners.into_iter().zip(balls).rev() {
+            self.draw(canvas, corner, *ink, |_, _| true);
+        }
+    }
+
     /// Draws the ball.
     pub fn stamp(self, canvas: &mut Canvas, mapping: &Mapping, place: DVec2, ink: Ink) {
-        self.each_pixel(canvas, mapping, place, ink, |_, _| true);
+        self.draw(canvas, self.corner(canvas, mapping, place), ink, |_, _| true);
     }
 
     /// Whether the sprite is large enough for its outline to differ from the full ball.
@@ -93,18 +127,10 @@ impl Sprite {
             return;
         }
         let inside = |x, y| [(1, 0), (-1, 0), (0, 1), (0, -1)].iter().all(|(dx, dy)| self.covers(x + dx, y + dy));
-        self.each_pixel(canvas, mapping, place, ink, |x, y| !inside(x, y));
+        self.draw(canvas, self.corner(canvas, mapping, place), ink, |x, y| !inside(x, y));
     }
 
-    fn each_pixel(
-        self,
-        canvas: &mut Canvas,
-        mapping: &Mapping,
-        place: DVec2,
-        ink: Ink,
-        keep: impl Fn(i32, i32) -> bool,
-    ) {
-        let (left, top) = self.corner(canvas, mapping, place);
+    fn draw(self, canvas: &mut Canvas, (left, top): (i32, i32), ink: Ink, keep: impl Fn(i32, i32) -> bool) {
         for y in 0..self.height {
             for x in 0..self.width {
                 if self.covers(x, y) && keep(x, y) {
@@ -139,6 +165,24 @@ mod tests {
             sprite(192),
             ["..#####..", ".#######.", "#########", "#########", "#########", ".#######.", "..#####.."]
         );
+    }
+
+    #[test]
+    fn balls_apart_share_no_cell() {
+        let mapping = Mapping::fit(&Table::default(), Rect::new(0, 0, 62, 18));
+        let sprite = Sprite::new(&mapping, Glyphs::Sextant);
+        let canvas = Canvas::new(mapping.bed, Glyphs::Sextant, ratatui::style::Color::Blue);
+        let mut shifted = 0;
+        // Nearer balls would have to be drawn a whole ball away.
+        for millimetres in (170..400).flat_map(|distance| [distance, -distance]) {
+            let places = [DVec2::ZERO, DVec2::new(0.0, 1e-3 * f64::from(millimetres))];
+            let corners = sprite.corners(&canvas, &mapping, places.into_iter());
+            let [one, other] = [0, 1].map(|ball| sprite.cells(&canvas, corners[ball]));
+            assert!(one.is_disjoint(&other), "{millimetres} mm: {corners:?}");
+            assert_eq!(corners[0], sprite.corner(&canvas, &mapping, places[0]), "the first ball stays");
+            shifted += usize::from(corners[1] != sprite.corner(&canvas, &mapping, places[1]));
+        }
+        assert!(shifted > 0);
     }
 
     #[test]

@@ -214,7 +214,9 @@ fn a_skipped_test_does_not_count_until_undo() {
 #[test]
 fn long_reports_on_the_marks_are_paged() {
     let odd = |player: Player, stop: &str| enter(player.press("Home"), &["9.6", stop, "2", ""]);
-    let values = ["1", "2", "7"].into_iter().fold(measured(), odd).press("Tab");
+    let entered = ["1", "2", "7"].into_iter().fold(measured(), odd);
+    entered.says("stroke 4 of slow-roll looks misread: you marked");
+    let values = entered.press("Tab");
     let first = values.text(80, 24);
     assert!(first.contains("values, 1 of 2: PgDn"), "{first}");
     let second = values.press("PageDown");

@@ -137,6 +137,8 @@ fn long_texts_are_paged() {
 fn the_hint_shows_the_shot_and_marks_the_attempt_helped() {
     let player = Player::practising(TRUE_COLOUR).press("v");
     check("hint", &player);
+    let hidden = Player::practising(TRUE_COLOUR).press("v Esc");
+    hidden.shows(&["From the opening", "Esc back"]).does_not_show("hide shot");
     let player = player.press("Space Space").wait(60.0);
     assert!(player.store().sessions().items[0].attempts[0].helped);
     player.says("1 of your attempts with");

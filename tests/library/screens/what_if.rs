@@ -75,9 +75,12 @@ fn without_advice_a_stroke_starts_full_at_a_ball() {
     let back = back.press("h");
     assert!(back.app.coach.layout().balls[0].x < before, "balls are placed again");
     let placed = *back.app.coach.layout();
-    let undone = back.press("w n n u");
+    let undone = back.press("w Up Up n n u");
     assert_ne!(*undone.app.coach.layout(), placed);
-    let undone = undone.press("z u");
+    let undone = undone.press("u");
+    let speed = |player: &Player| player.app.coach.what_if().unwrap().shot.cue.speed;
+    assert!((speed(&undone) - 2.7).abs() < 1e-9, "the stroke that was played is back");
+    let undone = undone.press("u u");
     assert_eq!(
         (undone.app.key_context(), *undone.app.coach.layout()),
         (KeyContext::OwnStroke, placed),
@@ -161,7 +164,7 @@ fn the_success_rate_of_a_stroke_comes_from_the_coach() {
 #[test]
 fn copying_the_model_shot_marks_the_attempt_helped() {
     let player = Player::practising(TRUE_COLOUR).press("w");
-    player.shows(&["You: as the model shot", "model shot", "Esc model shot off"]);
+    player.shows(&["You: as the model shot", "model shot", "Esc hide shot"]);
     assert!(player.text(120, 40).contains("You "), "the success rate is displayed");
     let player = player.press("S-Left Up");
     player.shows(&["You: ", "harder by "]);

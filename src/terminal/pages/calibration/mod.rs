@@ -208,7 +208,13 @@ impl CalibrationPage {
                 // Read the file again, because another program may have changed it.
                 return vec![CalibrationTask::Read(path)];
             }
-            CalibrationReport::Entries(..) => {}
+            // The other sheet keeps its undo step; it is read and evaluated again when it is shown.
+            CalibrationReport::Entries(path, outcome) => {
+                let sheet = [&mut self.all, &mut self.daily].into_iter().find(|sheet| sheet.path == path);
+                if let (Some(sheet), Ok(kept)) = (sheet, outcome) {
+                    sheet.set_entries(kept.entries, kept.back);
+                }
+            }
             CalibrationReport::Evaluated(is_daily, number, outcome) => {
                 let sheet = if is_daily { &mut self.daily } else { &mut self.all };
                 sheet.on_evaluated(number, outcome);

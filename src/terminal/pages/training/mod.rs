@@ -238,13 +238,14 @@ impl TrainingPage {
 
     fn on_policy_saved(&mut self, keeping: SavePolicyTask, outcome: Result<bool, String>) {
         let name = keeping.name;
+        let is_watched = self.watch.as_ref().is_some_and(|watch| keeping.from.starts_with(watch.folder()));
         match outcome {
             Ok(true) => {
                 let call = shell_word(&name);
                 self.message = Some(Message::good(format!("kept; use them with: carom recommend --policy {call}")));
             }
             // Ask only if the run is still watched and no question is open; otherwise show a message.
-            Ok(false) if self.page() == TrainingContext::Watch && self.question.is_none() => {
+            Ok(false) if self.page() == TrainingContext::Watch && self.question.is_none() && is_watched => {
                 self.question = Some(Question::Replace(name));
             }
             Ok(false) => self.message = Some(Message::warning(name_taken_message(&name))),

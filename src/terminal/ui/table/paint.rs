@@ -89,8 +89,15 @@ fn in_blocks(picture: &TablePicture, ui: &mut Ui) {
         let ink = Ink { color: theme.shadow(), weight: RING_WEIGHT };
         picture.sprite.stamp(&mut canvas, mapping, picture.balls[ball], ink);
     }
+    let ink_of = |ball: usize| Ink { color: theme.balls[ball], weight: BALL_WEIGHT };
+    if !picture.view.is_moving && picture.heights == [0.0; BALLS] {
+        let balls: Vec<_> =
+            picture.upwards().into_iter().rev().map(|ball| (picture.balls[ball], ink_of(ball))).collect();
+        picture.sprite.stamp_at_rest(&mut canvas, mapping, &balls);
+        return canvas.paint(ui.buffer);
+    }
     for ball in picture.upwards() {
-        let ink = Ink { color: theme.balls[ball], weight: BALL_WEIGHT };
+        let ink = ink_of(ball);
         let height = picture.heights[ball];
         let sprite = if height > 0.0 { picture.sprite.raised(height, mapping.radius, glyphs) } else { picture.sprite };
         sprite.stamp(&mut canvas, mapping, picture.lifted(ball), ink);

@@ -43,7 +43,7 @@ fn a_late_save_result_does_not_replace_an_open_prompt() {
     let mut player = at_coach().press("s").type_in("mine").press("Enter p").type_in("2d,");
     let position = player.store().positions().items[0].clone();
     player.app.coach.saved(Box::new(position), Ok(false));
-    player.says("mine is not saved: there is another of this name").says("code: 2d,");
+    player.says("mine is not saved: there is another of this name").says("share code)").says("2d,");
     assert_eq!(player.app.key_context(), KeyContext::Question { is_typed: true });
 }
 

@@ -3,7 +3,7 @@
 use ratatui::layout::Rect;
 
 use crate::{
-    coach::words::{TipUnit, format_trimmed, lengths_words, pace_word},
+    coach::words::{TipUnit, lengths_words},
     terminal::{
         Shot,
         pages::coach::{
@@ -12,12 +12,11 @@ use crate::{
                 draw_listed,
                 panes::Panes,
                 shot::{WIDE, draw_shot, shot_title},
-                words::place_along,
             },
         },
         shot::WhatIf,
         ui::{Ui, draw_lines, draw_spin_or_hit, draw_tip, draw_title, draw_what_if, pair, stroke_rows},
-        words::fixed,
+        words::{fixed, speed_words},
     },
 };
 
@@ -49,24 +48,22 @@ pub fn draw_own_stroke(coach: &CoachPage, what_if: &WhatIf, panes: &Panes, ui: &
 /// Draws the panel with the current inputs of the stroke, and whether it makes the point.
 fn draw_set(shot: &Shot, coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let inner = draw_title(shot_title(shot, ui), area, ui);
+    let (unit, speed) = (coach.units.length, shot.cue.speed);
     let rows = stroke_rows(&shot.cue, coach.units, coach.table().radius, ui.caps);
-    let is_wide = area.width >= WIDE;
-    let (indent, columns) = if is_wide { (1, 7) } else { (0, 6) };
-    let (ahead, lengths) = (shot.words.ahead, shot.words.table_lengths);
-    let aim = format!("{} {}", ahead.rail.name(), place_along(coach, ahead.diamond));
-    let lines = rows.map(|(name, value)| match name {
-        "aim" if is_wide => (name, aim.clone()),
-        "aim" => ("", format!("to {}", aim.replace(" mm", ""))),
-        "speed" if is_wide => (name, format!("{}, {value}", lengths_words(lengths))),
-        "speed" => ("", format!("{} {}", pace_word(lengths), format_trimmed(lengths, 1))),
-        // The coach's words call this elevation level.
-        "cue" if shot.words.has_level_cue() && value != "level" => (name, level_words(shot, is_wide, ui)),
-        // In a narrow column there is no room for " deg".
-        _ => (name, if is_wide { value } else { value.replace(" deg", "") }),
+    let (indent, columns) = if area.width >= WIDE { (1, 7) } else { (0, 6) };
+    let lines = rows.map(|(name, value)| {
+        // In a narrow column the longest name needs an extra blank, and there is no room for " deg".
+        let value = match name {
+            // With two digits before the decimal point, there is room for only one after it.
+            "speed" if columns <= 6 && unit.speed().0 * speed >= 9.995 => speed_words(speed, unit, 1),
+            "speed" if columns > 6 => format!("{value}, {}", lengths_words(shot.words.table_lengths)),
+            // The coach's words call this elevation level.
+            "cue" if shot.words.has_level_cue() && value != "level" => level_words(shot, columns > 6, ui),
+            _ if columns > 6 => value,
+            _ => value.replace(" deg", ""),
+        };
+        pair(name, columns.max(name.len() + 1), value, ui.theme)
     });
-    // The longest name needs an extra blank there.
-    let width = |name: &str| if name.is_empty() { 0 } else { columns.max(name.len() + 1) };
-    let lines = lines.map(|(name, value)| pair(name, width(name), value, ui.theme));
     draw_lines(lines, Rect { x: inner.x + indent, width: inner.width.saturating_sub(indent), ..inner }, ui);
 }
 
