@@ -10,7 +10,7 @@ use crate::{
     commands::output::plural,
     game::Rule,
     physics::{CueInputs, has_room},
-    statistics::{SuccessRate, mean_and_deviation},
+    statistics::mean_and_deviation,
     table::{Layout, Table},
 };
 
@@ -119,22 +119,19 @@ pub fn chance(
 impl Robustness {
     /// Computes the statistics from the make probability on every layout; `chances` must not be empty.
     pub fn new(skill: Skill, doubt: Doubt, chances: Vec<f64>) -> Self {
-        let (count, (mean, deviation)) = (chances.len() as f64, mean_and_deviation(&chances));
-        let spread = Z * deviation.unwrap_or(0.0) / count.sqrt();
         let mut sorted = chances.clone();
         sorted.sort_by(f64::total_cmp);
-        // If every shot is made or every shot is missed, each layout counts as one attempt.
-        let interval = if spread > 0.0 {
-            [(mean - spread).max(0.0), (mean + spread).min(1.0)]
-        } else {
-            let alike = SuccessRate::new((mean * count).round() as usize, chances.len());
-            [alike.low, alike.high]
-        };
+        // One layout at either extreme is added, as Agresti and Coull (1998) add attempts: a small sample of rates near 1 seldom contains
+        // the rare layouts that are missed, so its own deviation is too small.
+        let padded: Vec<f64> = chances.iter().copied().chain([0.0, 1.0]).collect();
+        let (middle, deviation) = mean_and_deviation(&padded);
+        let spread = Z * deviation.unwrap_or(0.0) / (padded.len() as f64).sqrt();
+        let interval = [(middle - spread).max(0.0), (middle + spread).min(1.0)];
         let is_enough = chances.len() >= MIN_LAYOUTS;
         Self {
             skill,
             doubt,
-            make_probability: mean,
+            make_probability: mean_and_deviation(&chances).0,
             make_interval: is_enough.then_some(interval),
             worst_tenth: is_enough.then(|| sorted[sorted.len() / 10]),
             reliability: None,
@@ -159,7 +156,7 @@ impl fmt::Display for Robustness {
         match (self.make_interval, self.worst_tenth) {
             (Some([low, high]), Some(worst)) => write!(
                 formatter,
-                " (95 % interval {:.2} to {:.2} %), on a tenth of the layouts less than {:.1} %",
+                " (95 % interval {:.2} to {:.2} %), on a tenth of the layouts at most {:.1} %",
                 100.0 * low,
                 100.0 * high,
                 100.0 * worst
@@ -185,6 +182,8 @@ mod tests {
         );
         let [low, high] = of(&[1.0; 20]).make_interval.unwrap();
         assert!(low < 0.9 && high == 1.0, "20 of 20 can be luck: {low}");
+        let [nearly, _] = of(&[[0.999].repeat(19), vec![1.0]].concat()).make_interval.unwrap();
+        assert!((nearly - low).abs() < 1e-2, "a rate of 99.9 % says no more than one of 100 %: {nearly}");
         let spread = of(&[0.2, 0.8].repeat(50));
         let [low, high] = spread.make_interval.unwrap();
         assert!((low - 0.441).abs() < 1e-3 && (high - 0.559).abs() < 1e-3, "{low} to {high}");

@@ -44,7 +44,11 @@ impl Examples {
         let layouts = &layouts[..layouts.len().min(COUNT)];
         let (reward, table) = (learner.plan().reward, learner.table());
         let shots = learner.choose_shots(layouts)?.into_iter().zip(layouts);
-        let shots = shots.map(|(cue, &layout)| Example { layout, cue, reward: reward.of(table, &layout, &cue) });
+        let shots = shots.map(|(cue, &layout)| Example {
+            layout,
+            cue,
+            reward: reward.of_playable(table, &layout, &cue, u32::MAX),
+        });
         Ok(Self { after: learner.shots(), shots: shots.collect() })
     }
 

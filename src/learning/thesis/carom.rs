@@ -10,7 +10,7 @@ use super::{
 use crate::{
     game::{Referee, Reward},
     learning::evaluation::CONTACT_STEPS,
-    physics::{CueInputs, strike},
+    physics::{CueInputs, has_room, strike},
     simulation::simulate,
     table::{Layout, Table},
 };
@@ -65,13 +65,17 @@ impl Carom {
 
     /// Returns the reward of `action` on a layout, without changing the game.
     pub fn reward_of(&self, layout: &Layout, action: Action) -> f64 {
-        self.reward.of(&self.table, layout, &cue_inputs(action))
+        self.reward.of_playable(&self.table, layout, &cue_inputs(action), u32::MAX)
     }
 
-    /// Plays the next shot of the game to its end; returns the reward and whether the shot was a miss.
+    /// Plays the next shot of the game to its end; returns the reward and whether the shot was a miss. A stroke for which the cue has no
+    /// room is not played.
     fn play_on(&mut self, action: Action) -> (f64, bool) {
-        let mut referee = Referee::until_end();
-        let end = simulate(&self.table, &self.layout, &strike(&self.table, &cue_inputs(action)), &mut referee);
+        let (mut referee, cue) = (Referee::until_end(), cue_inputs(action));
+        if !has_room(&self.table, &self.layout, &cue) {
+            return (0.0, true);
+        }
+        let end = simulate(&self.table, &self.layout, &strike(&self.table, &cue), &mut referee);
         let tally = referee.tally;
         self.layout = end.layout(&self.table);
         let hit = match self.reward {
@@ -85,7 +89,7 @@ impl Carom {
 
 impl Environment for Carom {
     fn reward_for(&self, action: Action) -> f64 {
-        self.reward.of_within_steps(&self.table, &self.layout, &cue_inputs(action), CONTACT_STEPS)
+        self.reward.of_playable(&self.table, &self.layout, &cue_inputs(action), CONTACT_STEPS)
     }
 
     fn hindsight_states(&self, action: Action, rng: &mut Xoshiro256PlusPlus) -> Vec<State> {

@@ -258,6 +258,18 @@ impl PlainDdpg {
     }
 }
 
+impl PlainDdpg {
+    /// Returns the actor's action with this noise, which is added in the agent's own view: a direction beyond half a turn means the same
+    /// there as on the table.
+    fn act(&self, seen: &Observation, noise: Action) -> Result<Choice, Error> {
+        let view = self.settings.fixed_view().map_or_else(View::default, |view| view(seen.state));
+        let state = Tensor::from_slice(&view.state(seen.state), (1, STATES), &Device::Cpu)?;
+        let action = self.networks.act(&state)?.flatten_all()?.to_vec1::<f32>()?;
+        let action = std::array::from_fn(|index| action[index] + noise[index]);
+        Ok(Choice { action: view.on_table(action), index: 0 })
+    }
+}
+
 impl Agent for PlainDdpg {
     const NAME: &'static str = "thesis-ddpg";
     const TITLE: &'static str = "the thesis' deep deterministic policy gradient";
@@ -289,19 +301,13 @@ impl Agent for PlainDdpg {
         let seen = game.observe();
         self.noise = self.settings.noise.step(self.noise, rng);
         let left = self.settings.decayed(self.settings.noise_falls_to, self.shots) as f32;
-        let mut choice = self.best(&seen)?;
-        for (value, noise) in choice.action.iter_mut().zip(self.noise) {
-            *value += left * noise;
-        }
+        let choice = self.act(&seen, self.noise.map(|noise| left * noise))?;
         self.lessons.collect(&self.settings, game, &seen, choice.action, rng);
         Ok(choice)
     }
 
     fn best(&self, seen: &Observation) -> Result<Choice, Error> {
-        let view = self.settings.fixed_view().map_or_else(View::default, |view| view(seen.state));
-        let state = Tensor::from_slice(&view.state(seen.state), (1, STATES), &Device::Cpu)?;
-        let action = self.networks.act(&state)?.flatten_all()?.to_vec1::<f32>()?;
-        Ok(Choice { action: view.on_table(std::array::from_fn(|index| action[index])), index: 0 })
+        self.act(seen, Action::default())
     }
 
     fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {

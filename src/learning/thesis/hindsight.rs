@@ -48,7 +48,7 @@ pub fn layouts(
         let mut moved = *layout;
         moved.balls[3 - first] = position + 2.0 * table.radius * side.rotate(direction);
         moved.validate(table).ok()?;
-        (reward.of_within_steps(table, &moved, cue, CONTACT_STEPS) >= 1.0).then_some(moved)
+        (reward.of_playable(table, &moved, cue, CONTACT_STEPS) >= 1.0).then_some(moved)
     };
     (0..MOMENTS).filter_map(|_| draw()).collect()
 }

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use crate::{
     game::Reward,
     learning::thesis::carom::Episode,
-    study::chart::{AZURE, CRIMSON, FOREST, INK, VIOLET},
+    study::chart::{AZURE, CRIMSON, FOREST, GREY, INK, VIOLET},
 };
 
 /// The measure that a figure shows over the shots.
@@ -144,7 +144,9 @@ pub enum Change {
     Canonical,
     /// The agent sees layouts in relative coordinates.
     Relative,
-    /// The same, and learning from shots that score a point in addition to the agent's own shots (thesis 6.1.1 and 6.1.2).
+    /// The same with the settings of [`Self::Lessons`], but without lessons.
+    Control,
+    /// Relative coordinates, and learning from shots that score a point in addition to the agent's own shots (thesis 6.1.1 and 6.1.2).
     Lessons {
         /// Share of hindsight transitions in a batch.
         hindsight: f64,
@@ -163,11 +165,7 @@ impl Change {
             Self::FallingNoise => json!({ "noise": noise, "noise_falls_to": 0.05, "falls_over": shots }),
             Self::Canonical => json!({ "canonical": true }),
             Self::Relative => json!({ "relative": true }),
-            Self::Lessons { hindsight, demonstrations } => json!({
-                "hindsight": hindsight,
-                "demonstrations": demonstrations,
-                "climbing": 0.0,
-                "cloning_width": [0.2, 0.004],
+            Self::Control => json!({
                 "range_pull": 0.3,
                 "relative": true,
                 "batch": 64,
@@ -177,6 +175,14 @@ impl Change {
                 "learning_rate_falls_to": 0.05,
                 "falls_over": shots,
             }),
+            Self::Lessons { hindsight, demonstrations } => {
+                let mut settings = Self::Control.settings(shots);
+                settings["hindsight"] = json!(hindsight);
+                settings["demonstrations"] = json!(demonstrations);
+                settings["climbing"] = json!(0.0);
+                settings["cloning_width"] = json!([0.2, 0.004]);
+                settings
+            }
         }
     }
 }
@@ -212,10 +218,12 @@ const NOISES: [Variant; 5] = [
     changed("0.03 in relative coordinates", INK, Change::Relative),
 ];
 
-/// The thesis' future work: the thesis' agent, without the relative coordinates of the others; neither extension; each alone; both.
-const FUTURE_WORK: [Variant; 5] = [
+/// The thesis' future work: the thesis' agent; the same in relative coordinates, and with the settings of the last three but without
+/// lessons; hindsight, demonstrations, both.
+const FUTURE_WORK: [Variant; 6] = [
     changed("the thesis' agent", INK, Change::None),
-    changed("neither", CRIMSON, Change::Relative),
+    changed("relative coordinates", GREY, Change::Relative),
+    changed("the settings without lessons", CRIMSON, Change::Control),
     changed("hindsight", AZURE, Change::Lessons { hindsight: 1.0, demonstrations: 0.0 }),
     changed("demonstrations", FOREST, Change::Lessons { hindsight: 0.0, demonstrations: 1.0 }),
     changed("both", VIOLET, Change::Lessons { hindsight: 0.5, demonstrations: 0.5 }),

@@ -23,7 +23,11 @@ pub fn picture(figure: &Figure, curves: &[&Curve], random: Option<f64>) -> io::R
 
     let mut series = Vec::new();
     for ((variant, seed), curve) in figure.curves().zip(curves) {
-        let ending = if curve.breakdown.is_some() { " (broke down)" } else { "" };
+        let of_variant = || figure.curves().zip(curves).filter(|((other, _), _)| other.name == variant.name);
+        let ending = match of_variant().filter(|(_, curve)| curve.breakdown.is_some()).count() {
+            0 => String::new(),
+            broken => format!(" ({broken} of {} broke down)", of_variant().count()),
+        };
         let spot = |x, y| Spot { x, y, ..Spot::default() };
         let points = curve.points.iter().map(|point| spot(point.shots as f64 / 1000.0, point.of(figure.measure)));
         let name = if seed == figure.seeds[0] { format!("{}{ending}", variant.name) } else { String::new() };

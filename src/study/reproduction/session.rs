@@ -164,13 +164,15 @@ pub fn summary(drawn: &ReproducedFigure) -> Vec<String> {
         line
     };
     let of_seeds = |variant: &Variant| {
-        let of_variant = drawn.curves().filter(|(other, ..)| other.name == variant.name);
-        let rewards: Vec<f64> = of_variant.filter_map(|(.., curve)| held_out(curve)).collect();
+        let of_variant = || drawn.curves().filter(|(other, ..)| other.name == variant.name);
+        let rewards: Vec<f64> = of_variant().filter_map(|(.., curve)| held_out(curve)).collect();
         let (mean, deviation) = mean_and_deviation(&rewards);
         let deviation = deviation?;
         let (title, name, seeds) = (figure.title, variant.name, rewards.len());
+        let broken = of_variant().filter(|(.., curve)| curve.breakdown.is_some()).count();
+        let broken = if broken == 0 { String::new() } else { format!("; {broken} more broke down") };
         Some(format!(
-            "{title}, {name}, {seeds} seeds: mean {mean:.3} without exploration, standard deviation {deviation:.3}"
+            "{title}, {name}, {seeds} seeds: mean {mean:.3} without exploration, standard deviation {deviation:.3}{broken}"
         ))
     };
     drawn.curves().map(of_curve).chain(figure.variants.iter().filter_map(of_seeds)).collect()
