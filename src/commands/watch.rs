@@ -113,7 +113,10 @@ fn follow(folder: &Path, json: bool) -> Result<(), Failure> {
         }
         thread::sleep(INTERVAL);
     }
+    let is_stopped = followed.status.as_ref().is_some_and(|status| status.phase == Phase::Stopped);
     match followed.condition {
+        // Stopped and deleted at a user's request.
+        Condition::Removed if is_stopped => Ok(()),
         Condition::Died | Condition::Removed | Condition::InPhase(Phase::Failed) => {
             Err(Failure::failed(format_args!("the run did not end well: {}", followed.condition)))
         }

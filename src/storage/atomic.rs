@@ -108,7 +108,7 @@ impl StagedFile {
 /// # Errors
 /// Returns any error of the file system.
 pub fn remove_partial_files(folder: &Path) -> io::Result<()> {
-    partial_files(folder)?.iter().try_for_each(std::fs::remove_file)
+    partial_files(folder)?.iter().try_for_each(remove_if_exists)
 }
 
 /// Like [`remove_partial_files`] while other processes may be writing: files less than an hour old are kept.
@@ -121,7 +121,16 @@ pub fn remove_abandoned_files(folder: &Path) -> io::Result<()> {
         // A file that has vanished meanwhile was completed by its writer.
         changed.is_ok_and(|changed| SystemTime::now().duration_since(changed).is_ok_and(|age| age > ABANDONED))
     };
-    partial_files(folder)?.iter().filter(|file| is_old(file)).try_for_each(std::fs::remove_file)
+    partial_files(folder)?.iter().filter(|file| is_old(file)).try_for_each(remove_if_exists)
+}
+
+/// Removes a file, which another process may have removed or renamed meanwhile.
+///
+/// # Errors
+/// Any error of the file system, except that the file does not exist.
+pub fn remove_if_exists(file: impl AsRef<Path>) -> io::Result<()> {
+    std::fs::remove_file(file)
+        .or_else(|error| if error.kind() == io::ErrorKind::NotFound { Ok(()) } else { Err(error) })
 }
 
 /// Returns the temporary files in `folder`: those still being written, and those of killed writers.

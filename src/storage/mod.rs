@@ -13,8 +13,8 @@ mod player;
 mod reading;
 
 pub use atomic::{
-    StagedFile, create_atomic, remove_abandoned_files, remove_partial_files, resolve_symlinks, save_json, write_atomic,
-    write_atomic_unsynced,
+    StagedFile, create_atomic, remove_abandoned_files, remove_if_exists, remove_partial_files, resolve_symlinks,
+    save_json, write_atomic, write_atomic_unsynced,
 };
 pub use confinement::{check_read_allowed, confine};
 pub use data_paths::{DataPaths, has_name};

@@ -9,8 +9,9 @@ use super::fingerprint::{SHOTS, TEXTBOOK, hash};
 use crate::{
     game::{Rule, scores},
     learning::{Policy, evaluation::held_out_layouts},
+    physics::has_room,
     player::Skill,
-    table::{PRESETS, Table},
+    table::{Layout, PRESETS, Table},
 };
 
 /// Layouts per network: one or two tenths of a second for all of them.
@@ -112,7 +113,10 @@ fn networks() -> Result<Vec<NetworkTest>, String> {
 
 fn network(table: &Table, rule: Rule, policy: &Policy) -> NetworkTest {
     let layouts = held_out_layouts(table, LAYOUTS, SEED);
-    let makes = |layout: &&_| scores(rule, table, layout, &policy.propose(table, layout, &Skill::PERFECT));
+    let makes = |layout: &&Layout| {
+        let cue = policy.propose(table, layout, &Skill::PERFECT);
+        has_room(table, layout, &cue) && scores(rule, table, layout, &cue)
+    };
     let points = layouts.iter().filter(makes).count();
     let least =
         if (table.name.as_str(), rule) == ("thesis", Rule::ThreeCushion) { MIN_SHARE_ON_THESIS } else { MIN_SHARE };

@@ -31,7 +31,7 @@ struct Detour {
 }
 
 impl Environment for Detour {
-    fn begin(&mut self, rng: &mut Xoshiro256PlusPlus) {
+    fn reset(&mut self, rng: &mut Xoshiro256PlusPlus) {
         *self = Self { goal: if rng.random_bool(0.5) { 0.5 } else { -0.5 }, closeness: None };
     }
 
@@ -45,13 +45,13 @@ impl Environment for Detour {
         }
     }
 
-    fn act(&mut self, action: Action) -> Outcome {
+    fn step(&mut self, action: Action) -> Outcome {
         match self.closeness {
             None => {
                 self.closeness = Some(1.0 / (1.0 + 4.0 * (action[0] - self.goal).powi(2)));
-                Outcome { reward: 0.0, over: false }
+                Outcome { reward: 0.0, terminated: false }
             }
-            Some(near) => Outcome { reward: f64::from(near), over: true },
+            Some(near) => Outcome { reward: f64::from(near), terminated: true },
         }
     }
 }
@@ -66,8 +66,8 @@ fn trained_reward<A: Agent>(settings: A::Settings, shots: u32, seed: u64) -> f64
     }
     let earned = [-0.5, 0.5].map(|goal| {
         let mut game = Detour { goal, closeness: None };
-        game.act(agent.best(&game.observe()).unwrap().action);
-        game.act([0.0; 2]).reward
+        game.step(agent.best(&game.observe()).unwrap().action);
+        game.step([0.0; 2]).reward
     });
     0.5 * (earned[0] + earned[1])
 }

@@ -6,6 +6,7 @@ use super::{
     action::{ActionSpace, SPEEDS},
     context::Inputs,
     exploration::Exploration,
+    rollout::RANKED,
 };
 use crate::learning::{
     nn::adam::AdamConfig,
@@ -176,6 +177,8 @@ impl Hyperparameters {
         check_share("critic_chooses", self.critic_chooses)?;
         check_share("perfect", self.perfect)?;
         check_share("ranking", self.ranking)?;
+        let is_played = self.ranking == 0.0 || self.shots_per_update >= RANKED;
+        check("ranking", self.ranking, is_played, "0 if shots_per_update is below 8")?;
         for (name, value) in [("hindsight", self.hindsight), ("demonstrations", self.demonstrations)] {
             check(name, value, value == 0.0, "0, as only the agent thesis-ddpg has this setting")?;
         }

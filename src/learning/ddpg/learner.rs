@@ -88,7 +88,7 @@ impl Learner for Trainer {
         Progress {
             updates: self.updates,
             learning_rate: self.lr_factor() * self.task.hyperparameters.critic_learning_rate,
-            exploration: self.task.hyperparameters.exploration.uniform,
+            exploration: self.uniform_share(),
             replay_fill: Some(self.replay.fill_fraction()),
         }
     }

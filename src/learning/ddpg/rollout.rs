@@ -22,7 +22,7 @@ use crate::{platform, table::Layout};
 
 /// Best proposals of a layout that are played so that the critic learns to rank them; it hardly ever ranks the others wrongly. (Six heads
 /// make 24 proposals for straight paths.)
-const RANKED: usize = 8;
+pub(super) const RANKED: usize = 8;
 
 /// Attempts at each choice of a player with errors in the calibration.
 const CALIBRATION_ATTEMPTS: usize = 16;
@@ -36,12 +36,16 @@ const STREAM: u64 = 0x0070_6c61_7474;
 /// A layout, and the context under which it is played.
 pub(super) type ContextualLayout = (Layout, Context);
 
+/// Returns a share of a number, rounded.
+fn part(share: f64, of: usize) -> usize {
+    ((of as f64 * share).round() as usize).min(of)
+}
+
 impl Trainer {
     /// Plays the shots of one iteration and returns their mean reward. Each shot has a fresh layout, except the ranked ones.
     pub(super) fn play(&mut self) -> Result<f64> {
-        let Hyperparameters { shots_per_update, critic_chooses, ranking, .. } = self.task.hyperparameters;
-        let part = |share: f64, of: usize| ((of as f64 * share).round() as usize).min(of);
-        let ranked = part(ranking, shots_per_update) / RANKED;
+        let Hyperparameters { shots_per_update, critic_chooses, .. } = self.task.hyperparameters;
+        let ranked = self.ranked_layouts();
         // A layout with ranked proposals takes `RANKED` shots; every other takes one.
         let count = ranked + (shots_per_update - ranked * RANKED);
         let layouts: Vec<ContextualLayout> = (0..count).map(|_| self.draw_layout()).collect();
@@ -51,6 +55,18 @@ impl Trainer {
         let total = self.play_ranked(ranked)? + self.play_near_best(chosen)? + self.play_near_random(any)?;
         self.shots += shots_per_update as u64;
         Ok(total / shots_per_update as f64)
+    }
+
+    /// Number of layouts of an iteration on which ranked proposals are played, without exploration.
+    fn ranked_layouts(&self) -> usize {
+        let Hyperparameters { shots_per_update, ranking, .. } = self.task.hyperparameters;
+        part(ranking, shots_per_update) / RANKED
+    }
+
+    /// Share of the shots that are uniformly random.
+    pub(super) fn uniform_share(&self) -> f64 {
+        let Hyperparameters { shots_per_update, exploration, .. } = &self.task.hyperparameters;
+        exploration.uniform * (1.0 - (self.ranked_layouts() * RANKED) as f64 / *shots_per_update as f64)
     }
 
     /// Draws a fresh layout and its context.
@@ -169,7 +185,7 @@ impl Trainer {
         earned
     }
 
-    /// Fits the calibration by playing the target networks' choice on fresh layouts, half of them on the run's own table, with
+    /// Fits the calibration by playing the target networks' choice on fresh layouts, at least half of them on the run's own table, with
     /// errors drawn as in training. Returns `None` once `go_on` returns `false`.
     pub(super) fn calibration(&self, go_on: &mut dyn FnMut() -> bool) -> Result<Option<Calibration>> {
         let Hyperparameters { perfect, calibrated, .. } = self.task.hyperparameters;

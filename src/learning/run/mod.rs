@@ -43,7 +43,7 @@ use self::{
 };
 use crate::{
     learning::{evaluation::Score, learner::Learner},
-    storage::{self, Lock, remove_partial_files, write_atomic},
+    storage::{self, Lock, remove_if_exists, remove_partial_files, write_atomic},
 };
 
 /// File name of the metrics in a run's folder.
@@ -223,10 +223,8 @@ pub fn discard(folder: &Path) -> Result<(), RunError> {
     }
     let _lock = lock(folder)?;
     for name in FILES {
-        match std::fs::remove_file(folder.join(name)) {
-            Err(error) if error.kind() != ErrorKind::NotFound => return Err(file(&folder.join(name))(error)),
-            _ => {}
-        }
+        let path = folder.join(name);
+        remove_if_exists(&path).map_err(file(&path))?;
     }
     // Fails if the folder contains other files, which must stay.
     let _ = std::fs::remove_dir(folder);

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use serde_json::Value;
 
 use super::{
-    carom::{Carom, Episode, cue_inputs},
+    carom::{CaromGame, Episode, cue_inputs},
     environment::{Action, Environment, Observation, discrete_action},
 };
 use crate::{
@@ -133,12 +133,12 @@ impl EpisodeState {
         rng: &mut Xoshiro256PlusPlus,
     ) -> Result<(f64, Option<UpdateStats>), Error> {
         if !self.running {
-            environment.begin(rng);
+            environment.reset(rng);
         }
         let before = environment.observe();
         let choice = agent.explore(environment, rng)?;
-        let outcome = environment.act(choice.action);
-        let (reward, continues, after) = (outcome.reward, !outcome.over, environment.observe());
+        let outcome = environment.step(choice.action);
+        let (reward, continues, after) = (outcome.reward, !outcome.terminated, environment.observe());
         self.running = continues;
         Ok((reward, agent.learn(&Transition { before, choice, reward, continues, after }, rng)?))
     }
@@ -163,7 +163,7 @@ pub(crate) const fn kind_of<A: Agent + 'static>() -> AgentKind {
                 ));
             }
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(plan.seed);
-            let game = Carom::new(table, plan.reward, settings.episode());
+            let game = CaromGame::new(table, plan.reward, settings.episode());
             let agent = A::new(settings, &mut rng)?;
             let state = State { plan, game, episode: EpisodeState::default(), rng, shots: 0 };
             Ok(Box::new(TrainingLoop { agent, state }))
@@ -199,7 +199,7 @@ struct Note<S> {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct State {
     plan: TrainingPlan,
-    game: Carom,
+    game: CaromGame,
     #[serde(rename = "progress")]
     episode: EpisodeState,
     rng: Xoshiro256PlusPlus,

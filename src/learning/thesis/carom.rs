@@ -1,4 +1,4 @@
-//! Carom billiards as the environment of the thesis' agents: raw positions in, direction and speed out, a reward for every shot.
+//! CaromGame billiards as the environment of the thesis' agents: raw positions in, direction and speed out, a reward for every shot.
 
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
@@ -33,7 +33,7 @@ pub enum Episode {
 const SQUARES: [u32; 2] = [6, 12];
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Carom {
+pub struct CaromGame {
     pub(super) table: Table,
     reward: Reward,
     episode: Episode,
@@ -42,7 +42,7 @@ pub struct Carom {
     shots: u32,
 }
 
-impl Carom {
+impl CaromGame {
     pub fn new(table: Table, reward: Reward, episode: Episode) -> Self {
         Self { layout: Layout::opening(&table), table, reward, episode, shots: 0 }
     }
@@ -87,7 +87,7 @@ impl Carom {
     }
 }
 
-impl Environment for Carom {
+impl Environment for CaromGame {
     fn reward_for(&self, action: Action) -> f64 {
         self.reward.of_playable(&self.table, &self.layout, &cue_inputs(action), CONTACT_STEPS)
     }
@@ -97,7 +97,7 @@ impl Environment for Carom {
         moved.iter().map(|layout| self.observation(layout).state).collect()
     }
 
-    fn begin(&mut self, rng: &mut Xoshiro256PlusPlus) {
+    fn reset(&mut self, rng: &mut Xoshiro256PlusPlus) {
         self.layout = Layout::random(&self.table, rng);
         self.shots = 0;
     }
@@ -106,15 +106,15 @@ impl Environment for Carom {
         self.observation(&self.layout)
     }
 
-    fn act(&mut self, action: Action) -> Outcome {
+    fn step(&mut self, action: Action) -> Outcome {
         self.shots += 1;
         match self.episode {
             // Nothing follows, so the shot need not be played to its end.
-            Episode::OneShot => Outcome { reward: self.reward_of(&self.layout, action), over: true },
-            Episode::Shots(most) => Outcome { reward: self.play_on(action).0, over: self.shots >= most },
+            Episode::OneShot => Outcome { reward: self.reward_of(&self.layout, action), terminated: true },
+            Episode::Shots(most) => Outcome { reward: self.play_on(action).0, terminated: self.shots >= most },
             Episode::UntilMiss(most) => {
                 let (reward, missed) = self.play_on(action);
-                Outcome { reward, over: missed || self.shots >= most }
+                Outcome { reward, terminated: missed || self.shots >= most }
             }
         }
     }
@@ -138,7 +138,7 @@ mod tests {
 
     #[test]
     fn cells_number_the_373_248_states_of_the_thesis() {
-        let game = Carom::new(thesis(), Reward::R1, Episode::OneShot);
+        let game = CaromGame::new(thesis(), Reward::R1, Episode::OneShot);
         let reach = game.table.reach();
         assert_eq!(game.observation(&Layout::new([-reach; 3])).cell, 0);
         let last = game.observation(&Layout::new([reach; 3]));
@@ -151,34 +151,34 @@ mod tests {
     #[test]
     fn a_game_continues_until_the_episode_ends() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
-        let mut game = Carom::new(thesis(), Reward::R1, Episode::Shots(2));
+        let mut game = CaromGame::new(thesis(), Reward::R1, Episode::Shots(2));
         game.layout = Layout::opening(&game.table);
         let before = game.observe();
         // A shot straight along the table at the red ball.
-        assert_eq!(game.act([0.0, 1.0]), Outcome { reward: 1.0, over: false });
+        assert_eq!(game.step([0.0, 1.0]), Outcome { reward: 1.0, terminated: false });
         assert_ne!(game.observe(), before);
-        assert!(game.act([0.0, 1.0]).over);
-        game.begin(&mut rng);
+        assert!(game.step([0.0, 1.0]).terminated);
+        game.reset(&mut rng);
         assert_eq!(game.shots, 0);
 
-        let mut game = Carom::new(thesis(), Reward::R1, Episode::UntilMiss(9));
+        let mut game = CaromGame::new(thesis(), Reward::R1, Episode::UntilMiss(9));
         game.layout = Layout::opening(&game.table);
-        assert!(!game.act([0.0, 1.0]).over);
+        assert!(!game.step([0.0, 1.0]).terminated);
         game.layout = Layout::opening(&game.table);
-        assert_eq!(game.act([1.0, -1.0]), Outcome { reward: 0.0, over: true });
+        assert_eq!(game.step([1.0, -1.0]), Outcome { reward: 0.0, terminated: true });
     }
 
     #[test]
     fn a_single_shot_earns_the_reward_of_a_game() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
         for reward in Reward::ALL {
-            let mut alone = Carom::new(thesis(), reward, Episode::OneShot);
-            let mut game = Carom::new(thesis(), reward, Episode::Shots(1));
+            let mut alone = CaromGame::new(thesis(), reward, Episode::OneShot);
+            let mut game = CaromGame::new(thesis(), reward, Episode::Shots(1));
             for index in 0..50u8 {
-                alone.begin(&mut rng);
+                alone.reset(&mut rng);
                 game.layout = alone.layout;
                 let action = [f32::from(index) / 25.0 - 1.0, 0.7];
-                assert_eq!(alone.act(action).reward, game.act(action).reward, "{reward}");
+                assert_eq!(alone.step(action).reward, game.step(action).reward, "{reward}");
             }
         }
     }

@@ -57,19 +57,19 @@ pub struct Outcome {
     /// The reward.
     pub reward: f64,
     /// Whether the episode is over.
-    pub over: bool,
+    pub terminated: bool,
 }
 
 /// A game that an agent plays.
 pub trait Environment {
     /// Begins an episode.
-    fn begin(&mut self, rng: &mut Xoshiro256PlusPlus);
+    fn reset(&mut self, rng: &mut Xoshiro256PlusPlus);
 
     /// Returns the current observation.
     fn observe(&self) -> Observation;
 
-    /// Carries out an action.
-    fn act(&mut self, action: Action) -> Outcome;
+    /// Carries out an action and returns what follows.
+    fn step(&mut self, action: Action) -> Outcome;
 
     /// Returns the reward that an action would earn now, without carrying it out; 0 if the environment does not support this.
     fn reward_for(&self, _action: Action) -> f64 {

@@ -122,7 +122,7 @@ mod tests {
     use super::*;
     use crate::{
         game::Reward,
-        learning::thesis::carom::{Carom, Episode},
+        learning::thesis::carom::{CaromGame, Episode},
         table::{Layout, Table},
     };
     use glam::DVec2;
@@ -133,7 +133,7 @@ mod tests {
     fn a_shot_earns_the_same_in_every_view() {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(8);
         let table = Table::preset("thesis").unwrap();
-        let game = Carom::new(table.clone(), Reward::R1, Episode::OneShot);
+        let game = CaromGame::new(table.clone(), Reward::R1, Episode::OneShot);
         let (mut same, mut cases) = (0, 0);
         for _ in 0..100 {
             let layout = Layout::random(&table, &mut rng);

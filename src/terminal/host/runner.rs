@@ -1,7 +1,6 @@
 //! The event loop: waits for events, passes them to the app, and draws a frame after changes.
 
 use std::{
-    fs,
     io::{self, Write},
     sync::mpsc::{Receiver, RecvTimeoutError},
     time::{Duration, Instant},
@@ -13,7 +12,7 @@ use tracing::{info, warn};
 use crate::{
     platform::{self, Signal},
     printing::{self, FULL_VERSION, OneLine},
-    storage::{DataPaths, save_json},
+    storage::{DataPaths, remove_if_exists, save_json},
     terminal::{
         App, CoachAnswer, CoachEvent, Effect, SavedSession, TrainingReport,
         host::{events, guard::TerminalGuard, log, pace::Pace, table_sharing::TableSharing},
@@ -176,9 +175,9 @@ impl Runner {
             _ if coach.followed().is_some() => Ok(()),
             Some(last) => save_json(path, &last),
             // What was saved is over, and nothing was saved before it.
-            None => fs::remove_file(path),
+            None => remove_if_exists(path),
         };
-        if let Err(error) = saved.or_else(|error| if error.kind() == io::ErrorKind::NotFound { Ok(()) } else { Err(error) })
+        if let Err(error) = saved
             // Report the failure once: repeating it would not help.
             && !std::mem::replace(&mut self.has_save_failed, true)
         {
@@ -195,7 +194,7 @@ impl Runner {
         match self.app.draft() {
             Some(draft) => save_json(path, &draft).map_err(with_path),
             // Another program may have removed the file.
-            None if self.app.draft_at_start.is_some() && path.exists() => fs::remove_file(path).map_err(with_path),
+            None if self.app.draft_at_start.is_some() => remove_if_exists(path).map_err(with_path),
             None => Ok(()),
         }
     }
