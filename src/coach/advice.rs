@@ -63,15 +63,9 @@ pub struct Alternative {
 pub struct Improvement {
     /// The stroke.
     pub cue: CueInputs,
-    /// The kind of the shot.
-    pub kind: Kind,
     /// Share of points under the errors by which the shot was chosen. This flatters it a little; the final answer has
     /// an unbiased rate.
     pub make_probability: SuccessRate,
-    /// Shots simulated so far.
-    pub simulations: u64,
-    /// Time since the start of the request.
-    pub elapsed: Duration,
 }
 
 /// The coach's answer.
@@ -85,8 +79,8 @@ pub struct Recommendation {
     pub source: Source,
     /// The kind of the shot, if it makes the point.
     pub kind: Option<Kind>,
-    /// How often the player makes it, from independent attempts that took no part in the choice. `None` if there is no
-    /// such shot, or time ran out before the first attempt. A perfect player makes every shot that makes the point.
+    /// How often the player makes it, from independent attempts that took no part in the choice, unless time ran out before the fresh
+    /// ones were complete. `None` if there is no such shot, or time ran out before the first attempt. A perfect player makes every shot that makes the point.
     pub make_probability: Option<SuccessRate>,
     /// Index of the first attempt behind `make_probability`, as [`judge`](super::judge) counts them: above 0 if earlier
     /// attempts took part in the choice.

@@ -167,7 +167,8 @@ impl Coach {
             let pool = search.run(&strokes, &found.solutions, &mut |leader| {
                 // The same shot with more attempts is not an improvement.
                 if last_reported.replace(leader.shot.cue) != Some(leader.shot.cue) {
-                    on_improvement(&improvement(leader, &clock));
+                    let make_probability = leader.own_rate.to_success_rate();
+                    on_improvement(&Improvement { cue: leader.shot.cue, make_probability });
                 }
             });
             let deadline = task.deadline.max(Instant::now() + GRACE);
@@ -210,8 +211,7 @@ fn robust_answer(
     };
     let rate = |judged: &[(usize, Attempts)], candidate: usize| {
         let own = judged.iter().filter(|(index, _)| *index == candidate);
-        let (made, tried) = own.fold((0, 0), |sum, (_, part)| (sum.0 + part.made, sum.1 + part.tried));
-        (tried > 0).then(|| SuccessRate::new(made, tried))
+        own.map(|(_, part)| *part).sum::<Attempts>().rate()
     };
     let others: Vec<usize> = (1..pool.len()).collect();
     let first = pieces_of(&[0], 0..ATTEMPTS).into_iter();
@@ -363,16 +363,6 @@ fn first_point_answer(found: &FirstShots) -> Recommendation {
     }
 }
 
-fn improvement(leader: &Candidate, clock: &Clock) -> Improvement {
-    Improvement {
-        cue: leader.shot.cue,
-        kind: leader.kind,
-        make_probability: leader.own_rate.to_success_rate(),
-        simulations: clock.simulations(),
-        elapsed: clock.elapsed(),
-    }
-}
-
 /// Estimates the share of `attempts` at `cue` that make a point, with its confidence interval: a plain Monte Carlo
 /// estimate. The same seed draws the same attempts for every shot. A perfect player has no doubts.
 pub fn make_probability(
@@ -406,7 +396,7 @@ pub fn judge(
     with_unlimited_task(table, layout, rule, shooter, UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
         let pieces = attempts.start / CHUNK_SIZE..attempts.end.div_ceil(CHUNK_SIZE);
         let pieces = pieces.map(|piece| task.attempts(cue, judging_draws(task.worlds, seed, piece).iter()));
-        let (made, tried) = pieces.fold((0, 0), |sum, part| (sum.0 + part.made, sum.1 + part.tried));
+        let Attempts { made, tried } = pieces.sum();
         SuccessRate::new(made, tried)
     })
 }
@@ -417,8 +407,9 @@ fn judging_draws(worlds: &Worlds, seed: u64, piece: usize) -> Draws {
     Draws::independent(CHUNK_SIZE, worlds, judging_seed(seed).wrapping_add(piece as u64))
 }
 
+/// The streams of neighbouring seeds are far apart, so that the pieces of one request are not those of the next.
 const fn judging_seed(seed: u64) -> u64 {
-    seed ^ 0x6a75_6467_6521_u64.rotate_left(17)
+    (seed ^ 0x6a75_6467_6521).wrapping_mul(0x9e37_79b9_7f4a_7c15)
 }
 
 #[cfg(test)]

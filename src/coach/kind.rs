@@ -101,12 +101,6 @@ impl Pace {
     }
 }
 
-impl fmt::Display for Pace {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.pad(&self.words(LengthUnit::Metres))
-    }
-}
-
 impl Kind {
     /// Describes the kind for a player with the white ball, with speeds in the system of `unit`.
     pub fn words(self, unit: LengthUnit) -> String {

@@ -21,6 +21,10 @@ pub const MAX_POINTS: usize = 64;
 /// Maximum attempts that are simulated per successful one: a beginner makes few.
 const ATTEMPTS_PER_POINT: usize = 12;
 
+/// Steps of resting contacts after the point, relative to those before it: balls that stay together press each other longer, and these ends
+/// are the easiest next shots.
+const STEPS_AFTER_POINT: u32 = 10;
+
 /// The probability of the next point after a shot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NextValue {
@@ -76,7 +80,8 @@ pub fn final_layout(task: &Task, cue: &CueInputs, draw: Draw) -> Option<Layout> 
     }
     let impulse = strike(table, &stroke);
     let tally = task.tally(layout, &impulse);
-    let mut observer = FullShot { tally, step_budget: StepBudget(task.max_contact_steps), task, given_up: false };
+    let budgets = [1, STEPS_AFTER_POINT].map(|factor| StepBudget(task.max_contact_steps.saturating_mul(factor)));
+    let mut observer = FullShot { tally, budgets, task, given_up: false };
     let end = simulate(table, layout, &impulse, &mut observer);
     (task.point().is_made(&observer.tally) && !observer.given_up).then(|| end.layout(table))
 }
@@ -84,7 +89,8 @@ pub fn final_layout(task: &Task, cue: &CueInputs, draw: Draw) -> Option<Layout> 
 /// Observes a shot to its end, or until it takes too long.
 struct FullShot<'a> {
     tally: Tally,
-    step_budget: StepBudget,
+    /// Before and after the cue ball has hit both object balls.
+    budgets: [StepBudget; 2],
     task: &'a Task<'a>,
     given_up: bool,
 }
@@ -97,12 +103,16 @@ impl Observer for FullShot<'_> {
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.tally.count(&event);
+        // The ball that is hit second decides.
+        if self.tally.has_hit_both() && !self.task.point().is_made(&self.tally) {
+            return ControlFlow::Break(());
+        }
         ControlFlow::Continue(())
     }
 
     fn contact_step(&mut self) -> ControlFlow<()> {
-        let flow =
-            if self.task.clock.is_past(self.task.deadline) { ControlFlow::Break(()) } else { self.step_budget.step() };
+        let budget = &mut self.budgets[usize::from(self.tally.has_hit_both())];
+        let flow = if self.task.clock.is_past(self.task.deadline) { ControlFlow::Break(()) } else { budget.step() };
         self.given_up |= flow.is_break();
         flow
     }

@@ -50,7 +50,8 @@ pub struct Request {
     pub first: FirstContact,
     /// Time limit of the search.
     pub budget: Duration,
-    /// Simulations after which the search ends. It may run slightly longer, as it ends between rounds.
+    /// Simulations after which the search ends. A minimum of work is always done, and the shots that were found are judged in
+    /// addition: see `carom recommend` in `docs/command-line.md`.
     pub simulations: u64,
     /// Worker threads.
     pub threads: usize,

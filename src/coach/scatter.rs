@@ -23,7 +23,7 @@ use crate::{
 pub struct Scatter {
     /// Positions of the balls at rest, m, for each attempt that makes the point.
     pub ends: Vec<Layout>,
-    /// The share of attempts that make the point.
+    /// The share of attempts that make the point, except those whose balls still press each other after very many steps.
     pub made: SuccessRate,
 }
 

@@ -1,6 +1,7 @@
 //! Simulation of one stroke with a time limit: a shot with a stiff contact can take seconds.
 
 use std::{
+    iter::Sum,
     ops::ControlFlow,
     sync::atomic::AtomicBool,
     time::{Duration, Instant},
@@ -18,6 +19,7 @@ use crate::{
     physics::{CueInputs, Impulse, strike},
     player::re_aimed,
     simulation::{AllSavings, Event, Observer, watch_with},
+    statistics::SuccessRate,
     table::{BALLS, Layout, Table},
 };
 
@@ -181,6 +183,19 @@ pub struct Attempts {
     pub tried: usize,
     /// Attempts that made the point.
     pub made: usize,
+}
+
+impl Attempts {
+    /// Returns the share that made the point; `None` without attempts.
+    pub fn rate(self) -> Option<SuccessRate> {
+        (self.tried > 0).then(|| SuccessRate::new(self.made, self.tried))
+    }
+}
+
+impl Sum for Attempts {
+    fn sum<I: Iterator<Item = Self>>(parts: I) -> Self {
+        parts.fold(Self::default(), |sum, part| Self { tried: sum.tried + part.tried, made: sum.made + part.made })
+    }
 }
 
 /// A referee that aborts a shot when time is up.

@@ -4,9 +4,13 @@ use rand::{SeedableRng, seq::SliceRandom};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Category, Exercise, Par, Session};
+use crate::coach::Doubt;
 
 /// Number of exercises in an exam.
 pub const LENGTH: usize = 20;
+
+/// Attempts for each expected share of an exercise; over an exam their standard error is at most 0.1 points.
+const PAR_ATTEMPTS: usize = 1000;
 
 /// The grades of the exercises in each level.
 const GRADES: [std::ops::RangeInclusive<u8>; 3] = [1..=3, 2..=4, 3..=5];
@@ -40,7 +44,8 @@ pub fn grades(level: u8) -> Option<std::ops::RangeInclusive<u8>> {
 /// Draws the exercises of an exam of `level` 1 to [`HIGHEST_LEVEL`] from `library`, easy ones first. They are spread
 /// over the categories and grades as evenly as the library allows.
 /// The player's own positions are excluded because they have no measured par, and jumps and massés because most clubs
-/// forbid them. The same seed draws the same exam.
+/// forbid them. The same seed draws the same exam. The pars of the result are those of strokes in the program, which are made more often
+/// than at a real table: table and positions are exact.
 ///
 /// # Errors
 /// [`ExamError`].
@@ -67,7 +72,11 @@ pub fn draw(library: &[Exercise], level: u8, seed: u64) -> Result<Vec<Exercise>,
         drawn.push(left.remove(next));
     }
     drawn.sort_by_key(|exercise| exercise.grade);
-    Ok(drawn.into_iter().cloned().collect())
+    let with_par = |exercise: &Exercise| {
+        let par = Par::with_doubt(exercise, Doubt::NONE, PAR_ATTEMPTS).ok().flatten();
+        Exercise { par: par.or(exercise.par), ..exercise.clone() }
+    };
+    Ok(drawn.into_iter().map(with_par).collect())
 }
 
 /// The score of an exam and its meaning.

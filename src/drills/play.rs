@@ -97,7 +97,7 @@ impl Session {
         let layout = match self.attempts.last() {
             Some(last) if self.is_game() => {
                 let layout = last.layout.unwrap_or(exercise.layout);
-                // The simulation is deterministic to the last bit.
+                // The simulation is deterministic. A stroke from a file, which has degrees, may differ in its last bit.
                 let end =
                     last.played.map_or(layout, |stroke| PlayedStroke::of(exercise.rule, &table, &layout, stroke).end);
                 if self.is_match() && !last.made { end.for_the_opponent() } else { end }

@@ -16,8 +16,8 @@ pub use self::{
     stop::{UNFINISHED, ignore_hang_up, stop_on_signal},
     system::{
         CAN_SUSPEND, CLOCK_NAME, Input, NEEDS_TERM, discard_pending_output, exit_by_signal, file_identity, free_space,
-        handle_signals, in_own_process_group, refuse_large_files, suspend, sync_folder, terminal_output, thread_time,
-        use_umask_permissions,
+        handle_signals, in_own_process_group, lacks_locks, refuse_large_files, suspend, sync_folder, terminal_output,
+        thread_time, use_umask_permissions,
     },
     threads::{limit_threads, thread_count},
 };

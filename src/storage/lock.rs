@@ -7,6 +7,8 @@ use std::{
     time::Duration,
 };
 
+use crate::platform;
+
 /// Attempts to take the lock, and the pause between them: [`Lock::is_held`] takes it for an instant.
 const ATTEMPTS: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(10);
@@ -43,7 +45,7 @@ impl Lock {
             match file.try_lock() {
                 Ok(()) => return Ok(Some(Self { _file: file })),
                 Err(TryLockError::WouldBlock) => {}
-                Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
+                Err(TryLockError::Error(error)) if platform::lacks_locks(&error) => {
                     return Ok(Some(Self { _file: file }));
                 }
                 Err(TryLockError::Error(error)) => return Err(error),

@@ -20,7 +20,8 @@ pub fn parse(text: &str) -> Result<StrokeText, StrokeTextError> {
     for line in text.to_lowercase().lines() {
         // Skips what follows from the stroke in the coach's words: the course, the pattern, and the reason up to the end of its line.
         let told = line.split("why:").next().unwrap_or_default();
-        let sentences = told.split(". ").filter(|said| !said.contains(" \u{2013} ") && !said.contains("pattern:"));
+        let follows = |said: &&str| [" \u{2013} ", " - ", "pattern:"].iter().any(|part| said.contains(part));
+        let sentences = told.split(". ").filter(|said| !follows(said));
         for part in sentences.flat_map(parts) {
             let twice = |what| StrokeTextError::Duplicate(what, part.clone());
             parse_part(&part, &mut stroke, twice)?;
@@ -57,6 +58,10 @@ fn parse_part(
     twice: impl Fn(&'static str) -> StrokeTextError + Copy,
 ) -> Result<(), StrokeTextError> {
     let not_understood = || StrokeTextError::UnknownPart(part.to_owned());
+    // The coach's words for a stroke that hits none.
+    if part == "no ball" {
+        return Ok(());
+    }
     // "Bottom long rail first at 3, then red": the cushions between the balls follow from the stroke.
     let part = match part.strip_prefix("then ") {
         Some(rail) if rail_named(rail).is_some() => return Ok(()),

@@ -28,7 +28,7 @@ impl NaturalStroke {
         let [from, to] = [line.from, line.from + line.direction].map(|place| metres(table, place));
         let ahead = (to - from).normalize_or_zero();
         // Running side carries the ball further in its direction along the cushion.
-        let running = if ahead.perp_dot(reflected(ahead, first)) < 0.0 { 1.0 } else { -1.0 };
+        let running = if ahead.perp_dot(ahead.reflect(first.normal())) < 0.0 { 1.0 } else { -1.0 };
         let velocity = self.speed * ahead;
         let spin: DVec3 =
             (self.roll * rolling_spin(table.radius, velocity)).extend(running * self.side * self.speed / table.radius);
@@ -40,11 +40,6 @@ impl NaturalStroke {
 pub fn hits(table: &Table, from: DVec2, impulse: &Impulse) -> Vec<(Rail, DVec2)> {
     let followed = Follower::new(&[], MAX_CUSHIONS).follow(table, &lone_ball_layout(from), impulse);
     followed.hits.into_iter().map(|(_, rail, place)| (rail, diamonds(table, place))).collect()
-}
-
-/// Returns the direction after an ideal reflection from a cushion, without spin.
-pub fn reflected(direction: DVec2, rail: Rail) -> DVec2 {
-    direction - 2.0 * direction.dot(rail.normal()) * rail.normal()
 }
 
 /// Maximum number of cushions: systems use three, and a corner may add one.

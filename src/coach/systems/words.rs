@@ -7,19 +7,14 @@ use super::{
     shift::ParallelShift,
     system::{Numbers, System},
 };
+use crate::coach::words::format_trimmed;
 
 /// Formats a system's number: integers if the scale has tens per diamond, otherwise one decimal.
 pub fn number(system: System, number: f64) -> String {
     match system {
         System::Corner5 => format!("{number:.0}"),
-        System::Plus | System::Seven => tenth(number),
+        System::Plus | System::Seven => format_trimmed(number, 1),
     }
-}
-
-/// Formats a number with one decimal, which is omitted if it is zero.
-fn tenth(number: f64) -> String {
-    let text = format!("{number:.1}");
-    text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 
 /// Rounds to the displayed precision.
@@ -115,7 +110,7 @@ impl ParallelShift {
 
     /// Describes the correction for this table: `on this table to 4.6`; `None` if it makes no difference.
     pub fn correction(&self) -> Option<String> {
-        let is_other = tenth(self.displayed_third()) != tenth(self.table_third);
+        let is_other = format_trimmed(self.displayed_third(), 1) != format_trimmed(self.table_third, 1);
         is_other.then(|| format!("on this table to {:.1}", self.table_third))
     }
 

@@ -124,11 +124,6 @@ impl Technique {
         self.over.is_some() || self.bend > BENT
     }
 
-    /// Returns all cushions before the second object ball, in order.
-    pub fn cushions(&self) -> impl Iterator<Item = &Cushion> {
-        self.before.iter().chain(&self.between)
-    }
-
     /// Follows the cue ball up to the second object ball.
     fn follow(&mut self, table: &Table, recording: &Recording) {
         let (mut first, mut incoming, mut has_touched) = (None, None, false);

@@ -205,8 +205,10 @@ struct Contacts {
 impl Contacts {
     fn of(table: &Table, layout: &Layout, cue: &CueInputs, latest: f64) -> Self {
         let step_budget = StepBudget(CONTACT_STEPS);
-        let mut contacts = Self { tally: Tally::default(), events: Vec::new(), latest, step_budget };
-        watch(table, layout, &strike(table, cue), &mut contacts);
+        let impulse = strike(table, cue);
+        let tally = Tally::from_stroke(table, layout, &impulse);
+        let mut contacts = Self { tally, events: Vec::new(), latest, step_budget };
+        watch(table, layout, &impulse, &mut contacts);
         contacts
     }
 

@@ -56,6 +56,13 @@ pub fn export(args: &ExportArgs) -> Result<(), Failure> {
                     "{file} already exists and is not an export, so it stays as it is; accepted is a new name"
                 )));
             }
+            if !notes.is_empty() && target.exists() {
+                return Err(Failure::failed(format_args!(
+                    "{} could not be read, so the earlier export {} stays as it is; accepted is a new name",
+                    plural(notes.len(), "file"),
+                    file.display()
+                )));
+            }
             let bytes = serde_json::to_vec(&practice).map_err(|error| refuse(error.into()))?;
             write_atomic(&target, &bytes).map_err(refuse)?;
             let (positions, sessions) = (practice.library.exercises.len(), practice.sessions.len());

@@ -100,8 +100,9 @@ pub fn play(
             }
         };
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(!layout_seed(spec.seed, index));
+        let request = Request { seed: layout_seed(spec.seed, index), ..request.clone() };
         let Inning { points, missed, simulations, elapsed, slowest } =
-            inning(coach, layout, request, most, until, &mut rng, &mut say).map_err(Failure::wrong_input)?;
+            inning(coach, layout, &request, most, until, &mut rng, &mut say).map_err(Failure::wrong_input)?;
         print_note(format_args!(
             "inning {number}: {}{}",
             plural(points as usize, "point"),

@@ -141,7 +141,9 @@ fn decide(
     let shot = |cue| Decision { cue, simulations: None, predicted: None, others: None };
     match player {
         Player::Recommender(coach, request) => {
-            coach.recommend(layout, request).map_or(shot(NO_SHOT), |advice| Decision {
+            // Each layout has its own search and its own judging errors, so that the predictions are independent.
+            let request = Request { seed: layout_seed(spec.seed, index), ..request.clone() };
+            coach.recommend(layout, &request).map_or(shot(NO_SHOT), |advice| Decision {
                 simulations: Some(advice.simulations),
                 predicted: advice.make_probability.map(|chance| chance.rate),
                 ..shot(advice.cue)

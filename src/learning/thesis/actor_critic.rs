@@ -40,7 +40,7 @@ pub struct Guidance {
     pub lessons: usize,
     /// Weight of the lessons (behaviour cloning).
     pub cloning: f64,
-    /// Standard deviations, in direction and speed, of the bell by which a lesson counts less the farther it is from the actor's own
+    /// Standard deviations, in direction and speed, of the Gaussian by which a lesson counts less the farther it is from the actor's own
     /// action. If several different shots make the point, the actor follows the nearest one and not their mean, which makes none.
     pub width: [f64; 2],
     /// Weight of the pull that brings actions outside the range back into it.
@@ -56,12 +56,12 @@ impl Guidance {
         let rows = actions.dim(0)? as f64;
         let mut loss = (values * (-self.policy_gradient / rows))?;
         if self.lessons > 0 {
-            // Ascent on a bell around each lesson is ascent on the success of an action with noise of that width.
+            // Ascent on a Gaussian around each lesson is ascent on the success of an action with noise of that width.
             let [own, demonstrated] = [actions, &batch.actions].map(|actions| actions.narrow(0, 0, self.lessons));
             let scale = Tensor::new(&self.width.map(|width| (1.0 / width) as f32), &Device::Cpu)?;
             let squared_distance = (own? - demonstrated?)?.broadcast_mul(&scale)?.sqr()?.sum(1)?;
-            let bells = (squared_distance * -0.5)?.exp()?.sum_all()?;
-            loss = (loss - (bells * (self.cloning * self.width[0] / rows))?)?;
+            let gaussians = (squared_distance * -0.5)?.exp()?.sum_all()?;
+            loss = (loss - (gaussians * (self.cloning * self.width[0] / rows))?)?;
         }
         if self.pull > 0.0 {
             let excess = (actions - actions.detach().clamp(-1f32, 1f32)?)?;

@@ -39,6 +39,11 @@ fn unless_unsupported(answer: io::Result<()>) -> io::Result<()> {
     }
 }
 
+/// Whether a request for a lock failed because the file system has none: over NFS, if no lock service runs.
+pub fn lacks_locks(error: &io::Error) -> bool {
+    error.kind() == io::ErrorKind::Unsupported || Errno::from_io_error(error) == Some(Errno::NOLCK)
+}
+
 /// Returns the number of bytes that this user can still write at `path`; `None` if the system does not report it.
 ///
 /// # Errors
@@ -60,6 +65,12 @@ pub fn refuse_large_files() -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_file_system_without_locks_is_recognized() {
+        assert!(lacks_locks(&Errno::NOLCK.into()) && lacks_locks(&Errno::NOTSUP.into()));
+        assert!(!lacks_locks(&Errno::IO.into()));
+    }
 
     #[test]
     fn unsupported_folder_sync_counts_as_success() {

@@ -8,7 +8,7 @@ mod signals;
 
 pub use self::{
     clock::{CLOCK_NAME, thread_time},
-    files::{file_identity, free_space, refuse_large_files, sync_folder, use_umask_permissions},
+    files::{file_identity, free_space, lacks_locks, refuse_large_files, sync_folder, use_umask_permissions},
     input::{Input, discard_pending_output, terminal_output},
     processes::in_own_process_group,
     signals::{exit_by_signal, handle_signals, suspend},

@@ -39,6 +39,11 @@ pub const fn file_identity(_: &Metadata) -> u64 {
     0
 }
 
+/// Whether a request for a lock failed because the file system has none.
+pub fn lacks_locks(error: &io::Error) -> bool {
+    error.kind() == io::ErrorKind::Unsupported
+}
+
 /// Does nothing: folders cannot be opened and synced here, and the file system is responsible for names.
 ///
 /// # Errors

@@ -113,7 +113,7 @@ impl Skill {
 
     /// Whether there are no errors.
     pub fn is_perfect(&self) -> bool {
-        *self == Self::PERFECT
+        self.values() == [0.0; 5]
     }
 
     /// Returns the errors at one stroke, without further growth.

@@ -282,6 +282,8 @@ impl Conversation {
     }
 
     fn ask(&mut self) -> Answer {
+        // Another question has its own errors, so that the former shots are judged anew.
+        self.request.seed = self.request.seed.wrapping_add(1);
         let request = Request { former: self.shots.iter().map(|shot| shot.cue).collect(), ..self.request.clone() };
         let advice = self.coach.recommend(self.layout(), &request).map_err(|error| error.to_string())?;
         let shooter = self.request.shooter();
