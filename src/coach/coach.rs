@@ -434,6 +434,13 @@ mod tests {
     }
 
     #[test]
+    fn requests_with_neighbouring_seeds_are_judged_by_different_errors() {
+        let pieces = |seed| (0..100).map(move |piece| judging_seed(seed).wrapping_add(piece));
+        let all: std::collections::HashSet<u64> = (0..1000).flat_map(pieces).collect();
+        assert_eq!(all.len(), 100_000);
+    }
+
+    #[test]
     fn made_more_often_returns_better_shots_best_first() {
         let cue = CueInputs { a: 0.0, b: 0.3, theta: 0.01, phi: 1.0, speed: 3.0 };
         // The first is made 220 times in 1000. Each of the others has a count of made attempts in 400 and an effort penalty.

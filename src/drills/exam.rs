@@ -119,7 +119,7 @@ mod tests {
     use super::*;
     use crate::{
         coach::Skill,
-        drills::{Goal, Venue, session::tests::exercise},
+        drills::{Goal, Library, Venue, session::tests::exercise},
     };
 
     /// Ten exercises of each category, two of each grade.
@@ -153,6 +153,16 @@ mod tests {
                 assert!((5..=8).contains(&count), "{count} of grade {grade}");
             }
         }
+    }
+
+    #[test]
+    fn expected_scores_are_those_of_strokes_in_the_program() {
+        let library = Library::bundled();
+        let drawn = draw(library.exercises(), 2, 1).unwrap();
+        let sum = |pars: &mut dyn Iterator<Item = Par>| pars.map(|par| par.club).sum::<f64>();
+        let here = sum(&mut drawn.iter().filter_map(|exercise| exercise.par));
+        let at_a_table = sum(&mut drawn.iter().filter_map(|exercise| library.get(&exercise.name).unwrap().par));
+        assert!(here > at_a_table + 0.5, "an exact table is easier: {here} and {at_a_table} of {LENGTH}");
     }
 
     #[test]

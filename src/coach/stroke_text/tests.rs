@@ -53,6 +53,7 @@ fn the_coachs_words_are_parsed_from_one_line_and_from_several() {
     assert!(cue.is_ok(), "{cue:?}");
     assert_eq!(stroke(&told.join(" "), None), cue);
     assert_eq!(stroke(&told.join("\n"), None), cue);
+    assert_eq!(stroke(&told.join("\n").replace('\u{2013}', "-"), None), cue, "as it is printed in ASCII");
 }
 
 #[test]

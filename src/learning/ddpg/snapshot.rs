@@ -83,12 +83,12 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
 /// # Errors
 /// Fails if they do not fit together or are from a version with other features or actions.
 pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
-    let note: TrainerState = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
+    let note: TrainerState = serde_json::from_value(note).map_err(|_| WeightsError::Metadata)?;
     let hyper = &note.task.hyperparameters;
     hyper.validate()?;
     let inputs = hyper.inputs();
     if note.features != inputs.version() || note.actions != hyper.actions.meaning() {
-        return Err(WeightsError::Foreign);
+        return Err(WeightsError::Metadata);
     }
     let (online, target) = (Networks::read(reader, "online.", hyper)?, Networks::read(reader, "target.", hyper)?);
     let [actor, critic] = hyper.adam();
@@ -210,8 +210,8 @@ mod tests {
         let reader = Reader::new(&whole).unwrap();
         let mut other = note;
         other["features"] = "raw-0".into();
-        assert!(matches!(read(&reader, other), Err(WeightsError::Foreign)));
-        assert!(matches!(read(&reader, Value::Null), Err(WeightsError::Foreign)));
+        assert!(matches!(read(&reader, other), Err(WeightsError::Metadata)));
+        assert!(matches!(read(&reader, Value::Null), Err(WeightsError::Metadata)));
     }
 
     #[test]

@@ -25,7 +25,7 @@ pub enum WeightsError {
     Format(#[from] SafeTensorError),
     /// A safetensors file with another content.
     #[error("its metadata has no \"carom\" entry of the right kind")]
-    Foreign,
+    Metadata,
     /// An array is missing, or its type or shape is not the expected one.
     #[error("its array \"{name}\" is not {expected}")]
     Array {
@@ -128,19 +128,19 @@ impl<'a> Reader<'a> {
     /// Parses the file of a [`Writer`].
     ///
     /// # Errors
-    /// [`WeightsError::Format`] or [`WeightsError::Foreign`].
+    /// [`WeightsError::Format`] or [`WeightsError::Metadata`].
     pub fn new(bytes: &'a [u8]) -> Result<Self, WeightsError> {
         let (_, metadata) = SafeTensors::read_metadata(bytes)?;
-        let note = metadata.metadata().as_ref().and_then(|entries| entries.get(NOTE)).ok_or(WeightsError::Foreign)?;
+        let note = metadata.metadata().as_ref().and_then(|entries| entries.get(NOTE)).ok_or(WeightsError::Metadata)?;
         Ok(Self { arrays: SafeTensors::deserialize(bytes)?, note: note.clone() })
     }
 
     /// Parses the note.
     ///
     /// # Errors
-    /// [`WeightsError::Foreign`] if the note is not a `T`.
+    /// [`WeightsError::Metadata`] if the note is not a `T`.
     pub fn note<T: DeserializeOwned>(&self) -> Result<T, WeightsError> {
-        serde_json::from_str(&self.note).map_err(|_| WeightsError::Foreign)
+        serde_json::from_str(&self.note).map_err(|_| WeightsError::Metadata)
     }
 
     /// Whether there is an array called `name`.
@@ -291,11 +291,11 @@ mod tests {
         let refused = reader.network("actor", &[3, 5, 2]).unwrap_err().to_string();
         assert!(refused.contains("3-5-2") && refused.contains("3-4-2"), "{refused}");
         assert!(reader.network("critic", &[3, 4, 2]).unwrap_err().to_string().contains("critic.0.weight"));
-        assert!(matches!(reader.note::<usize>(), Err(WeightsError::Foreign)));
+        assert!(matches!(reader.note::<usize>(), Err(WeightsError::Metadata)));
         for cut in [0, 7, 20, bytes.len() - 1] {
             assert!(Reader::new(&bytes[..cut]).is_err(), "cut at {cut}");
         }
         let foreign = safetensors::serialize(Vec::<(String, TensorView)>::new(), None).unwrap();
-        assert!(matches!(Reader::new(&foreign), Err(WeightsError::Foreign)));
+        assert!(matches!(Reader::new(&foreign), Err(WeightsError::Metadata)));
     }
 }

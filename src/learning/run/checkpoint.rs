@@ -206,7 +206,7 @@ pub fn bytes(learner: &dyn Learner, state: &State) -> Result<Vec<u8>, WeightsErr
         learner: learner.save(&mut writer)?,
     };
     let mut bytes = writer.finish(&note)?;
-    if write_checksum(CHECKPOINT_FIELD, &mut bytes) { Ok(bytes) } else { Err(WeightsError::Foreign) }
+    if write_checksum(CHECKPOINT_FIELD, &mut bytes) { Ok(bytes) } else { Err(WeightsError::Metadata) }
 }
 
 /// Restores the learner and the run's state from a checkpoint's bytes.

@@ -169,7 +169,7 @@ pub(crate) const fn kind_of<A: Agent + 'static>() -> AgentKind {
             Ok(Box::new(TrainingLoop { agent, state }))
         },
         restore: |reader, note| {
-            let note = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
+            let note = serde_json::from_value(note).map_err(|_| WeightsError::Metadata)?;
             let Note::<A::Settings> { settings, agent, state } = note;
             settings.validate()?;
             Ok(Box::new(TrainingLoop { agent: A::restore(settings, reader, agent)?, state }))

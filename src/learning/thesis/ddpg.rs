@@ -330,7 +330,7 @@ impl Agent for PlainDdpg {
 
     fn restore(settings: PlainDdpgSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
         let PlainDdpgState { shots, updates, next, noise, lessons } =
-            serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
+            serde_json::from_value(note).map_err(|_| WeightsError::Metadata)?;
         let networks = settings.networks(reader, updates)?;
         let replay = replay::restore(settings.memory, reader, MEMORY, next)?;
         let memory = settings.memory;

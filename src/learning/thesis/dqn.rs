@@ -186,7 +186,7 @@ impl Agent for Dqn {
     }
 
     fn restore(settings: DqnSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
-        let DqnState { shots, updates, next } = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
+        let DqnState { shots, updates, next } = serde_json::from_value(note).map_err(|_| WeightsError::Metadata)?;
         let online = reader.network("online", &settings.sizes())?;
         Ok(Self {
             target: reader.network("target", &settings.sizes())?,

@@ -161,7 +161,7 @@ impl Agent for QLearning {
     }
 
     fn restore(settings: QLearningSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
-        let QLearningState { shots } = serde_json::from_value(note).map_err(|_| WeightsError::Foreign)?;
+        let QLearningState { shots } = serde_json::from_value(note).map_err(|_| WeightsError::Metadata)?;
         let mut agent = Self { settings, table: BTreeMap::new(), shots };
         agent.load_weights(reader)?;
         Ok(agent)

@@ -139,6 +139,9 @@ fn newer_and_damaged_files_are_named_and_never_changed() {
         fs::write(&path, text).unwrap();
         (path, text.to_owned())
     };
+    let backup = folder.path().join("backup.json");
+    assert_eq!(drill(folder.path(), &["export", backup.to_str().unwrap()]).code, Some(0));
+    let complete = fs::read_to_string(&backup).unwrap();
     let bad = [
         file("sessions/newer.json", &text.replace("\"version\":1", "\"version\":2")),
         file("sessions/half.json", &text[..text.len() / 2]),
@@ -154,6 +157,9 @@ fn newer_and_damaged_files_are_named_and_never_changed() {
     }
     let export = drill(folder.path(), &["export"]);
     assert!(export.code == Some(1) && export.err.contains("5 files"), "{}", export.err);
+    let poorer = drill(folder.path(), &["export", backup.to_str().unwrap()]);
+    assert!(poorer.code == Some(1) && poorer.err.contains("stays as it is"), "{}", poorer.err);
+    assert_eq!(fs::read_to_string(&backup).unwrap(), complete, "a poorer export does not replace it");
     for args in [&["remove", "later"][..], &["skill", "--keep"]] {
         assert_eq!(drill(folder.path(), args).code, Some(1), "{args:?}");
     }

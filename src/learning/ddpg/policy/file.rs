@@ -203,7 +203,7 @@ impl Policy {
             writer.add_network_half(name, network)?;
         }
         let mut bytes = writer.finish(&Note { policy_checksum: CHECKSUM_PLACEHOLDER, origin: &self.origin })?;
-        if write_checksum(POLICY_FIELD, &mut bytes) { Ok(bytes) } else { Err(WeightsError::Foreign) }
+        if write_checksum(POLICY_FIELD, &mut bytes) { Ok(bytes) } else { Err(WeightsError::Metadata) }
     }
 }
 
