@@ -6,12 +6,15 @@ use super::{
     action::{ActionSpace, SPEEDS},
     context::Inputs,
     exploration::Exploration,
-    rollout::RANKED,
 };
 use crate::learning::{
     nn::adam::AdamConfig,
     settings::{SettingError, check, check_batch, check_count, check_layers, check_positive, check_share},
 };
+
+/// Best proposals of a layout that are played so that the critic learns to rank them; it hardly ever ranks the others wrongly. (Six heads
+/// make 24 proposals for straight paths.)
+pub const RANKED: usize = 8;
 
 /// The hyperparameters. The bundled policies were trained with the defaults, except for the differences listed in the model card.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -9,7 +9,7 @@ use super::{
     action::Action,
     agent::Transition,
     expert::{Expert, SearchResult},
-    hyperparameters::Hyperparameters,
+    hyperparameters::{Hyperparameters, RANKED},
     networks::Networks,
     observation::Observation,
     observation_batch::ObservationBatch,
@@ -19,10 +19,6 @@ use super::{
     trainer::Trainer,
 };
 use crate::{platform, table::Layout};
-
-/// Best proposals of a layout that are played so that the critic learns to rank them; it hardly ever ranks the others wrongly. (Six heads
-/// make 24 proposals for straight paths.)
-pub(super) const RANKED: usize = 8;
 
 /// Attempts at each choice of a player with errors in the calibration.
 const CALIBRATION_ATTEMPTS: usize = 16;

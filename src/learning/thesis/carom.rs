@@ -1,4 +1,4 @@
-//! CaromGame billiards as the environment of the thesis' agents: raw positions in, direction and speed out, a reward for every shot.
+//! Carom billiards as the environment of the thesis' agents: raw positions in, direction and speed out, a reward for every shot.
 
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};

@@ -243,12 +243,7 @@ impl Conversation {
                 let outcome = verdict.words(talk.cue_ball(), talk.units.length);
                 Ok(format!("{}\n{outcome}.", speech::events(&recording, all, talk.cue_ball(), talk.units.length)))
             })?,
-            Command::NextPosition => {
-                let shot = self.shots.get(self.chosen).ok_or(NO_SHOT)?;
-                let end = self.recorded(shot)?.final_layout();
-                end.validate(self.table()).map_err(|error| error.for_player(self.cue_ball()).to_string())?;
-                self.place(end)
-            }
+            Command::NextPosition => self.place_end()?,
             Command::Films => film::list(),
             Command::Film(number) => film::describe(number, self.units.length)?,
             Command::Undo if self.balls.undo() => self.drop_shots(self.positions()),
@@ -279,6 +274,14 @@ impl Conversation {
     fn drop_shots(&mut self, sentence: String) -> String {
         self.shots.clear();
         sentence
+    }
+
+    /// Places the balls as the chosen shot leaves them.
+    fn place_end(&mut self) -> Answer {
+        let shot = self.shots.get(self.chosen).ok_or(NO_SHOT)?;
+        let end = self.recorded(shot)?.final_layout();
+        end.validate(self.table()).map_err(|error| error.for_player(self.cue_ball()).to_string())?;
+        Ok(self.place(end))
     }
 
     fn ask(&mut self) -> Answer {
