@@ -88,7 +88,7 @@ pub enum StrokeTextError {
         /// See `least`.
         most: f64,
     },
-    /// The speed is outside the range of [`SPEEDS`].
+    /// The speed is faster or slower than players strike.
     #[error("{} m/s is outside the range; accepted are {} to {}", number(*_0), SPEEDS.start(), SPEEDS.end())]
     Speed(f64),
     /// The cue cannot be raised like this.

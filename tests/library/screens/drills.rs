@@ -1,7 +1,6 @@
 //! The drill screens: keys go through the real app, files into a folder, and the pictures are compared.
 
 use super::{
-    keys::key,
     player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_at, places},
     practice::{exercise, many_positions, session, three_sessions},
 };
@@ -10,7 +9,7 @@ use carom::{
     drills::{Goal, Venue, decode, store::Store},
     game::Rule,
     table::Layout,
-    terminal::{Condition, DrillCondition, DrillContext, DrillReport, DrillTask, Effect, KeyContext},
+    terminal::{Condition, DrillCondition, DrillContext, DrillReport, DrillTask, KeyContext},
 };
 use crossterm::event::{KeyCode, KeyEvent};
 use proptest::prelude::*;
@@ -437,19 +436,11 @@ proptest! {
     }
 }
 
-/// Returns the tasks that a key requests, without running them.
-fn requested_tasks(player: &mut Player, name: &str) -> Vec<DrillTask> {
-    match player.app.handle(&key(name)) {
-        Some(Effect::Drill(tasks)) => tasks,
-        other => panic!("{name} gives {other:?}"),
-    }
-}
-
 #[test]
 fn an_undo_before_the_save_completes_is_kept() {
     let mut player = Player::practising(TRUE_COLOUR);
     let noted = |player: &mut Player, name: &str| {
-        let saved = requested_tasks(player, name).into_iter().find_map(|task| match task {
+        let saved = player.requested_tasks(name).into_iter().find_map(|task| match task {
             DrillTask::Save(session, _) => Some(session),
             _ => None,
         });
@@ -467,15 +458,15 @@ fn a_late_failure_does_not_affect_another_exercise() {
     let mut player = Player::practising(TRUE_COLOUR).press("Right");
     let session = |player: &Player| player.app.drills.turn.as_ref().unwrap().session.id.clone();
     let first = session(&player);
-    drop(requested_tasks(&mut player, "Space"));
+    drop(player.requested_tasks("Space"));
     let mut player = player.press("Esc Enter Right");
     let second = session(&player);
-    let tasks = requested_tasks(&mut player, "Space");
+    let tasks = player.requested_tasks("Space");
     player.app.receive_drill(DrillReport::Played(first, Err("the first has failed".to_owned()), Ok(())));
     player.run(tasks);
     player.says("the shot is running");
     let mut player = player.press("Enter Enter");
-    drop(requested_tasks(&mut player, "Space"));
+    drop(player.requested_tasks("Space"));
     player.app.receive_drill(DrillReport::Played(second, Err("the second has failed".to_owned()), Ok(())));
     player.warns("the second has failed");
     player.says("set the stroke");
@@ -494,7 +485,7 @@ fn advice_requests_have_unique_ids_and_the_current_skill() {
     let other = position(player.app.receive_drill(DrillReport::SkillSaved(Skill::BEGINNER, Ok(()))));
     assert_eq!(other.1, Skill::BEGINNER);
     let mut player = player.press("Esc");
-    let again = position(requested_tasks(&mut player, "Enter"));
+    let again = position(player.requested_tasks("Enter"));
     assert_eq!(again.1, Skill::BEGINNER);
     assert_ne!(again.0, other.0);
 }

@@ -1,10 +1,7 @@
 //! Filmed shots: keys go through the real app, strokes are fitted, and the pictures are compared.
 
-use super::{
-    keys::key,
-    player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check},
-};
-use carom::terminal::{Capabilities, Depth, DrillContext, DrillReport, DrillTask, Effect, Glyphs, KeyContext};
+use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check};
+use carom::terminal::{Capabilities, Depth, DrillContext, DrillReport, DrillTask, Glyphs, KeyContext};
 
 const HALF_BLOCKS: Capabilities = Capabilities { depth: Depth::Ansi, glyphs: Glyphs::Half, unicode: true };
 
@@ -84,15 +81,11 @@ fn shots_are_stepped_through_and_a_late_fit_is_dropped() {
     let mut player = player.press("Esc");
     assert_eq!(player.app.key_context(), KeyContext::Drill(DrillContext::Films));
     // Two requests are made before the first one is answered.
-    let ask = |player: &mut Player, word: &str| match player.app.handle(&key(word)) {
-        Some(Effect::Drill(tasks)) => tasks,
-        other => panic!("{other:?}"),
-    };
-    let first = ask(&mut player, "Enter");
+    let first = player.requested_tasks("Enter");
     player.says("the stroke is being fitted").says("filmed shot 0");
     player = player.press("Space");
     player.says("there is no filmed shot on the table yet");
-    let second = ask(&mut player, "]");
+    let second = player.requested_tasks("]");
     assert!(matches!((&first[..], &second[..]), ([DrillTask::Film(_)], [DrillTask::Film(_)])));
     player.run(first);
     player.says("the stroke is being fitted").says("filmed shot 2");
@@ -103,7 +96,7 @@ fn shots_are_stepped_through_and_a_late_fit_is_dropped() {
 #[test]
 fn a_failed_fit_is_shown_until_the_next_request() {
     let mut player = list(TRUE_COLOUR);
-    let Some(Effect::Drill(tasks)) = player.app.handle(&key("Enter")) else { panic!("nothing is fitted") };
+    let tasks = player.requested_tasks("Enter");
     let [DrillTask::Film(filmed)] = &tasks[..] else { panic!("{tasks:?}") };
     player.app.receive_drill(DrillReport::Filmed(filmed.number, Err("the balls overlap".to_owned())));
     player.warns("the balls overlap");

@@ -189,6 +189,14 @@ impl Player {
         }
     }
 
+    /// Presses a key and returns the tasks that it requests, without running them.
+    pub fn requested_tasks(&mut self, word: &str) -> Vec<DrillTask> {
+        match self.app.handle(&key(word)) {
+            Some(Effect::Drill(tasks)) => tasks,
+            other => panic!("{word} gives {other:?}"),
+        }
+    }
+
     /// Types words, including spaces.
     pub fn type_in(self, text: &str) -> Self {
         text.chars().fold(self, |player, letter| match letter {

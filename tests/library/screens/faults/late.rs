@@ -1,24 +1,13 @@
 //! Results that arrive after the player has gone on, and shots that do not happen.
 
-use carom::terminal::{DrillReport, DrillTask, Effect};
+use carom::terminal::DrillReport;
 
-use crate::screens::{
-    keys::key,
-    player::{Player, TRUE_COLOUR},
-};
-
-/// Presses a key and returns the requested tasks, which have not been run.
-fn tasks_of(player: &mut Player, word: &str) -> Vec<DrillTask> {
-    match player.app.handle(&key(word)) {
-        Some(Effect::Drill(tasks)) => tasks,
-        other => panic!("{word} gives {other:?}"),
-    }
-}
+use crate::screens::player::{Player, TRUE_COLOUR};
 
 #[test]
 fn a_stroke_that_ends_after_its_session_is_left_still_counts() {
     let mut player = Player::practising(TRUE_COLOUR).press("o Space Space Enter Enter");
-    let stroke = tasks_of(&mut player, "Space");
+    let stroke = player.requested_tasks("Space");
     let mut left = player.press("Esc");
     left.says("the run is kept");
     left.run(stroke);
@@ -31,7 +20,7 @@ fn a_stroke_that_ends_after_its_session_is_left_still_counts() {
 #[test]
 fn nothing_moves_after_a_miscue() {
     let mut player = Player::practising(TRUE_COLOUR).press("Space");
-    for task in tasks_of(&mut player, "Space") {
+    for task in player.requested_tasks("Space") {
         let mut reports = Vec::new();
         player.practice.run(task, &mut |report| reports.push(report));
         for mut report in reports {
