@@ -162,7 +162,7 @@ mod tests {
         let sum = |pars: &mut dyn Iterator<Item = Par>| pars.map(|par| par.club).sum::<f64>();
         let here = sum(&mut drawn.iter().filter_map(|exercise| exercise.par));
         let at_a_table = sum(&mut drawn.iter().filter_map(|exercise| library.get(&exercise.name).unwrap().par));
-        assert!(here > at_a_table + 0.5, "an exact table is easier: {here} and {at_a_table} of {LENGTH}");
+        assert!(here > at_a_table + 0.3, "an exact table is easier: {here} and {at_a_table} of {LENGTH}");
     }
 
     #[test]
