@@ -361,7 +361,7 @@ impl<'a> StrokeByStroke<'a> {
     }
 }
 
-/// Prints a shot in words, and its inputs in the form that is typed.
+/// Prints a shot's inputs in the form that is typed, and the shot in words, if it has any.
 fn print_shot(
     beginning: &str,
     table: &Table,
@@ -369,8 +369,9 @@ fn print_shot(
     cue: &CueInputs,
     cue_ball: CueBall,
 ) -> Result<(), Failure> {
-    let words = ShotWords::of(table, layout, cue).map_err(Failure::failed)?.sentence(cue_ball, units());
-    print_line(format_args!("   {beginning} {} ({words})", shot_text(cue)))
+    let words = ShotWords::of(table, layout, cue).ok();
+    let words = words.map_or_else(String::new, |words| format!(" ({})", words.sentence(cue_ball, units())));
+    print_line(format_args!("   {beginning} {}{words}", shot_text(cue)))
 }
 
 fn exam_words(ExamScore { tried, made, expected, spread, nearest }: &ExamScore, of: usize) -> String {
