@@ -12,6 +12,9 @@ use crate::{
 /// Sampling interval for the distance between balls, s: a fast ball moves 2 cm in it.
 const SAMPLING_INTERVAL: f64 = 0.005;
 
+/// Largest number of intervals: a shot of more than 500 s is sampled at longer intervals.
+const MAX_SAMPLES: f64 = 1e5;
+
 /// A cue ball that comes to rest within this distance of its closest point to a ball stopped short of it, m: distances
 /// are reported to a centimetre.
 const MAX_STOP_DISTANCE: f64 = 0.02;
@@ -222,12 +225,12 @@ fn nearest(table: &Table, recording: &Recording, start: f64, ball: usize) -> Opt
         let higher = recording.height(0, time) - recording.height(ball, time);
         places[0].distance(places[ball]).hypot(higher) - 2.0 * table.radius
     };
-    let samples = ((recording.duration() - start) / SAMPLING_INTERVAL).ceil() as usize;
-    let times = (0..=samples).map(|sample| (start + SAMPLING_INTERVAL * sample as f64).min(recording.duration()));
+    let interval = SAMPLING_INTERVAL.max((recording.duration() - start) / MAX_SAMPLES);
+    let samples = ((recording.duration() - start) / interval).ceil() as usize;
+    let times = (0..=samples).map(|sample| (start + interval * sample as f64).min(recording.duration()));
     let (_, near) = times.map(|time| (gap(time), time)).min_by(|one, other| one.0.total_cmp(&other.0))?;
     // Between two samples the gap has a single minimum.
-    let (mut from, mut to) =
-        ((near - SAMPLING_INTERVAL).max(start), (near + SAMPLING_INTERVAL).min(recording.duration()));
+    let (mut from, mut to) = ((near - interval).max(start), (near + interval).min(recording.duration()));
     for _ in 0..30 {
         let third = (to - from) / 3.0;
         if gap(from + third) < gap(to - third) { to -= third } else { from += third }

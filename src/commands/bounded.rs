@@ -20,7 +20,7 @@ const MAX_STEPS: f64 = 4e6;
 /// Plays a shot with the event-driven engine.
 ///
 /// # Errors
-/// Fails if the layout, the stroke or the motion is invalid, if computing takes too long, or if numbers overflow.
+/// Fails if the layout, the stroke or the motion is invalid, if the shot takes too much work, or if numbers overflow.
 pub fn play(table: &Table, layout: &Layout, start: Start<'_>) -> Result<Recording, Failure> {
     let (recording, is_over) =
         Recording::within_bounds(table, layout, start, TIME_LIMIT, u32::MAX).map_err(Failure::wrong_input)?;
@@ -77,7 +77,8 @@ fn check_finite(
     let name = &table.name;
     if is_over {
         return Err(Failure::failed(format_args!(
-            "the shot takes more than {} s to compute on \"{name}\" and was stopped; use {other_remedies}a less stiff table",
+            "the shot takes too much work on \"{name}\" (more than {} s, or hundreds of thousands of bounces) and was stopped; use \
+             {other_remedies}a less stiff table",
             TIME_LIMIT.as_secs()
         )));
     }
@@ -85,7 +86,7 @@ fn check_finite(
         return Ok(recording);
     }
     Err(Failure::failed(format_args!(
-        "the shot's numbers do not stay finite on \"{name}\"; use a table with less friction between balls or on cushions"
+        "the shot's numbers do not stay finite on \"{name}\"; use a table with constants nearer to those of \"match\""
     )))
 }
 

@@ -71,8 +71,11 @@ impl From<CueInputs> for CueDegrees {
 /// Why a stroke is refused.
 #[derive(Debug, thiserror::Error, PartialEq)]
 pub enum CueError {
-    /// The tip misses the ball.
-    #[error("the tip at a = {a}, b = {b} misses the ball: a² + b² is {offset:.4}, at most {limit} is accepted")]
+    /// The tip misses the ball or slips off it.
+    #[error(
+        "the tip at a = {a}, b = {b} {} the ball: a² + b² is {offset:.4}, at most {limit} is accepted",
+        if *offset <= 1.0 { "slips off" } else { "misses" }
+    )]
     Tip {
         /// Horizontal offset in units of R.
         a: f64,

@@ -70,7 +70,7 @@ impl Recording {
         Self::record_with(table, layout, start, |impulse, recorder| {
             let mut bounded = BoundedRecorder::new(recorder, longest, most);
             let end = simulate(table, layout, impulse, &mut bounded);
-            (end, bounded.is_over())
+            (end, end.is_exhausted || bounded.is_over())
         })
     }
 

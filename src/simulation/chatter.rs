@@ -14,7 +14,7 @@ use super::{
     contacts::{PAIRS_OF, contacts_where},
 };
 use crate::{
-    physics::{ActiveSet, BallState, Contact, Contacts, Effort, Scene, slip},
+    physics::{ActiveSet, BallState, Contact, Contacts, Effort, Partner, Scene, slip},
     table::{BALLS, PAIRS, Table},
 };
 
@@ -87,12 +87,10 @@ impl Chatters {
     }
 
     fn slot(contact: &Contact) -> usize {
-        if let Some(second) = contact.second {
-            return contact.first + second - 1;
+        match contact.partner {
+            Partner::Ball(second) => contact.first + second - 1,
+            Partner::Cushion(rail) => PAIRS.len() + 4 * contact.first + rail as usize,
         }
-        let n = contact.cushion_normal;
-        let rail = if n.x == 0.0 { 2 + usize::from(n.y > 0.0) } else { usize::from(n.x > 0.0) };
-        PAIRS.len() + 4 * contact.first + rail
     }
 
     /// Records a slow bounce. Returns whether it is part of a chatter.
@@ -211,7 +209,7 @@ pub fn chatter_end(
         chatter <= slide && 0.5 * moment <= negligible * slide * slide
     };
     // Most bounces are too fast for any acceleration that the cloth can cause.
-    let bodies = if contact.second.is_some() { 2.0 } else { 1.0 };
+    let bodies = if contact.second().is_some() { 2.0 } else { 1.0 };
     if !ends(MAX_PULL * bodies * (constants.sliding + constants.tilt.length())) {
         return None;
     }
@@ -257,6 +255,7 @@ fn meets_another(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::table::Rail;
 
     /// Returns the end of the chatters of a ball with another one, s.
     fn end_time(chatters: &Chatters, ball: usize, other: usize) -> f64 {
@@ -308,7 +307,7 @@ mod tests {
     fn chatter_continues_if_another_ball_would_interrupt_its_end() {
         let table = Table::preset("thesis").unwrap();
         let constants = Constants::of(&table);
-        let contact = Contact::with_cushion(0, glam::DVec2::NEG_X);
+        let contact = Contact::with_cushion(0, Rail::Right);
         let ends = |gap: f64| {
             let place = glam::DVec2::new(table.reach().x, 0.0);
             let behind = place - glam::DVec2::new(2.0 * table.radius + gap, 0.0);
@@ -327,7 +326,7 @@ mod tests {
     fn end_of_a_chatter_excludes_contacts_in_flight() {
         let table = Table::preset("thesis").unwrap();
         let constants = Constants::of(&table);
-        let contact = Contact::with_cushion(0, glam::DVec2::NEG_X);
+        let contact = Contact::with_cushion(0, Rail::Right);
         let ends = |up: f64| {
             let mut balls =
                 [glam::DVec2::ZERO, glam::DVec2::new(0.0, 0.3), glam::DVec2::new(0.0, -0.3)].map(BallState::at_rest);
@@ -343,7 +342,7 @@ mod tests {
                 .contacts
                 .to_vec()
         };
-        let other = Contact::with_cushion(0, glam::DVec2::NEG_Y);
+        let other = Contact::with_cushion(0, Rail::Top);
         assert_eq!(ends(3e-9), [contact]);
         assert!(ends(0.0).contains(&contact) && ends(0.0).contains(&other));
     }

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::{Constants, Rail, extrapolation::State};
 use crate::{
-    physics::{Contact, Contacts},
+    physics::{Contact, Contacts, Partner},
     table::{BALLS, PAIRS},
 };
 
@@ -43,8 +43,7 @@ pub fn contacts_where(
     };
     for index in (0..BALLS).filter(|&index| on_cloth[index]) {
         for rail in Rail::ALL {
-            let normal = rail.normal();
-            let contact = Contact::with_cushion(index, normal);
+            let contact = Contact::with_cushion(index, rail);
             add(gap(constants, balls, &contact), contact);
         }
     }
@@ -58,9 +57,9 @@ pub fn contacts_where(
 /// Returns the distance of a contact's surfaces, m.
 fn gap(constants: &Constants, balls: &State, contact: &Contact) -> f64 {
     let place = balls[contact.first].position;
-    match contact.second {
-        Some(second) => place.distance(balls[second].position) - constants.diameter,
-        None => cushion_gap(constants, contact.cushion_normal, place),
+    match contact.partner {
+        Partner::Ball(second) => place.distance(balls[second].position) - constants.diameter,
+        Partner::Cushion(rail) => cushion_gap(constants, rail.normal(), place),
     }
 }
 
@@ -84,9 +83,9 @@ pub fn close_gaps(constants: &Constants, balls: &mut State, contacts: &[Contact]
     for _ in 0..CLOSING_ROUNDS {
         for contact in contacts {
             let (gap, n) = (gap(constants, balls, contact), contact.normal(balls));
-            let share = if contact.second.is_some() { 0.5 } else { 1.0 };
+            let share = if contact.second().is_some() { 0.5 } else { 1.0 };
             balls[contact.first].position -= share * gap * n;
-            if let Some(second) = contact.second {
+            if let Some(second) = contact.second() {
                 balls[second].position += share * gap * n;
             }
         }

@@ -19,7 +19,7 @@ use crate::{
 /// Impacts within this time count as simultaneous, s: about two roundings of a time of two seconds.
 pub(super) const SAME_TIME: f64 = 1e-15;
 
-/// Final state of a simulation: all balls are at rest, or the observer ended the shot.
+/// Final state of a simulation: all balls are at rest, or the shot was ended by the observer or because it took too much work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct End {
     /// Time of the last event, s.
@@ -28,6 +28,8 @@ pub struct End {
     pub balls: [BallState; BALLS],
     /// Whether each ball has left the table; such a ball stays where it left.
     pub off_table: [bool; BALLS],
+    /// Whether the shot took so much work that it was ended before the balls were at rest: the state is not that of a real shot.
+    pub is_exhausted: bool,
 }
 
 impl End {
@@ -348,7 +350,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             state
         });
         let off_table = std::array::from_fn(|index| self.balls[index].segment.motion == Motion::OffTable);
-        End { time, balls, off_table }
+        End { time, balls, off_table, is_exhausted: self.is_exhausted() }
     }
 }
 

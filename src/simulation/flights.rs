@@ -141,7 +141,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let slowest = c.tolerance.slowest_in_air;
         let approach = cushion.resolve_in_space(c.radius, slowest, to_nose.normalize(), &mut state);
         self.resolve_cloth_impact(&mut state);
-        let contact = Contact::with_cushion(index, rail.normal());
+        let contact = Contact::with_cushion(index, rail);
         let reported = self.is_reported(now, &contact, approach);
         self.report_impact(now, EventKind::BallRail(index, rail), reported)?;
         self.launch_in_space(index, now, &state)?;

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::{
-    Event, EventKind, Observer, Rail,
+    Event, EventKind, Observer,
     chatter::{Chatters, chatter_end},
     contacts::{PAIRS_OF, close_gaps, is_in_corner, move_to_cushion, touching},
     engine::{Ball, ContactMode, Engine, PairPrediction, SAME_TIME, only_ball},
@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     physics::{
-        ActiveSet, BallState, Contact, Contacts, ImpactImpulse, MAX_CONTACTS, Motion, collide_together,
+        ActiveSet, BallState, Contact, Contacts, ImpactImpulse, MAX_CONTACTS, Motion, Partner, collide_together,
         stop_by_impulses,
     },
     table::{BALLS, PAIRS},
@@ -62,7 +62,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
         let mut reported = true;
         if state.velocity.dot(n) <= c.tolerance.slow_bounce {
-            let contact = Contact::with_cushion(index, n);
+            let contact = Contact::with_cushion(index, rail);
             // An inelastic nose above the centre that does not throw the ball back has stopped it by its own law. In other cases, a bounce
             // that is too slow to be followed is undone.
             let [sine, _] = self.law_at(approach).cushions.at(rail).nose();
@@ -187,9 +187,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         };
         for contact in contacts.iter() {
             // Exactly at the cushion, as in a single impact.
-            let n = contact.cushion_normal;
-            let ball = &mut states[contact.first];
-            if contact.second.is_none() {
+            if let Partner::Cushion(rail) = contact.partner {
+                let (n, ball) = (rail.normal(), &mut states[contact.first]);
                 ball.position += (room - n.abs().dot(c.reach) - ball.position.dot(n)) * n;
             }
         }
@@ -232,13 +231,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Records a slow bounce: reports the beginning of a chatter once, and returns whether the bounce itself is reported.
     #[cold]
     pub(super) fn slow_bounce(&mut self, now: f64, contact: &Contact) -> ControlFlow<(), bool> {
-        self.effort.add(if contact.second.is_some() { BALL_BOUNCE_COST } else { RAIL_BOUNCE_COST });
+        self.effort.add(if contact.second().is_some() { BALL_BOUNCE_COST } else { RAIL_BOUNCE_COST });
         let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
         if !chatters.bounce(contact, now) && self.micro_collisions.is_none() {
             return ControlFlow::Continue(true);
         }
         self.observer.contact_step()?;
-        for ball in [Some(contact.first), contact.second].into_iter().flatten() {
+        for ball in [Some(contact.first), contact.second()].into_iter().flatten() {
             self.begin_contact(ball, now)?;
         }
         ControlFlow::Continue(false)
@@ -341,8 +340,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
 /// Returns the event of an impact.
 fn kind(contact: &Contact) -> EventKind {
-    match contact.second {
-        Some(second) => EventKind::BallBall(contact.first, second),
-        None => EventKind::BallRail(contact.first, Rail::with_normal(contact.cushion_normal)),
+    match contact.partner {
+        Partner::Ball(second) => EventKind::BallBall(contact.first, second),
+        Partner::Cushion(rail) => EventKind::BallRail(contact.first, rail),
     }
 }

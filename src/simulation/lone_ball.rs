@@ -38,7 +38,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let mut ball = self.balls[index].to_free();
         loop {
             self.effort.add(ITERATION_COST);
-            if self.resting_budget_spent() {
+            if self.resting_budget_spent() || self.is_exhausted() {
                 break;
             }
             let Ball { segment, duration, rail_after, rail, .. } = &ball;

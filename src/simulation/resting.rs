@@ -468,11 +468,11 @@ impl Resting {
 
     /// Whether these two balls press each other.
     pub fn presses_together(&self, (first, second): (usize, usize)) -> bool {
-        self.contacts.iter().any(|contact| (contact.first, contact.second) == (first, Some(second)))
+        self.contacts.iter().any(|contact| *contact == Contact::of_balls(first, second))
     }
 
     /// Whether this cushion holds the ball.
     pub fn presses_cushion(&self, ball: usize, rail: Rail) -> bool {
-        self.contacts.contains(&Contact::with_cushion(ball, rail.normal()))
+        self.contacts.contains(&Contact::with_cushion(ball, rail))
     }
 }

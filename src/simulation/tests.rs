@@ -102,6 +102,23 @@ fn each_rail_has_its_own_constants() {
 }
 
 #[test]
+fn constants_of_every_rail_equal_those_of_all_rails() {
+    let own = Some(RailOverrides { e: None, mu: Some(0.45), height: None });
+    let dead = Table { rail_restitution: 0.0, rail_friction: 0.45, ..Table::preset("thesis").unwrap() };
+    let rail = Rails { left: own, right: own, bottom: own, top: own, ..dead.rail };
+    let each = Table { rail, rail_friction: 0.2, ..dead.clone() };
+    for step in 0..40 {
+        // Struck into a dead cushion with sidespin, the ball slides along it.
+        let (angle, spin) = (0.15 * f64::from(step), DVec3::new(3.0, 80.0 - 4.0 * f64::from(step), -5.0));
+        let [all, each] = [&dead, &each].map(|table| {
+            let (course, end) = played(table, DVec2::new(1.1, 0.1), DVec2::from_angle(angle), spin, None);
+            (course.events, end)
+        });
+        assert_eq!(all, each, "{step}");
+    }
+}
+
+#[test]
 fn edge_of_a_band_at_a_cushion_changes_nothing() {
     let table = Table::default();
     let rolling = Rolling::of(&table);

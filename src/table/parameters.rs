@@ -274,6 +274,11 @@ impl Table {
         DVec2::new(self.half_length(), self.half_width())
     }
 
+    /// Returns the coefficient of friction between a ball and the cushion of `rail`.
+    pub fn friction_of(&self, rail: Rail) -> f64 {
+        self.rail.overrides(rail).mu.unwrap_or(self.rail_friction)
+    }
+
     /// Whether both tables have the same playing area and ball size, so that a layout of one fits the other.
     pub fn has_size_of(&self, other: &Self) -> bool {
         (self.length, self.width, self.radius) == (other.length, other.width, other.radius)

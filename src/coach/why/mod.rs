@@ -51,6 +51,9 @@ pub struct Kiss {
 pub struct Difference {
     /// The name of its pattern.
     pub pattern: Option<&'static str>,
+    /// Whether the best shot has the same pattern.
+    #[serde(skip)]
+    pub has_same_pattern: bool,
     /// Its first object ball, if that differs.
     pub first_ball: Option<usize>,
     /// How much fuller it hits the same first ball; negative is thinner.
@@ -115,8 +118,10 @@ pub fn why(
         let its = Technique::of(table, layout, &other.cue)?;
         let [ball, its_ball] = [&technique, &its].map(|technique| technique.first.map(|hit| hit.ball));
         let lengths = |cue: &CueInputs| table_lengths(table, cue.speed).unwrap_or_default();
+        let [own_pattern, pattern] = [&technique, &its].map(|shot| Pattern::of(shot).map(|pattern| pattern.name));
         Ok(Difference {
-            pattern: Pattern::of(&its).map(|pattern| pattern.name),
+            has_same_pattern: pattern.is_some() && pattern == own_pattern,
+            pattern,
             first_ball: its_ball.filter(|_| its_ball != ball),
             fuller: if its_ball == ball { its.fullness() - technique.fullness() } else { 0.0 },
             harder: lengths(&other.cue) - lengths(&advice.cue),

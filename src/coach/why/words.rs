@@ -24,7 +24,6 @@ impl Why {
         let mut parts = Vec::new();
         let second = self.second.as_ref();
         let other = second.and_then(|second| second.make_probability);
-        let plan = self.plan_words("the second shot");
         parts.extend(self.make_probability.zip(other).map(|(rate, other)| {
             let [own, its] = [rate, other].map(percent);
             if (rate - other).abs() > NOTABLE_DIFFERENCE {
@@ -36,28 +35,17 @@ impl Why {
         }));
         let alone = self.make_probability.filter(|_| other.is_none());
         parts.extend(alone.map(|rate| format!("it is made {} of the time", percent(rate))));
-        parts.extend(plan.clone().filter(|_| self.is_by_plan()));
-        parts.extend(self.aim_deg.map(|width| match second.and_then(|second| second.aim_deg) {
-            Some(other) => {
-                format!("its aim tolerance is {} wide, that of the second shot {}", degrees(width), degrees(other))
-            }
-            None => format!("its aim tolerance is {} wide", degrees(width)),
-        }));
-        parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], place }| {
+        let mut reasons = self.reasons(cue_ball, "the second shot");
+        if let (Some(reason), Some(Kiss { place, .. })) = (reasons.iter_mut().find(|reason| reason.is_kiss), self.kiss)
+        {
             let (diamond, middle) = self.scale;
-            let at = (place + middle).to_array().map(|along| match units.position {
+            let [along, up] = (place + middle).to_array().map(|along| match units.position {
                 PositionUnit::Diamonds => format_trimmed(along / diamond, 1),
                 PositionUnit::Mm => format!("{} mm", format_trimmed(1e3 * along, 0)),
             });
-            let [along, up] = at;
-            format!(
-                "{} and {} kiss in {} of the strokes, at {along} along and {up} up",
-                names[one],
-                names[other],
-                percent(share)
-            )
-        }));
-        parts.extend(plan.filter(|_| !self.is_by_plan()));
+            reason.words += &format!(" of the strokes, at {along} along and {up} up");
+        }
+        parts.extend(with_but(reasons));
         let alone = if self.is_the_first {
             "no other shot was looked for"
         } else {
@@ -135,22 +123,62 @@ impl Why {
 
     /// Returns facts that the list of the shots does not contain. If the plan decides, that comes first.
     fn facts(&self, cue_ball: CueBall) -> Vec<String> {
-        let names = cue_ball.names();
-        let mut parts = Vec::new();
-        parts.extend(self.aim_deg.map(|width| {
-            let other = self.second.as_ref().and_then(|second| second.aim_deg);
-            let there = other.map_or_else(String::new, |width| format!(", shot 2's {}", degrees(width)));
-            format!("the aim tolerance is {} wide{there}", degrees(width))
-        }));
-        parts.extend(self.kiss.map(|Kiss { share, balls: [one, other], .. }| {
-            format!("{} and {} kiss in {}", names[one], names[other], percent(share))
-        }));
-        if let Some(plan) = self.plan_words("shot 2") {
-            let place = if self.is_by_plan() { 0 } else { parts.len() };
-            parts.insert(place, plan);
-        }
-        parts
+        with_but(self.reasons(cue_ball, "shot 2")).collect()
     }
+
+    /// Returns what speaks for the shot, then what speaks against it, compared with the second-best shot, which is called `other`. If the
+    /// plan decides, that comes first.
+    fn reasons(&self, cue_ball: CueBall, other: &str) -> Vec<Reason> {
+        let names = cue_ball.names();
+        let second = self.second.as_ref();
+        let mut reasons = Vec::new();
+        reasons.extend(self.aim_deg.map(|width| {
+            let own = degrees(width);
+            let Some(its) = second.and_then(|second| second.aim_deg) else {
+                return Reason::new(true, format!("its aim tolerance is {own} wide"));
+            };
+            let words = match degrees(its) {
+                its if its == own => format!("its aim tolerance is {own} wide, like that of {other}"),
+                there if width > its => format!("its aim tolerance is wider, {own} ({other}: {there})"),
+                there => format!("its aim tolerance is narrower, {own} ({other}: {there})"),
+            };
+            Reason::new(!words.contains("narrower"), words)
+        }));
+        reasons.extend(self.kiss.map(|Kiss { share, balls: [one, other], .. }| {
+            let words = format!("{} and {} kiss in {}", names[one], names[other], percent(share));
+            Reason { is_kiss: true, ..Reason::new(false, words) }
+        }));
+        if let Some(plan) = self.plan_words(other) {
+            let next = self.next_probability.zip(second.and_then(|second| second.next_probability));
+            let is_for = self.is_by_plan() || next.is_none_or(|(after, after_other)| after >= after_other);
+            let place = if self.is_by_plan() { 0 } else { reasons.len() };
+            reasons.insert(place, Reason::new(is_for, plan));
+        }
+        reasons.sort_by_key(|reason| !reason.is_for);
+        reasons
+    }
+}
+
+/// A fact that speaks for the shot or against it.
+struct Reason {
+    is_for: bool,
+    is_kiss: bool,
+    words: String,
+}
+
+impl Reason {
+    const fn new(is_for: bool, words: String) -> Self {
+        Self { is_for, is_kiss: false, words }
+    }
+}
+
+/// Returns the words of reasons; "but" precedes the first that speaks against the shot.
+fn with_but(reasons: Vec<Reason>) -> impl Iterator<Item = String> {
+    let first = reasons.iter().position(|reason| !reason.is_for);
+    let word = move |(index, reason): (usize, Reason)| {
+        if Some(index) == first { format!("but {}", reason.words) } else { reason.words }
+    };
+    reasons.into_iter().enumerate().map(word)
 }
 
 /// Joins the parts into a text; the first one has all parts, each further one drops the last part.
@@ -168,7 +196,8 @@ fn degrees(width: f64) -> String {
 
 impl Difference {
     fn parts(&self, names: [&'static str; 3]) -> String {
-        let mut parts = vec![self.pattern.unwrap_or("another shot").to_owned()];
+        let pattern = self.pattern.unwrap_or("another shot");
+        let mut parts = vec![if self.has_same_pattern { format!("also {pattern}") } else { pattern.to_owned() }];
         parts.extend(self.first_ball.map(|ball| format!("off {}", names[ball])));
         parts.extend(
             (self.fuller.abs() > MIN_FULLNESS_DIFFERENCE)
@@ -207,7 +236,7 @@ mod tests {
         assert!(why.second.is_some() && !advice.alternatives.is_empty());
         let sentences: Vec<String> = why.brief(CueBall::White).collect();
         let [brief, .., least] = &sentences[..] else { panic!("{sentences:?}") };
-        assert!(brief.starts_with("shot 2 (") && brief.contains("\u{b0} wide") && brief.len() < 170, "{brief}");
+        assert!(brief.starts_with("shot 2 (") && brief.contains("aim tolerance is ") && brief.len() < 170, "{brief}");
         assert!(least.starts_with("shot 2 (") && least.ends_with(" %.") && !least.contains("tolerance"), "{least}");
         let said = why.words(CueBall::White, Units::default());
         assert!(said.ends_with('.') && said.contains("The second shot is ") && !said.contains(';'), "{said}");

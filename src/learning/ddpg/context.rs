@@ -80,7 +80,7 @@ fn scaled_constants(table: &Table) -> [f64; CONSTANTS] {
     let rails = |own: fn(&Table, Rail) -> f64| Rail::ALL.into_iter().map(|rail| own(table, rail)).sum::<f64>() / 4.0;
     let constants = [
         (Some(rails(|table, rail| table.rail.overrides(rail).e.unwrap_or(table.rail_restitution))), 0.8505, 0.07),
-        (Some(rails(|table, rail| table.rail.overrides(rail).mu.unwrap_or(table.rail_friction))), 0.3116, 0.12),
+        (Some(rails(Table::friction_of)), 0.3116, 0.12),
         (table.rail.height.filter(|_| table.rail.model != RailModel::Equator), 0.03736, 0.0036),
         (table.rail.kappa, 1.267, 0.36),
         (table.rail.fade.map(|fade| fade.slope), 0.02, 0.09),

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     physics::{BallState, slip},
-    table::{BALLS, Table},
+    table::{BALLS, Rail, Table},
 };
 
 /// Largest number of contacts of three balls: with each other, and with two cushions each.
@@ -25,7 +25,7 @@ pub struct Contacts {
 
 impl Contacts {
     /// The empty list.
-    pub const NONE: Self = Self { list: [Contact::with_cushion(0, DVec2::ZERO); MAX_CONTACTS], count: 0 };
+    pub const NONE: Self = Self { list: [Contact::with_cushion(0, Rail::Left); MAX_CONTACTS], count: 0 };
 
     /// Appends a contact. Ignored if the list is full: three balls cannot have more contacts.
     pub fn push(&mut self, contact: Contact) {

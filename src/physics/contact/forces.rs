@@ -300,7 +300,10 @@ impl Forces {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::{BallState, slip};
+    use crate::{
+        physics::{BallState, slip},
+        table::Rail,
+    };
 
     /// The first of these balls is at the right cushion of `thesis`, with this velocity and spin.
     struct AtCushion {
@@ -315,7 +318,7 @@ mod tests {
             let table = Table::preset("thesis").unwrap();
             let mut balls = [table.half_length(), 0.5, -0.5].map(|x| BallState::at_rest(DVec2::new(x, 0.0)));
             (balls[0].velocity, balls[0].spin) = (velocity, spin);
-            let contacts = [Contact::with_cushion(0, DVec2::NEG_X)];
+            let contacts = [Contact::with_cushion(0, Rail::Right)];
             let set = ActiveSet::of(&table, &balls, &contacts, 1e-10);
             Self { table, balls, contacts, set }
         }

@@ -105,7 +105,7 @@ mod tests {
 
     use crate::{
         physics::{ActiveSet, BallState, Contact, Effort, Scene},
-        table::Table,
+        table::{Rail, Table},
     };
 
     /// A ball in a corner is pushed there by another ball that slips on it: cloth and cushions share the force.
@@ -118,7 +118,7 @@ mod tests {
         balls[0].velocity = DVec2::new(-0.0313, -0.001_09);
         balls[0].spin = DVec3::new(29.64, -0.28, 13.58);
         balls[1].spin.z = -0.7;
-        let cushions = [DVec2::NEG_X, DVec2::Y].map(|normal| Contact::with_cushion(1, normal));
+        let cushions = [Rail::Right, Rail::Bottom].map(|rail| Contact::with_cushion(1, rail));
         let contacts = [cushions[0], cushions[1], Contact::of_balls(0, 1)];
         let set = ActiveSet::of(&table, &balls, &contacts, 1e-10);
         let scene = Scene { table: &table, balls: &balls, contacts: &contacts, set: &set };

@@ -17,7 +17,7 @@ mod solve;
 use glam::{DVec2, DVec3};
 
 use super::BallState;
-use crate::table::{BALLS, Table};
+use crate::table::{BALLS, Rail, Table};
 pub use active_set::{ActiveSet, Contacts, Friction, MAX_CONTACTS};
 pub use constraints::stop_by_impulses;
 pub use effort::Effort;
@@ -55,44 +55,59 @@ impl Scene<'_> {
 pub struct Contact {
     /// The ball on which the normal force acts along `n`.
     pub first: usize,
-    /// The other ball, or `None` for a cushion.
-    pub second: Option<usize>,
-    /// The cushion's normal into the table; for two balls the normal follows from their positions.
-    pub cushion_normal: DVec2,
+    /// What it touches.
+    pub partner: Partner,
+}
+
+/// What a ball touches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Partner {
+    /// The ball of this index.
+    Ball(usize),
+    /// The cushion of this rail.
+    Cushion(Rail),
 }
 
 impl Contact {
-    /// Creates a contact of a ball with the cushion of this normal into the table.
-    pub const fn with_cushion(ball: usize, normal: DVec2) -> Self {
-        Self { first: ball, second: None, cushion_normal: normal }
+    /// Creates a contact of a ball with a cushion.
+    pub const fn with_cushion(ball: usize, rail: Rail) -> Self {
+        Self { first: ball, partner: Partner::Cushion(rail) }
     }
 
     /// Creates a contact of two balls.
     pub const fn of_balls(first: usize, second: usize) -> Self {
-        Self { first, second: Some(second), cushion_normal: DVec2::ZERO }
+        Self { first, partner: Partner::Ball(second) }
+    }
+
+    /// Returns the second of two balls; `None` for a cushion.
+    pub const fn second(&self) -> Option<usize> {
+        match self.partner {
+            Partner::Ball(second) => Some(second),
+            Partner::Cushion(_) => None,
+        }
     }
 
     /// Returns the unit normal towards the first ball.
     pub fn normal(&self, balls: &[BallState; BALLS]) -> DVec2 {
-        match self.second {
-            None => self.cushion_normal,
-            Some(second) => (balls[self.first].position - balls[second].position).normalize(),
+        match self.partner {
+            Partner::Cushion(rail) => rail.normal(),
+            Partner::Ball(second) => (balls[self.first].position - balls[second].position).normalize(),
         }
     }
 
     /// Whether `ball` takes part in the contact.
     pub fn involves(&self, ball: usize) -> bool {
-        self.first == ball || self.second == Some(ball)
+        self.first == ball || self.partner == Partner::Ball(ball)
     }
 
     /// Whether a ball takes part in both contacts.
     pub fn shares_a_ball(&self, other: &Self) -> bool {
-        other.involves(self.first) || self.second.is_some_and(|second| other.involves(second))
+        other.involves(self.first) || self.second().is_some_and(|second| other.involves(second))
     }
 
     /// Whether this is a contact of balls that never slip on each other, because they have no coefficient of friction (17).
     pub const fn never_slips(&self, table: &Table) -> bool {
-        table.ball_friction.is_none() && self.second.is_some()
+        table.ball_friction.is_none() && self.second().is_some()
     }
 
     /// Returns the speed at which the contact opens, m/s.
@@ -107,13 +122,13 @@ impl Contact {
     }
 
     fn relative_velocity(&self, balls: &[BallState; BALLS]) -> DVec2 {
-        balls[self.first].velocity - self.second.map_or(DVec2::ZERO, |second| balls[second].velocity)
+        balls[self.first].velocity - self.second().map_or(DVec2::ZERO, |second| balls[second].velocity)
     }
 
     /// Returns the part of the rates of opening, slip along `t = z×n` and slip along z that does not depend on the accelerations, m/s²: the
     /// contact frame of two balls rotates. The normal is `n`.
     fn rotation_bias(&self, radius: f64, balls: &[BallState; BALLS], n: DVec2) -> [f64; 3] {
-        let Some(second) = self.second else { return [0.0; 3] };
+        let Some(second) = self.second() else { return [0.0; 3] };
         let diameter = 2.0 * radius;
         let across = self.relative_velocity(balls).dot(n.perp());
         // The slip along z changes because t rotates, the slip along t because n does (where v·n = 0 contributes nothing).
@@ -126,7 +141,7 @@ impl Contact {
     fn normal_and_slip(&self, radius: f64, balls: &[BallState; BALLS]) -> (DVec2, DVec2) {
         let n = self.normal(balls);
         let t = n.perp();
-        let spin = balls[self.first].spin + self.second.map_or(DVec3::ZERO, |second| balls[second].spin);
+        let spin = balls[self.first].spin + self.second().map_or(DVec3::ZERO, |second| balls[second].spin);
         let along = self.relative_velocity(balls).dot(t) - radius * spin.z;
         (n, DVec2::new(along, radius * spin.truncate().dot(t)))
     }

@@ -6,7 +6,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{ActiveSet, Contact, Friction, MAX_CONTACTS, Scene};
+use super::{ActiveSet, Contact, Friction, MAX_CONTACTS, Partner, Scene};
 use crate::{
     physics::{BallState, Rolling, slip},
     table::{BALLS, Table},
@@ -74,7 +74,7 @@ impl Row {
             Self::ZERO.with(contact.first, t, DVec3::NEG_Z),
             Self::ZERO.with(contact.first, DVec2::ZERO, t.extend(0.0)),
         ];
-        if let Some(second) = contact.second {
+        if let Some(second) = contact.second() {
             rows[0] = rows[0].with(second, -n, DVec3::ZERO);
             rows[1] = rows[1].with(second, -t, DVec3::NEG_Z);
             rows[2] = rows[2].with(second, DVec2::ZERO, t.extend(0.0));
@@ -99,7 +99,10 @@ pub fn rolling_resistance(table: &Table, ball: &BallState) -> f64 {
 
 /// Returns the Coulomb coefficient of a contact.
 pub fn coefficient(table: &Table, contact: &Contact) -> f64 {
-    if contact.second.is_some() { table.ball_friction.unwrap_or(NO_SLIP) } else { table.rail_friction }
+    match contact.partner {
+        Partner::Ball(_) => table.ball_friction.unwrap_or(NO_SLIP),
+        Partner::Cushion(rail) => table.friction_of(rail),
+    }
 }
 
 /// Upper bound of a friction force.
@@ -232,7 +235,7 @@ impl Problem {
     pub fn grip(&mut self, contacts: &[Contact]) {
         for unknown in &mut self.unknowns {
             if let Limit::Coulomb(mu, contact) = &mut unknown.limit
-                && contacts[*contact].second.is_some()
+                && contacts[*contact].second().is_some()
             {
                 *mu = f64::INFINITY;
             }

@@ -119,7 +119,7 @@ mod tests {
 
     use crate::{
         physics::{ActiveSet, BallState, Contact, Effort, Forces, Friction, Resolved, Scene, slip},
-        table::Table,
+        table::{Rail, Table},
     };
 
     /// A ball that rolls along the lower cushion and is pressed against it by another ball. `second` has the velocity and spin of the other
@@ -134,7 +134,7 @@ mod tests {
             velocity: velocity.truncate(),
             spin,
         };
-        let contacts = [Contact::with_cushion(0, DVec2::Y), Contact::of_balls(0, 1)];
+        let contacts = [Contact::with_cushion(0, Rail::Bottom), Contact::of_balls(0, 1)];
         ([rolls, presses, BallState::at_rest(DVec2::new(0.9, 0.4))], contacts)
     }
 

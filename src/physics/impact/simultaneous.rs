@@ -6,8 +6,8 @@
 //! - For each group of contacts that share balls, Moreau's law gives the normal impulses: `0 ≤ v⁺ + e v⁻ ⊥ P ≥ 0`. Since every contact
 //!   closes, `v⁻ < 0`, the round removes the energy `½ Σ (1 - e) P |v⁻|` and never adds any. If all contacts have the same `e`, that is the
 //!   share `1 - e²` of the energy of approach.
-//! - The friction of each contact follows from its slip before the round and its `P` by the law of a single impact. If the frictions
-//!   together would add energy, they are scaled down until they do not.
+//! - The friction of each contact follows from its slip before the round and its `P` by the law of a single impact at the height of the
+//!   balls' centres. If the frictions together would add energy, they are scaled down until they do not.
 //! - A contact with zero impulse, because others relieve it, takes no part. A contact that remains alone is a single impact.
 //!
 //! Contacts that close after a round belong to the next round.
@@ -19,10 +19,10 @@
 
 use glam::DVec2;
 
-use super::{BallImpact, BallState, Cushion, Cushions, ImpactImpulse, contact_twist};
+use super::{BallImpact, BallState, Cushions, ImpactImpulse, contact_twist};
 use crate::{
-    physics::{Contact, MAX_CONTACTS},
-    table::{BALLS, Rail, Table},
+    physics::{Contact, MAX_CONTACTS, Partner},
+    table::{BALLS, Table},
 };
 
 /// Largest number of Gauss-Seidel sweeps for the normal impulses: for three balls they converge linearly with a factor of at most 3/4, in
@@ -30,7 +30,7 @@ use crate::{
 const MAX_SWEEPS: usize = 200;
 
 /// Impact laws of a table. If several contacts that share balls close at once, cushion contacts are at the height of the balls' centres,
-/// with the friction and restitution of slow impacts.
+/// with Coulomb friction, and restitution is that of slow impacts.
 #[derive(Clone, Debug)]
 pub struct ImpactLaw {
     /// Law of two balls.
@@ -52,13 +52,12 @@ impl ImpactLaw {
         Self { balls: self.balls.with_restitution(restitution), cushions: self.cushions.with_restitution(restitution) }
     }
 
-    fn cushion(&self, contact: &Contact) -> &Cushion {
-        self.cushions.at(Rail::with_normal(contact.cushion_normal))
-    }
-
     /// Returns the restitution of a slow impact.
     pub fn restitution(&self, contact: &Contact) -> f64 {
-        if contact.second.is_some() { self.balls.restitution } else { self.cushion(contact).restitution }
+        match contact.partner {
+            Partner::Ball(_) => self.balls.restitution,
+            Partner::Cushion(rail) => self.cushions.at(rail).restitution,
+        }
     }
 }
 
@@ -123,29 +122,23 @@ fn apply_impulses(
     let slips: Vec<DVec2> = contacts.iter().map(|contact| contact.slip(radius, balls)).collect();
     for (contact, (n, impulse)) in contacts.iter().zip(normals.iter().zip(impulses)) {
         balls[contact.first].velocity += *impulse * *n;
-        if let Some(second) = contact.second {
+        if let Some(second) = contact.second() {
             balls[second].velocity -= *impulse * *n;
         }
     }
     let with_friction = |share: f64| {
         let mut balls = *balls;
         for (index, contact) in contacts.iter().enumerate() {
-            let (friction, holds) = if contact.second.is_some() {
-                (law.balls.friction, 1.0 / 7.0)
-            } else {
-                (Some(law.cushion(contact).friction), 2.0 / 7.0)
-            };
-            let size = slips[index].length();
-            let factor = match friction {
-                _ if impulses[index] <= 0.0 => 0.0,
-                Some(mu) if mu * impulses[index] < holds * size => mu * impulses[index] / size,
-                _ => holds,
+            let (impulse, slip) = (impulses[index], slips[index].length());
+            let factor = match contact.partner {
+                Partner::Ball(_) => law.balls.friction_factor(impulse, slip),
+                Partner::Cushion(rail) => law.cushions.at(rail).friction_factor(impulse, slip),
             };
             let (tangential, t) = (-share * factor * slips[index], normals[index].perp());
             let twist = contact_twist(radius, -tangential.x, -tangential.y, t);
             balls[contact.first].velocity += tangential.x * t;
             balls[contact.first].spin += twist;
-            if let Some(second) = contact.second {
+            if let Some(second) = contact.second() {
                 balls[second].velocity -= tangential.x * t;
                 balls[second].spin += twist;
             }
@@ -166,9 +159,9 @@ fn apply_impulses(
 
 /// Applies a single impact.
 fn collide_single(radius: f64, law: &ImpactLaw, balls: &mut [BallState; BALLS], contact: &Contact) -> ImpactImpulse {
-    match contact.second {
-        None => law.cushion(contact).resolve(radius, contact.cushion_normal, &mut balls[contact.first]),
-        Some(second) => {
+    match contact.partner {
+        Partner::Cushion(rail) => law.cushions.at(rail).resolve(radius, rail.normal(), &mut balls[contact.first]),
+        Partner::Ball(second) => {
             let (mut one, mut other) = (balls[contact.first], balls[second]);
             let normal = law.balls.resolve(radius, &mut one, &mut other);
             (balls[contact.first], balls[second]) = (one, other);
@@ -183,7 +176,7 @@ fn normal_impulses(law: &ImpactLaw, balls: &[BallState; BALLS], contacts: &[Cont
     let mut impulses = [0.0; MAX_CONTACTS];
     let normals: Vec<DVec2> = contacts.iter().map(|contact| contact.normal(balls)).collect();
     let sense = |contact: &Contact, ball: usize| {
-        f64::from(u8::from(contact.first == ball)) - f64::from(u8::from(contact.second == Some(ball)))
+        f64::from(u8::from(contact.first == ball)) - f64::from(u8::from(contact.partner == Partner::Ball(ball)))
     };
     let response = |i: usize, j: usize| {
         let shared: f64 = (0..BALLS).map(|ball| sense(&contacts[i], ball) * sense(&contacts[j], ball)).sum();
@@ -214,6 +207,7 @@ fn normal_impulses(law: &ImpactLaw, balls: &[BallState; BALLS], contacts: &[Cont
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::table::Rail;
 
     const RADIUS: f64 = 0.03;
 
@@ -291,12 +285,27 @@ mod tests {
     }
 
     #[test]
+    fn friction_by_slip_replaces_the_constant_coefficient() {
+        let height = 3.0_f64.sqrt() * RADIUS;
+        let contacts = [Contact::of_balls(0, 1), Contact::of_balls(0, 2)];
+        let after = |ball_friction: Option<f64>| {
+            let table = Table { ball_friction, ..Table::preset("match").unwrap() };
+            let mut balls =
+                [(-height, 0.0), (0.0, RADIUS), (0.0, -RADIUS)].map(|(x, y)| BallState::at_rest(DVec2::new(x, y)));
+            (balls[0].velocity.x, balls[0].spin.z) = (3.0, 80.0);
+            collide(&ImpactLaw::of(&table), &mut balls, &contacts);
+            balls
+        };
+        assert_eq!(after(Some(0.118)), after(None));
+    }
+
+    #[test]
     fn contacts_without_shared_balls_collide_independently() {
         let law = ImpactLaw::of(&Table::preset("match").unwrap());
         let mut balls = in_line(2.0);
         balls[2].velocity = DVec2::new(3.0, 1.0);
         let (mut pair, mut alone) = (balls, balls);
-        let contacts = [LINE[0], Contact::with_cushion(2, DVec2::NEG_X)];
+        let contacts = [LINE[0], Contact::with_cushion(2, Rail::Right)];
         let together = collide_together(RADIUS, &law, &mut balls, &contacts);
         let one = collide_together(RADIUS, &law, &mut pair, &contacts[..1]);
         let other = collide_together(RADIUS, &law, &mut alone, &contacts[1..]);
@@ -314,9 +323,9 @@ mod tests {
         balls[2].spin = glam::DVec3::new(36.5, 20.9, 0.0);
         balls[0].velocity = DVec2::new(-40.0, -3.0);
         let contacts = [
-            Contact::with_cushion(0, DVec2::Y),
-            Contact::with_cushion(2, DVec2::NEG_X),
-            Contact::with_cushion(2, DVec2::Y),
+            Contact::with_cushion(0, Rail::Bottom),
+            Contact::with_cushion(2, Rail::Right),
+            Contact::with_cushion(2, Rail::Bottom),
         ];
         let before = balls[2].specific_energy(RADIUS);
         let mut corner = balls;
@@ -336,7 +345,7 @@ mod tests {
         balls[2].spin = glam::DVec3::new(-2.3e-7, -5.2e-6, 0.0);
         let (mut alone, before) = (balls, balls[2].specific_energy(RADIUS));
         balls[0].velocity = DVec2::new(2.0, 1.0);
-        let corner = [Contact::with_cushion(2, DVec2::X), Contact::with_cushion(2, DVec2::NEG_Y)];
+        let corner = [Contact::with_cushion(2, Rail::Left), Contact::with_cushion(2, Rail::Top)];
         collide_together(RADIUS, &law, &mut balls, &corner);
         collide_together(RADIUS, &law, &mut alone, &corner);
         assert_eq!(balls[2], alone[2]);
@@ -365,7 +374,7 @@ mod tests {
         let mut balls = in_line(0.0);
         balls[0] = BallState { velocity: DVec2::new(2.0, 0.7), spin: glam::DVec3::new(30.0, 50.0, -20.0), ..balls[0] };
         balls[1].velocity = DVec2::new(0.5, -0.3);
-        let contacts = [Contact::of_balls(0, 1), Contact::with_cushion(1, DVec2::NEG_X)];
+        let contacts = [Contact::of_balls(0, 1), Contact::with_cushion(1, Rail::Right)];
         let law = with_friction(0.95, 0.3);
         let energy = |balls: &[BallState; BALLS]| balls.iter().map(|ball| ball.specific_energy(RADIUS)).sum::<f64>();
         let before = energy(&balls);

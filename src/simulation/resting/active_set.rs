@@ -161,7 +161,7 @@ pub fn find_active_set(
 
 /// Makes two balls separate at a given speed, m/s.
 fn separate(balls: &mut State, contact: &Contact, speed: f64) {
-    let Some(second) = contact.second else { return };
+    let Some(second) = contact.second() else { return };
     let missing = 0.5 * (speed - contact.opening_speed(balls)) * contact.normal(balls);
     balls[contact.first].velocity += missing;
     balls[second].velocity -= missing;
@@ -171,7 +171,7 @@ fn separate(balls: &mut State, contact: &Contact, speed: f64) {
 /// cloth to act.
 fn stop_slips(table: &Table, balls: &mut State, contacts: &[Contact]) {
     let sticks = |contact: Option<&Contact>| match contact {
-        Some(contact) if contact.second.is_some() => Friction::Sticks,
+        Some(contact) if contact.second().is_some() => Friction::Sticks,
         _ => Friction::Slips(DVec2::ZERO),
     };
     let contact = std::array::from_fn(|index| sticks(contacts.get(index)));

@@ -76,7 +76,7 @@ impl Resting {
                 let t = contact.normal(balls).perp();
                 let spin = table.radius * (across.y * t).extend(-across.x);
                 (row.balls[contact.first].velocity, row.balls[contact.first].spin) = (across.x * t, spin);
-                if let Some(second) = contact.second {
+                if let Some(second) = contact.second() {
                     (row.balls[second].velocity, row.balls[second].spin) = (-across.x * t, spin);
                 }
             }

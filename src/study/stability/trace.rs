@@ -73,7 +73,7 @@ impl Trace {
             event_count: 0,
             contact_steps: 0,
             steps: 0,
-            end: End { time: 0.0, balls: [still; BALLS], off_table: [false; BALLS] },
+            end: End { time: 0.0, balls: [still; BALLS], off_table: [false; BALLS], is_exhausted: false },
             finished: true,
             seconds: 0.0,
             started: Instant::now(),

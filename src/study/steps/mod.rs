@@ -383,7 +383,12 @@ impl<'a> Stepper<'a> {
     fn finish(mut self) -> End {
         (0..BALLS).for_each(|index| self.close(index));
         let off_table = std::array::from_fn(|index| self.balls[index].segment.motion == Motion::OffTable);
-        End { time: self.last_event, balls: self.balls.map(|ball| ball.state.horizontal_state()), off_table }
+        End {
+            time: self.last_event,
+            balls: self.balls.map(|ball| ball.state.horizontal_state()),
+            off_table,
+            is_exhausted: false,
+        }
     }
 }
 

@@ -22,14 +22,16 @@ use ratatui::{layout::Size, style::Color};
 #[test]
 fn skill_and_rule_are_explained_until_a_shot_is_shown() {
     let player = Player::new();
-    for part in ["Its shots are for an expert at", "straight rail.", "S: how well you play; R: the rule."] {
+    for part in
+        ["Shots for an expert at straight rail.", "S: how well you play; R: the rule.", "F3: drills; F9: a match."]
+    {
         assert!(player.text(80, 24).contains(part), "{part}");
     }
     let player = player.press("R R S");
     assert!(player.text(80, 24).contains("S: how well you play; R: the rule."), "it fits next to the longest names");
-    assert!(player.text(80, 24).contains("Its shots are for a world-class"));
+    assert!(player.text(80, 24).contains("Shots for a world-class player"));
     player.shows(&["three-cushion."]);
-    player.press("Enter").answer().does_not_show("Its shots are for");
+    player.press("Enter").answer().does_not_show("Shots for");
 }
 
 #[test]
@@ -144,6 +146,7 @@ fn reasons_are_shown_and_the_likely_kiss_is_marked() {
     let second = Difference {
         next_probability: None,
         pattern: Some("one cushion, reverse"),
+        has_same_pattern: false,
         first_ball: Some(2),
         fuller: -0.2,
         harder: 0.5,

@@ -171,7 +171,7 @@ fn placed_balls_stay_when_the_table_changes() {
 fn session_values_are_shown_and_used_as_starting_points() {
     let text = "# mine\nrule = \"straight\" # at home\n";
     let player = with(TRUE_COLOUR, text).press("F2 R R S P + F5");
-    player.says("three-cushion now; the next start uses straight");
+    player.says("three-cushion now and at the next start");
     let query = &player.app.coach.query;
     let skill = Settings::default().skill;
     assert_eq!((query.rule, query.plan, query.skill == skill), (Rule::ThreeCushion, false, false));
@@ -182,7 +182,7 @@ fn session_values_are_shown_and_used_as_starting_points() {
     player.shows(&[
         "4 changed",
         "rule        •◂ three-cushion ▸ now",
-        "Now \"three-cushion\"; the next",
+        "Now \"three-cushion\", also",
         "saves \"three-cushion\".",
     ]);
     let player = player.press("Right Right");
@@ -197,7 +197,7 @@ fn session_values_are_shown_and_used_as_starting_points() {
     assert!(!player.settings_text().contains("skill"));
     // Back at the default value, the file still has another one, which can be removed.
     let player = player.press("F2 R R F5 Up Up Up");
-    player.says("straight ▸ now; the next start uses one-cushion");
+    player.says("straight ▸ now and at the next start");
     assert!(player.press("Delete").settings_text().contains("rule = \"straight\" # at home\n"));
 }
 

@@ -80,7 +80,7 @@ impl Joint {
         let against = friction.direction(slip);
         Self {
             first: contact.first,
-            second: contact.second,
+            second: contact.second(),
             n,
             t: n.perp(),
             at: 0,

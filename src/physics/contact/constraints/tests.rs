@@ -1,7 +1,7 @@
 //! Tests of impulses that cancel residual speeds, and of contacts that cannot all be held.
 
 use super::*;
-use crate::physics::BallState;
+use crate::{physics::BallState, table::Rail};
 
 /// A ball at a cushion that slips on it and opens at this speed.
 fn rubbing(opening: f64) -> (Table, [BallState; BALLS], [Contact; 1]) {
@@ -10,7 +10,7 @@ fn rubbing(opening: f64) -> (Table, [BallState; BALLS], [Contact; 1]) {
     balls[0].position.x = table.half_length();
     balls[0].velocity = DVec2::new(-opening, 0.5);
     balls[0].spin = DVec3::new(20.0, 10.0, 40.0);
-    (table, balls, [Contact::with_cushion(0, DVec2::NEG_X)])
+    (table, balls, [Contact::with_cushion(0, Rail::Right)])
 }
 
 fn stopped(opening: f64, given: f64) -> f64 {
@@ -51,7 +51,7 @@ fn cushion_and_curved_ball_contact_are_inconsistent() {
             [0.0, 2.0 * table.radius, 0.5].map(|y| BallState::at_rest(DVec2::new(0.0, y - table.half_width())));
         balls[0].velocity.x = speed;
         balls[0].spin = DVec3::new(7.0, 4.0, 0.0);
-        let contacts = [Contact::with_cushion(0, DVec2::Y), Contact::of_balls(0, 1)];
+        let contacts = [Contact::with_cushion(0, Rail::Bottom), Contact::of_balls(0, 1)];
         let set = ActiveSet::of(&table, &balls, &contacts, 1e-9);
         let scene = Scene { table: &table, balls: &balls, contacts: &contacts, set: &set };
         let mut pressed = Forces::NONE;

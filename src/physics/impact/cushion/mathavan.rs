@@ -6,6 +6,9 @@
 //! its slip there. Compression ends when the ball no longer approaches. Restitution returns the share `e²` of the work of compression
 //! (Stronge).
 //!
+//! The drag of the cloth ends with the slip there: within a step it is at most what removes the slip. Otherwise a rough cloth would drive
+//! the ball.
+//!
 //! Velocities are linear in the impulse, except for the directions of the two slips, so that a few steps are enough. If the nose sticks,
 //! the friction of a step balances the other forces.
 
@@ -61,7 +64,9 @@ impl Constants {
         let drag = -cloth * below.normalize_or_zero();
         let rate = |friction: DVec2| {
             // The upward friction of the nose lifts the ball; its normal force presses the ball down.
-            let drag = (sine - friction.y * cosine).max(0.0) * drag;
+            let pressing = (sine - friction.y * cosine).max(0.0);
+            let removing = below.length() / (3.5 * impulse);
+            let drag = (removing / (pressing * cloth)).min(1.0) * pressing * drag;
             Velocities {
                 velocity: DVec2::new(cosine + friction.y * sine + drag.x, friction.x + drag.y),
                 spin: 2.5 * DVec3::new(drag.y - friction.x * sine, friction.y - drag.x, -friction.x * cosine),
@@ -164,6 +169,7 @@ fn integrate(law: &Constants, restitution: f64, motion: &mut Velocities, steps: 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::table::MAX_CLOTH_FRICTION;
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -254,17 +260,24 @@ mod tests {
     fn every_ball_leaves_the_rail_without_energy_gain() {
         let energy = |motion: &Velocities| motion.velocity.length_squared() + 0.4 * motion.spin.length_squared();
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(9);
-        for cloth in [0.2, 0.5, 1.0] {
-            let held = Constants { cloth, ..law() };
-            for _ in 0..500 {
-                let mut number = |wide: f64| wide * (2.0 * rng.random::<f64>() - 1.0);
-                let spin = DVec3::new(number(6.0), number(6.0), number(6.0));
-                let mut motion = Velocities { velocity: DVec2::new(-1.0, number(2.0)), spin };
-                let before = energy(&motion);
-                integrate(&held, 0.9, &mut motion, STEPS);
-                assert!(motion.velocity.x >= 0.0, "{cloth}: {}", motion.velocity);
-                assert!(energy(&motion) <= 1.01 * before, "{cloth}: {} of {before}", energy(&motion));
-            }
+        // Up to the limits of a table: cloth, friction and height of the nose, restitution.
+        for index in 0..40_000_u32 {
+            let mut number = |wide: f64| wide * (2.0 * rng.random::<f64>() - 1.0);
+            let sine = (0.3 + number(0.35)).clamp(0.0, 0.6);
+            let held = Constants {
+                nose: (0.5 + number(0.6)).clamp(0.0, 0.999),
+                cloth: (0.45 + number(0.45)).clamp(0.0, MAX_CLOTH_FRICTION),
+                sine,
+                cosine: (1.0 - sine * sine).sqrt(),
+            };
+            let velocity = DVec2::new(-1.0, number([0.1, 1.0, 3.0, 10.0][index as usize % 4]));
+            let wide = [0.1, 1.0, 3.0, 10.0, 50.0][index as usize % 5];
+            let roll = if index % 3 == 0 { DVec3::new(-velocity.y, velocity.x, 0.0) } else { DVec3::ZERO };
+            let mut motion = Velocities { velocity, spin: roll + DVec3::new(number(wide), number(wide), number(wide)) };
+            let (before, restitution) = (energy(&motion), (0.8 + number(0.3)).min(1.0));
+            integrate(&held, restitution, &mut motion, STEPS);
+            assert!(motion.velocity.x >= 0.0, "{index}: {}", motion.velocity);
+            assert!(energy(&motion) <= before * (1.0 + 1e-12), "{index}: {} of {before}", energy(&motion));
         }
     }
 

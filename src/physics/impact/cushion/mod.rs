@@ -63,7 +63,6 @@ impl Cushion {
     pub fn of(table: &Table, rail: Rail) -> Self {
         let own = table.rail.overrides(rail);
         let restitution = own.e.unwrap_or(table.rail_restitution);
-        let friction = own.mu.unwrap_or(table.rail_friction);
         let sine = own.height.or(table.rail.height).map_or(0.0, |height| height / table.radius - 1.0);
         let cosine = if sine == 0.0 { 1.0 } else { (1.0 - sine * sine).sqrt() };
         let law = match table.rail.model {
@@ -75,7 +74,7 @@ impl Cushion {
             }
             RailModel::Mathavan => Law::Mathavan { sine, cosine, cloth: table.sliding_friction },
         };
-        Self { restitution, friction, law, fade: table.rail.fade }
+        Self { restitution, friction: table.friction_of(rail), law, fade: table.rail.fade }
     }
 
     /// Returns the cushion with this restitution at any speed and contact at the height of the ball's centre.
@@ -125,6 +124,12 @@ impl Cushion {
             }
         };
         ImpactImpulse { normal, climb }
+    }
+
+    /// Returns the friction impulse per mass divided by the slip, for a normal impulse at the height of the ball's centre: Coulomb friction
+    /// up to the no-slip limit.
+    pub(super) fn friction_factor(&self, normal: f64, slip: f64) -> f64 {
+        StickSlip::Sharp.factor(self.friction * normal, slip)
     }
 
     fn restitution_at(&self, approach: f64) -> f64 {

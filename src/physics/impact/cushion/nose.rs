@@ -27,7 +27,7 @@ pub(super) enum StickSlip {
 impl StickSlip {
     /// Returns the factor `f` for `μ P/m` and the magnitude of the slip, both m/s.
     #[inline(always)]
-    fn factor(self, push: f64, slip: f64) -> f64 {
+    pub(super) fn factor(self, push: f64, slip: f64) -> f64 {
         // Without slip there is no friction.
         if slip <= 0.0 {
             return 0.0;

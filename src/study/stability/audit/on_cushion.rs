@@ -3,7 +3,10 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::{physics::BallState, table::Table};
+use crate::{
+    physics::BallState,
+    table::{Rail, Table},
+};
 
 /// Approximate change of a slip in a step, as a share of the slip; the relative error of a step is then `0.05⁵/120`: 3e-9.
 const SHARE: f64 = 0.05;
@@ -15,8 +18,7 @@ const SHORTEST: f64 = 1e-6;
 /// The cushion and the laws in force there.
 pub struct OnCushion<'a> {
     pub table: &'a Table,
-    /// Unit normal from the cushion into the table.
-    pub normal: DVec2,
+    pub rail: Rail,
     /// Whether the ball slips at the cushion; otherwise it sticks there.
     pub slips: bool,
     /// Sign of the side spin on the whole stretch, 1 or -1; 0 if the cloth holds it at zero.
@@ -27,7 +29,7 @@ impl OnCushion<'_> {
     /// Returns the energy that a ball which slips on the cloth loses in `time` seconds, m²/s².
     pub fn loss(&self, start: &BallState, time: f64) -> f64 {
         let table = self.table;
-        let fastest = 3.5 * table.sliding_friction * table.gravity * (1.0 + table.rail_friction);
+        let fastest = 3.5 * table.sliding_friction * table.gravity * (1.0 + table.friction_of(self.rail));
         let mut now = (start.velocity, start.spin);
         let mut left = time;
         while left > 0.0 {
@@ -54,21 +56,21 @@ impl OnCushion<'_> {
 
     /// Returns the slip along the cushion, `t = z×n`, and along z.
     fn rail_slip(&self, (v, w): (DVec2, DVec3)) -> DVec2 {
-        let (radius, t) = (self.table.radius, self.normal.perp());
+        let (radius, t) = (self.table.radius, self.rail.normal().perp());
         DVec2::new(v.dot(t) - radius * w.z, radius * w.truncate().dot(t))
     }
 
     /// Returns the acceleration of the ball and of its spin.
     fn rate(&self, now: (DVec2, DVec3)) -> (DVec2, DVec3) {
         let table = self.table;
-        let (n, t, spin_per_force) = (self.normal, self.normal.perp(), 2.5 / table.radius);
+        let (n, t, spin_per_force) = (self.rail.normal(), self.rail.normal().perp(), 2.5 / table.radius);
         let cloth = -table.sliding_friction * table.gravity * self.cloth_slip(now).normalize_or_zero();
         let spinning = -spin_per_force * table.spinning_friction * table.gravity * self.spin_sign;
         // The force at the lowest point rotates the ball about a horizontal axis, the force at the cushion about the others.
         let turn = (spin_per_force * DVec2::new(cloth.y, -cloth.x)).extend(spinning);
         let push = (-cloth.dot(n)).max(0.0);
         let rub = if self.slips {
-            -table.rail_friction * push * self.rail_slip(now).normalize_or_zero()
+            -table.friction_of(self.rail) * push * self.rail_slip(now).normalize_or_zero()
         } else {
             let free = self.rail_slip((cloth, turn));
             DVec2::new(-free.x / 3.5, -free.y / 2.5)

@@ -145,7 +145,7 @@ fn on_one_cushion(
     // At the end of a spin, rounding leaves the other sign; at its beginning, there is no sign yet.
     let spin = about_vertical(numbers, ball);
     let spin_sign = if slips(ends, &[spin]) { (dot(&spin, &ends[0]) + dot(&spin, &ends[1])).signum() } else { 0.0 };
-    let course = OnCushion { table, normal: rail.normal(), slips: rubs, spin_sign };
+    let course = OnCushion { table, rail: *rail, slips: rubs, spin_sign };
     (slides && (rubs || spin_sign != 0.0)).then(|| course.loss(state, time))
 }
 

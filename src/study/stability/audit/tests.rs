@@ -9,7 +9,7 @@ use crate::{
     physics::{BallState, CueDegrees},
     simulation::{Course, Rail},
     study::stability::{Case, Shot, cases, random},
-    table::{Flight, Layout, RailModel, Rails, THESIS_PRESETS},
+    table::{Flight, Layout, RailModel, RailOverrides, Rails, THESIS_PRESETS},
 };
 
 /// Returns the largest unexplained energy in a shot after tampering, as a multiple of the tolerance.
@@ -173,9 +173,15 @@ fn wrong_friction_in_coupled_contacts_is_detected() {
         })
         .collect();
     let seen = |table: &Table| traces.iter().filter(|trace| left_by(table, trace) > 1.0).count();
-    assert_eq!(seen(&table), 0);
+    let with_own_rails = |mu: f64| {
+        let own = Some(RailOverrides { mu: Some(mu), ..RailOverrides::default() });
+        let rail = Rails { left: own, right: own, bottom: own, top: own, ..table.rail };
+        Table { rail, rail_friction: 0.0, ..table.clone() }
+    };
+    assert_eq!((seen(&table), seen(&with_own_rails(table.rail_friction))), (0, 0));
     // Not every ball slips on its cushion; all roll and spin.
     let others = [
+        (with_own_rails(0.98 * table.rail_friction), 5),
         (Table { rail_friction: 0.98 * table.rail_friction, ..table.clone() }, 5),
         (Table { rolling_friction: 0.5 * table.rolling_friction, ..table.clone() }, 20),
         (Table { spinning_friction: 0.5 * table.spinning_friction, ..table.clone() }, 20),

@@ -2,7 +2,7 @@
 
 use crate::{
     physics::FIRST_BOUNCE,
-    table::{BALLS, Table},
+    table::{BALLS, Rail, Table},
 };
 
 /// Rounding of an energy relative to the largest involved energy, at most: some thirty operations from the state at a piece's
@@ -62,7 +62,7 @@ impl Uncertainty {
         // |u| and R|w| are both at most 4 √E, and the power of every friction is its coefficient times g times one of them. A
         // time is rounded, and friction works during this rounding error.
         let coefficient =
-            table.sliding_friction + table.rolling_friction + table.spinning_friction + 2.0 * table.rail_friction;
+            table.sliding_friction + table.rolling_friction + table.spinning_friction + 2.0 * rail_friction(table);
         let power = 4.0 * coefficient * table.gravity * (BALLS as f64 * self.energy).sqrt();
         // Balls that never slip, and that no forces hold together, separate at this speed, each of three pairs at most once.
         let first_bounce = FIRST_BOUNCE * (table.gravity * table.radius).sqrt();
@@ -93,14 +93,19 @@ impl Uncertainty {
         if !(self.rests && self.is_struck) {
             return 0.0;
         }
-        let coefficient = table.rail_friction + table.ball_friction.unwrap_or(0.0);
+        let coefficient = rail_friction(table) + table.ball_friction.unwrap_or(0.0);
         let coupled = coefficient * COUPLED_SPEED * (table.gravity * table.radius).sqrt();
         4.0 * self.energy.sqrt() * (RESTING_SPEED + if self.impacts > 1 { coupled } else { 0.0 })
     }
 
     /// Returns the work of all frictions over the uncertainty of a position in a resting contact.
     fn of_a_place(&self, table: &Table) -> f64 {
-        let coefficient = table.sliding_friction + table.rail_friction + table.ball_friction.unwrap_or(0.0);
+        let coefficient = table.sliding_friction + rail_friction(table) + table.ball_friction.unwrap_or(0.0);
         if self.rests { RESTING_PLACE * coefficient * table.gravity } else { 0.0 }
     }
+}
+
+/// Returns the largest coefficient of friction of a cushion.
+fn rail_friction(table: &Table) -> f64 {
+    Rail::ALL.iter().fold(0.0, |most, rail| table.friction_of(*rail).max(most))
 }

@@ -353,7 +353,9 @@ impl CoachPage {
         let stays =
             self.table() == table || current.opening_side(self.table()).is_none() && current.validate(table).is_ok();
         let layout = if stays { current } else { Layout::opening(table) };
-        let news = format!("the coach plays with {}; Enter asks it", query.name());
+        let rule =
+            if query.rule == self.query.rule { String::new() } else { format!("; the rule is now {}", query.rule) };
+        let news = format!("the coach plays with {}{rule}; Enter asks it", query.name());
         let CoachQuery { skill, doubt, plan, jumps, first, .. } = self.query;
         self.replace_position(table, layout, self.cue_ball(), CoachQuery { skill, doubt, plan, jumps, first, ..query });
         self.message = Some(Message::good(news));

@@ -211,7 +211,10 @@ impl DrillsPage {
         self.own_table = session.table.clone().or(self.own_table.take());
         self.close_exercise();
         self.player.coach_page_skill = skill;
-        self.player.skill = session.skill;
+        // An exam keeps the player with whom it began; the practice after it does not.
+        if !session.is_exam() {
+            self.player.skill = session.skill;
+        }
         let mut tasks = vec![self.load()];
         tasks.extend(self.practise(session));
         // A damaged session opens no screen.

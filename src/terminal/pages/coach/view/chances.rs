@@ -58,9 +58,9 @@ pub fn draw_chances(advised: Option<&AdviceState>, empty: &str, says_why: bool, 
         let words = if is_unclear { sort(proposal, true) } else { words };
         ui.buffer.set_stringn(inner.x + WORDS, row, words, room, style);
     }
-    // The failure rate that each source of error causes alone, for the first shot.
+    // The failure rate that each source of error causes alone; known for the first shot only.
     let mut row = inner.y + advised.choices.len() as u16;
-    if let (Some(risk), true) = (advised.choices[0].proposal.risk, row < inner.bottom()) {
+    if let (Some(risk), true) = (advised.choices[advised.chosen].proposal.risk, row < inner.bottom()) {
         let width = usize::from(inner.width.saturating_sub(1));
         for line in risk_lines(&risk, width, usize::from(inner.bottom() - row)) {
             ui.buffer.set_stringn(inner.x + 1, row, line, width, ui.theme.faint());

@@ -31,7 +31,7 @@ const NAME: usize = 8;
 /// Draws the row. The query terms and the time of the shot are always shown, the rest if it fits.
 pub fn draw_header(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let room = usize::from(area.width);
-    // If room is short, the duration and the playback speed are dropped before any query term.
+    // If room is short, the duration or the playback speed, then both, are dropped before any query term.
     let time = transport(coach, Form::Now, 0, ui).width() + 2;
     // Of the query terms the player's average is dropped first, then the plan. The wish for the first contact and the name of another
     // table stay.
@@ -132,7 +132,7 @@ enum Form {
     Sign,
     /// The same without blanks and unit.
     Short,
-    /// The same without the speed.
+    /// The same without the duration, if the speed is not 1, or otherwise without the speed.
     Time,
     /// Only the symbol and the current time.
     Now,
@@ -166,7 +166,8 @@ fn transport(coach: &CoachPage, form: Form, bar: usize, ui: &Ui) -> Line<'static
         Form::Words => (format!("{words:<10}  "), format!(" / {end} s"), format!("  {times}{}", playback.speed())),
         Form::Sign => (format!("{sign} "), format!(" / {end} s"), format!(" {times}{}", playback.speed())),
         Form::Short => (format!("{sign} "), format!("/{end}"), format!(" {times}{}", playback.speed())),
-        Form::Time => (format!("{sign} "), format!("/{end}"), String::new()),
+        Form::Time if playback.speed() == 1.0 => (format!("{sign} "), format!("/{end}"), String::new()),
+        Form::Time => (format!("{sign} "), String::new(), format!(" {times}{}", playback.speed())),
         Form::Now => (format!("{sign} "), String::new(), String::new()),
     };
     let mut line = Line::from(Span::styled(state, ui.theme.text()));

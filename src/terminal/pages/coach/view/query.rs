@@ -1,5 +1,6 @@
-//! The panel that shows the player skill and the rule of the query, as long as there is no shot.
+//! The panel that shows the player skill and the rule of the query, and the ways to other screens, as long as there is no shot.
 
+use crossterm::event::KeyCode::F;
 use ratatui::layout::Rect;
 
 use crate::{
@@ -7,6 +8,7 @@ use crate::{
     game::Rule,
     terminal::{
         CoachAction,
+        keymap::{Chord, keys_text},
         pages::coach::{CoachPage, keys::COACH},
         ui::{Ui, draw_title, write_paragraphs},
         words::{named_skill, player_words},
@@ -17,13 +19,14 @@ use crate::{
 pub fn draw_query(coach: &CoachPage, area: Rect, ui: &mut Ui) {
     let inner = draw_title("The coach", area, ui);
     let [skill_key, rule_key] = [CoachAction::NextSkill, CoachAction::NextRule].map(|action| ui.key_of(COACH, &action));
-    let paragraphs = [
-        (
-            format!("Its shots are for {} at {}.", player_noun(coach.query.skill), game(coach.query.rule)),
-            ui.theme.text(),
-        ),
+    let [drills_key, match_key] = [3, 9].map(|n| keys_text(ui.keys.keys_for(Chord::plain(F(n))).take(1), ui.caps));
+    let mut paragraphs = vec![
+        (format!("Shots for {} at {}.", player_noun(coach.query.skill), game(coach.query.rule)), ui.theme.text()),
         (format!("{skill_key}: how well you play; {rule_key}: the rule."), ui.theme.faint()),
     ];
+    if coach.followed().is_none() {
+        paragraphs.push((format!("{drills_key}: drills; {match_key}: a match."), ui.theme.faint()));
+    }
     let text = Rect { x: inner.x + 1, width: inner.width.saturating_sub(2), ..inner };
     write_paragraphs(&paragraphs, text, ui);
 }

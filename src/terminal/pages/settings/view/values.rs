@@ -15,6 +15,9 @@ use crate::terminal::{
 /// Width of the names, columns.
 const NAME: u16 = 13;
 
+/// Settings that the coach's page keeps from session to session, until they are changed in the file.
+const KEPT: [&str; 3] = ["rule", "skill", "plan"];
+
 /// The list, grouped.
 pub fn list(settings: &SettingsPage) -> Grouped<&'static Entry> {
     Grouped::new(ENTRIES, settings.mark, |entry| entry.group)
@@ -51,7 +54,11 @@ fn draw_entry(settings: &SettingsPage, entry: &Entry, is_marked: bool, area: Rec
     let mut spans = stepper(Span::styled(text, value), is_marked, ui).to_vec();
     if let Some(other) = settings.different_value_in_file(entry) {
         let room = usize::from(area.right().saturating_sub(x)).saturating_sub(Line::from(spans.clone()).width());
-        let whole = format!(" now; the next start uses {}", settings.display_value(&other));
+        let whole = if KEPT.contains(&entry.key) {
+            " now and at the next start".to_owned()
+        } else {
+            format!(" now; the next start uses {}", settings.display_value(&other))
+        };
         // If this does not fit, the description of the marked setting contains the rest.
         let note = if columns(&whole) <= room { whole } else { " now".to_owned() };
         spans.push(Span::styled(note, ui.theme.warning()));
@@ -76,7 +83,12 @@ fn draw_description(settings: &SettingsPage, area: Rect, ui: &mut Ui) {
     if let Some(other) = settings.different_value_in_file(entry) {
         let now = (entry.get)(&settings.settings);
         let keep = if settings.is_writable { format!(" Enter twice saves {now}.") } else { String::new() };
-        paragraphs.insert(0, (format!("Now {now}; the next start uses {other}.{keep}"), ui.theme.warning()));
+        let words = if KEPT.contains(&entry.key) {
+            format!("Now {now}, also at the next start. The file says {other}.{keep}")
+        } else {
+            format!("Now {now}; the next start uses {other}.{keep}")
+        };
+        paragraphs.insert(0, (words, ui.theme.warning()));
     }
     write_words(paragraphs, inner, ui);
 }

@@ -70,7 +70,7 @@ fn missing(run: &Followed, quantity: Quantity) -> Option<&'static str> {
     let last = run.history.last()?;
     match quantity {
         Quantity::HeldOut | Quantity::BestOfK if run.history.best().is_none() => {
-            Some("comes with the first measurement")
+            Some("comes with the next measurement")
         }
         Quantity::ActorLoss if last.actor_loss.is_none() => Some("this agent reports none"),
         Quantity::Exploration if last.exploration.is_none() => Some("the run does not report it"),
