@@ -95,20 +95,18 @@ impl Method {
     }
 
     /// Returns the share of the energy that friction and impacts do not explain. `None` for shots too long to store, and for
-    /// stepped shots with flights, which have no energy audit.
+    /// steps on tables where balls fly, which have no energy audit.
     pub fn unaccounted(self, table: &Table, shot: &StudyShot, run: &Run) -> Option<f64> {
         let mut trace = Trace::new(table);
         match self {
             Self::Engine => {
                 trace.record(&shot.layout, &shot.impulse, |trace| simulate(table, &shot.layout, &shot.impulse, trace));
             }
+            Self::Steps(_) if table.flight.is_some() => return None,
             Self::Steps(steps) => {
                 trace.record(&shot.layout, &shot.impulse, |trace| {
                     steps.simulate(table, &shot.layout, &shot.impulse, trace).end
                 });
-                if trace.has_flights() {
-                    return None;
-                }
             }
             _ => return run.unaccounted,
         }

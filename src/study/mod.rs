@@ -24,7 +24,7 @@ pub use errors::Errors;
 pub use methods::Method;
 pub use plots::{error_against_condition, error_against_time};
 pub use precision::{Plan, Point, Row, Study, Summary};
-pub use reference_check::{GOAL_MEDIAN, GOAL_P99, ReferenceRow, check_references};
+pub use reference_check::{GOAL_CONTACT, GOAL_MEDIAN, GOAL_P99, ReferenceRow, check_references};
 pub use report::{csv, text};
 pub use shots::{MaxElevation, StudyShot, random_shots};
 pub use statistics::{Proportion, Spread};

@@ -14,10 +14,13 @@ use crate::{
 };
 
 /// Goal for the median of the engine's error in units of `(1 + condition) 2^-53`.
-pub const GOAL_MEDIAN: f64 = 2.0;
+pub const GOAL_MEDIAN: f64 = 1.0;
 
 /// Goal for the 99th percentile of the same error.
-pub const GOAL_P99: f64 = 64.0;
+pub const GOAL_P99: f64 = 16.0;
+
+/// Goal of the largest error of the engine in shots with resting contacts (`contact.jsonl`), m.
+pub const GOAL_CONTACT: f64 = 1e-10;
 
 /// Event times are compared only for shots below this condition, m; their times are accurate to 1e-9 s.
 const MAX_CONDITION_FOR_TIMES: f64 = 1e6;

@@ -69,7 +69,7 @@ impl Seat {
         let state = storage::folder_state(folder);
         let is_full = state.free.is_some_and(|free| free < MIN_FREE_SPACE);
         let refusal = state.refusal.map(|error| error.to_string());
-        let refusal = refusal.or_else(|| is_full.then(|| "the disk is full".to_owned()))?;
+        let refusal = refusal.or_else(|| is_full.then(|| "the disk is nearly full".to_owned()))?;
         Some(format!("nothing can be saved in {}: {refusal}", folder.display()))
     }
 }

@@ -24,7 +24,7 @@ pub const fn no_jump_words(table: &Table) -> &'static str {
     if table.flight.is_none() {
         "no ball leaves this table's cloth: its file has no section [flight]"
     } else {
-        "no ball jumps in this shot"
+        "no ball rises 2 mm in this shot"
     }
 }
 

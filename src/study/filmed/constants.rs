@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     statistics::{fit, inverse},
-    table::{Fade, RailModel, Table},
+    table::{Fade, RailModel, Rails, Table},
 };
 
 /// Number of fitted constants.
@@ -65,7 +65,7 @@ pub struct Constant {
     pub deviation: f64,
 }
 
-/// Returns `table` with these constants and this model of the rails.
+/// Returns `table` with these constants and this model of the rails; no rail has constants of its own.
 fn with(table: &Table, model: RailModel, values: &[f64; COUNT]) -> Table {
     let [e, mu, height, kappa, fade, roll, growth, spin, tilt_x, tilt_y, slide] = *values;
     let mut table = Table {
@@ -78,11 +78,14 @@ fn with(table: &Table, model: RailModel, values: &[f64; COUNT]) -> Table {
         sliding_friction: slide.clamp(0.1, 0.4),
         ..table.clone()
     };
-    table.rail.model = model;
-    table.rail.height =
-        Some(table.radius * (1.0 + if model == RailModel::Equator { 0.0 } else { height.clamp(0.0, 0.5) }));
-    table.rail.kappa = (model == RailModel::Smooth).then_some(kappa.clamp(0.3, 2.0));
-    table.rail.fade = Some(Fade { from: 2.5, slope: fade.clamp(0.0, 0.2), least: 0.6 });
+    let above = if model == RailModel::Equator { 0.0 } else { height.clamp(0.0, 0.5) };
+    table.rail = Rails {
+        model,
+        height: Some(table.radius * (1.0 + above)),
+        kappa: (model == RailModel::Smooth).then_some(kappa.clamp(0.3, 2.0)),
+        fade: Some(Fade { from: 2.5, slope: fade.clamp(0.0, 0.2), least: 0.6 }),
+        ..Rails::default()
+    };
     table
 }
 

@@ -39,7 +39,7 @@ pub struct Figures {
     pub overlap: Worst,
     /// Distance of a ball's centre beyond its reach, m.
     pub outside: Worst,
-    /// Energy gained at an event or between events, relative to the gain that rounding explains.
+    /// Energy gained at an event or between events, relative to the tolerance of a gain.
     pub energy: Worst,
     /// The same in m²/s² (energy per ball mass).
     pub gained: Worst,
@@ -60,6 +60,8 @@ pub struct Figures {
     pub not_finite: u64,
     /// Number of shots that were aborted, or whose balls still moved at the end.
     pub unfinished: u64,
+    /// Number of shots whose course was too long to be checked whole.
+    pub truncated: u64,
     /// Largest number of events of a shot.
     pub events: usize,
     /// Largest number of pieces of the courses of a shot.
@@ -82,7 +84,7 @@ pub enum Violation {
     #[error("a ball is {value:.3e} m outside at {time} s", value = .0.value, time = .0.time)]
     Outside(Worst),
     /// Energy is gained.
-    #[error("energy grows by {value:.1} times what rounding explains at {time} s", value = .0.value, time = .0.time)]
+    #[error("energy grows by {value:.1} times the tolerance at {time} s", value = .0.value, time = .0.time)]
     Energy(Worst),
     /// Energy is lost without an explanation, or not lost although something dissipates it.
     #[error("energy is off by {value:.3e} times the tolerance at {time} s", value = .0.value, time = .0.time)]
@@ -100,6 +102,9 @@ pub enum Violation {
     /// The shot was aborted, or balls still moved at its end.
     #[error("the shot does not end")]
     Unfinished,
+    /// The course is only stored, and so only checked, to a part.
+    #[error("the course has too many pieces to be checked whole")]
+    Truncated,
     /// The shot takes too much computing time.
     #[error("the shot takes {ms:.0} ms", ms = 1e3 * .0)]
     Slow(f64),
@@ -159,6 +164,7 @@ impl Figures {
         }
         self.not_finite += other.not_finite;
         self.unfinished += other.unfinished;
+        self.truncated += other.truncated;
         self.events = self.events.max(other.events);
         self.steps = self.steps.max(other.steps);
         self.seconds = self.seconds.max(other.seconds);
@@ -170,6 +176,7 @@ impl Figures {
         let candidates = [
             (self.not_finite > 0, Violation::NotFinite),
             (self.unfinished > 0, Violation::Unfinished),
+            (self.truncated > 0, Violation::Truncated),
             (beyond(self.outside, limits.distance), Violation::Outside(self.outside)),
             (beyond(self.overlap, limits.distance), Violation::Overlap(self.overlap)),
             (beyond(self.jump, limits.distance), Violation::Jump(self.jump)),

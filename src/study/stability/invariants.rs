@@ -26,6 +26,7 @@ fn measure(table: &Table, shot: &Shot, trace: &Trace) -> Figures {
         steps: trace.steps,
         seconds: trace.seconds,
         unfinished: u64::from(!(trace.finished && trace.end.balls.iter().all(|ball| ball.velocity == DVec2::ZERO))),
+        truncated: u64::from(trace.kept_until < f64::INFINITY),
         ..Figures::default()
     };
     if !is_finite(trace) {
@@ -52,13 +53,18 @@ fn is_finite(trace: &Trace) -> bool {
         && trace.end.balls.iter().all(|ball| ball.position.is_finite() && ball.spin.is_finite())
 }
 
-/// Checks that events and pieces are ordered in time.
+/// Checks that events and pieces are ordered in time, and that the pieces of a ball cover the whole shot.
 fn check_order(trace: &Trace, figures: &mut Figures) {
     for pair in trace.events.windows(2) {
         figures.backwards.record(pair[0].time - pair[1].time, pair[1].time);
     }
     for piece in trace.pieces.iter().flatten() {
         figures.backwards.record(piece.segment.start - piece.end, piece.end);
+    }
+    for pieces in &trace.pieces {
+        let (first, last) = (pieces.first(), pieces.last().filter(|_| trace.kept_until == f64::INFINITY));
+        figures.backwards.record(first.map_or(0.0, |piece| piece.segment.start.abs()), 0.0);
+        figures.backwards.record(last.map_or(0.0, |piece| (piece.end - trace.end.time).abs()), trace.end.time);
     }
     for pair in trace.pieces.iter().flat_map(|pieces| pieces.windows(2)) {
         figures.backwards.record((pair[1].segment.start - pair[0].end).abs(), pair[0].end);

@@ -3,7 +3,7 @@
 use std::{ops::ControlFlow, time::Instant};
 
 use crate::{
-    physics::{Impulse, Motion, strike},
+    physics::{Impulse, strike},
     simulation::{Constants, End, Event, Observer, Segment, simulate},
     study::clock::timed,
     table::{BALLS, Layout, Table},
@@ -15,7 +15,7 @@ use super::Shot;
 const BREAK_AFTER_EVENTS: usize = 2_000_000;
 
 /// Maximum number of stored events, and of stored pieces of one ball's course. The rest of a longer shot is only counted.
-const MAX_STORED: usize = 20_000;
+const MAX_STORED: usize = 200_000;
 
 /// Computing time after which a shot is aborted, s.
 const BREAK_AFTER_SECONDS: f64 = 10.0;
@@ -95,11 +95,6 @@ impl Trace {
         (self.layout, self.impulse) = (*layout, *impulse);
         self.started = Instant::now();
         (self.end, self.seconds) = timed(|| play(self));
-    }
-
-    /// Whether any ball was in the air.
-    pub fn has_flights(&self) -> bool {
-        self.pieces.iter().flatten().any(|piece| piece.segment.motion == Motion::Flying)
     }
 
     /// Stops recording once `count` items of a kind are stored.

@@ -392,10 +392,14 @@ impl<'a> Stepper<'a> {
     }
 }
 
-/// Returns the time in `(0, span)` at which a gap closes, if it is closed at the end: by bisection, to the last bit.
+/// Returns the time in `[0, span)` at which a gap closes, if it is closed at the end: by bisection, to the last bit.
 fn closing(gap: impl Fn(f64) -> f64, span: f64) -> Option<f64> {
     if gap(span) >= 0.0 {
         return None;
+    }
+    // Closed already, as between balls that press each other: bisection would go down to the smallest number.
+    if gap(0.0) < 0.0 {
+        return Some(0.0);
     }
     let (mut low, mut high) = (0.0, span);
     loop {

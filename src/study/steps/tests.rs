@@ -61,8 +61,10 @@ fn late_events_leave_overlaps_and_they_are_reported() {
 #[test]
 fn stepped_shots_end_for_any_step_length() {
     for (dt, shot) in [(1.0, "0,0,0,0,6"), (0.3, "0,-0.5,0,40,8"), (0.1, "0.4,0.3,20,100,9")] {
-        let (_, stepped) = play(dt, false, shot);
-        assert!(stepped.steps as f64 * dt < 1e3);
+        let (recording, stepped) = play(dt, false, shot);
+        let end = recording.duration();
+        assert!((0..3).all(|ball| recording.state(ball, end).velocity == DVec2::ZERO), "{dt}: not at rest");
+        assert!(stepped.steps as f64 * dt < end + 2.0 * dt, "{dt}: steps after the end");
     }
 }
 

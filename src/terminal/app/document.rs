@@ -37,6 +37,7 @@ pub fn document() -> String {
     }
     let common = pages.first().into_iter().flatten().filter(|binding| is_everywhere(binding));
     write_page(&mut text, "On every page", common);
+    text.push_str("\n`carom follow` and `carom watch` have one page: there `F2` to `F5`, `F7` and `F9` do nothing.\n");
     text.push_str(TYPING);
     text
 }

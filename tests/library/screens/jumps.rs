@@ -36,7 +36,7 @@ fn the_side_view_is_drawn_at_every_size_and_closes() {
 #[test]
 fn the_side_view_key_explains_that_nothing_jumps() {
     let player = in_what_if_mode(TRUE_COLOUR, Some(Flight::default())).press("i");
-    player.shows(&["no ball jumps in this shot"]).does_not_show("Side view");
+    player.shows(&["no ball rises 2 mm in this shot"]).does_not_show("Side view");
     let flat = in_what_if_mode(TRUE_COLOUR, None).press("i");
     flat.shows(&["no ball leaves this table's cloth: its file has no section [flight]"]);
 }
@@ -94,7 +94,7 @@ fn an_exercise_has_a_side_view_before_and_during_playback() {
 
 #[test]
 fn exercises_report_missing_jumps_and_balls_off_the_table() {
-    Player::practising(TRUE_COLOUR).press("v i").shows(&["no ball jumps in this shot"]).does_not_show("Side view");
+    Player::practising(TRUE_COLOUR).press("v i").shows(&["no ball rises 2 mm in this shot"]).does_not_show("Side view");
     // Over the rail, from near it and at full speed.
     let off = Exercise {
         layout: Layout::parse("1.1,0 -0.5,0.02 -0.2,0", &Table::default()).unwrap(),

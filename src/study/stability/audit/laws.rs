@@ -25,7 +25,7 @@ pub fn impact_loss(numbers: &Numbers<f64>, contact: Contact, balls: &[Ball<f64>;
 
 /// Returns the energy that the cloth dissipates on a ball that moves freely for `time` seconds from `state`, m²/s² (thesis
 /// equations 1 to 8).
-pub fn free_loss(table: &Table, state: &BallState, motion: Motion, time: f64) -> f64 {
+pub fn free_loss(numbers: &Numbers<f64>, table: &Table, state: &BallState, motion: Motion, time: f64) -> f64 {
     // Nothing is lost in the air, or out of play.
     if matches!(motion, Motion::Flying | Motion::OffTable) {
         return 0.0;
@@ -45,7 +45,7 @@ pub fn free_loss(table: &Table, state: &BallState, motion: Motion, time: f64) ->
             work(force, (v.x - radius * state.spin.y).hypot(v.y + radius * state.spin.x), 3.5 * force)
         }
         Motion::Rolling => {
-            let deceleration = Numbers::<f64>::of(table).band(v.length()).0;
+            let deceleration = numbers.band(v.length()).0;
             work(1.4 * deceleration, v.length(), deceleration)
         }
         Motion::Stationary | Motion::Resting | Motion::Flying | Motion::OffTable => 0.0,

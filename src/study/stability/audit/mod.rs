@@ -264,7 +264,7 @@ impl Audit<'_> {
                 aloft::landings_loss(self.table, &start, hops.landings(lasts))
             } else {
                 let state = piece.segment.state_after(&self.trace.constants, 0.0);
-                free_loss(self.table, &state, piece.segment.motion, lasts)
+                free_loss(self.numbers, self.table, &state, piece.segment.motion, lasts)
             };
             let uncertainty = Uncertainty { energy: course.first_energy, time: piece.end, ..Uncertainty::default() };
             self.note(figures, lost, lost - dissipated, &uncertainty, uncertainty.on_the_way(self.table, dissipated));
@@ -278,7 +278,7 @@ impl Audit<'_> {
             let courses = together.map(|piece| piece.map(|piece| &piece.segment));
             let work = pressed::work(self.table, self.numbers, &self.trace.constants, &courses, (now, until), self.gap);
             let uncertainty = Uncertainty { energy, time: until, rests: true, ..Uncertainty::default() };
-            let unexplained = lost - lost.clamp(work.least, work.most);
+            let unexplained = lost - lost.max(work.least).min(work.most);
             self.note(figures, lost, unexplained, &uncertainty, uncertainty.on_the_way(self.table, work.least));
             resting
                 .iter_mut()

@@ -100,12 +100,12 @@ impl Case {
     }
 }
 
-/// Returns the bundled tables.
+/// Returns the tables with the thesis' model, on which contacts rest longest.
 fn presets() -> Vec<Table> {
     THESIS_PRESETS.iter().filter_map(|name| Table::preset(name).ok()).collect()
 }
 
-/// Returns the bundled tables, each as a [`variant`].
+/// Returns the same tables, each as a [`variant`].
 fn variants(what: &str, change: impl Fn(&mut Table)) -> Vec<Table> {
     THESIS_PRESETS.iter().filter_map(|name| variant(name, what, &change)).collect()
 }

@@ -70,7 +70,7 @@ fn lines(session: &Session, exercise: &str) -> Vec<String> {
         // The result of an exercise is shown while that exercise is still on the table.
         let place = session.exercises.iter().position(|each| each.name == exercise);
         let number = place.map_or(tried, |place| place + 1);
-        lines.push(format!("exercise {number} of {}: {made} of {tried} made", session.exercises.len()));
+        lines.push(format!("exercise {number} of {}: {made}/{tried} made", session.exercises.len()));
         if let Some(score) = exam::score(session) {
             let [beginner, club, best] = [score.expected.beginner, score.expected.club, score.expected.world_class]
                 .map(|points| format!("{points:.1}"));
