@@ -60,7 +60,7 @@ impl std::fmt::Display for Obstacle {
     }
 }
 
-/// The lowest elevation at which the cue can be held; all steeper ones are possible, too.
+/// The lowest elevation from which on every steeper one is possible. (A level cue below a ball may be possible, too.)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeastElevation {
     /// The elevation, rad.

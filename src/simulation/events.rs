@@ -17,8 +17,8 @@ pub enum EventKind {
     SlidingRolling(usize),
     /// A ball comes to rest.
     RollingStationary(usize),
-    /// A ball begins to rest against a cushion or another ball, or to chatter. Until the contact ends, its slow bounces are not reported.
-    /// Neither is that it rolls or is at rest between two of them, or that one throws it up and another throws it down at the same moment.
+    /// A ball begins to rest against a cushion or another ball, or to chatter. Until the contact ends, its slow bounces are not reported,
+    /// nor are rolling, rest, or a jump that is undone at the same moment.
     ContactBegins(usize),
     /// A ball is free again: it no longer rests, and nothing can make it bounce before its chatter has ended.
     ContactEnds(usize),
@@ -142,7 +142,7 @@ pub trait Observer {
     /// Receives a bounce of a chatter, for observers that count every impact; only the first bounces of a chatter are events.
     fn bounce(&mut self, _bounce: Event) {}
 
-    /// Called before each step of a resting contact and at each bounce of a chatter. `Break` gives up the shot.
+    /// Called after each step of a resting contact and at each bounce of a chatter. `Break` gives up the shot.
     fn contact_step(&mut self) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }

@@ -33,8 +33,8 @@ pub struct Hops {
     pub cloth: Cloth,
     radius: f64,
     /// Time of the first landing, s since the start, and its vertical speed, m/s.
-    first: f64,
-    landing: f64,
+    first_landing: f64,
+    landing_speed: f64,
     /// Direction of the slip at the start, and its magnitude, m/s.
     direction: DVec2,
     slip: f64,
@@ -64,8 +64,8 @@ impl Hops {
             start: *start,
             cloth: *cloth,
             radius,
-            first: if landing > 0.0 { first } else { 0.0 },
-            landing,
+            first_landing: if landing > 0.0 { first } else { 0.0 },
+            landing_speed: landing,
             direction: if size > 0.0 { u / size } else { DVec2::ZERO },
             slip: size,
             friction_impulse,
@@ -74,7 +74,7 @@ impl Hops {
             last_velocity: DVec2::ZERO,
         };
         hops.sticks = hops.sticking();
-        hops.duration = hops.first + hops.per_speed() * landing * e / (1.0 - e);
+        hops.duration = hops.first_landing + hops.per_speed() * landing * e / (1.0 - e);
         hops.last_velocity = match hops.sticks {
             Some(_) => hops.rolling(),
             None => hops.motion_after_friction(friction_impulse / (1.0 - e)).0,
@@ -83,31 +83,31 @@ impl Hops {
     }
 
     /// Returns `(1 - eⁿ) / (1 - e)`: the sum of the first `n` powers of the restitution.
-    fn powers(&self, count: u32) -> f64 {
+    fn power_sum(&self, count: u32) -> f64 {
         let e = self.cloth.restitution;
         if count <= FEW {
             (0..count).fold(0.0, |sum, _| sum * e + 1.0)
         } else {
-            -libm::expm1(self.power(count)) / (1.0 - e)
+            -libm::expm1(self.log_power(count)) / (1.0 - e)
         }
     }
 
     /// Returns `ln e`.
-    fn decay(&self) -> f64 {
+    fn log_restitution(&self) -> f64 {
         libm::log1p(self.cloth.restitution - 1.0)
     }
 
     /// Returns `n ln e`.
-    fn power(&self, count: u32) -> f64 {
-        f64::from(count) * self.decay()
+    fn log_power(&self, count: u32) -> f64 {
+        f64::from(count) * self.log_restitution()
     }
 
     /// Returns `eⁿ`.
-    fn decayed(&self, count: u32) -> f64 {
+    fn power(&self, count: u32) -> f64 {
         if count <= FEW {
             (0..count).fold(1.0, |power, _| power * self.cloth.restitution)
         } else {
-            libm::exp(self.power(count))
+            libm::exp(self.log_power(count))
         }
     }
 
@@ -124,8 +124,8 @@ impl Hops {
             return None;
         }
         // The rounded logarithm may be off by one.
-        let near = (libm::log(left) / self.decay()).ceil().min(1e6) as u32;
-        (near.saturating_sub(2)..=near + 1).find(|&landing| self.powers(landing + 1) >= least)
+        let near = (libm::log(left) / self.log_restitution()).ceil().min(1e6) as u32;
+        (near.saturating_sub(2)..=near + 1).find(|&landing| self.power_sum(landing + 1) >= least)
     }
 
     /// Returns the duration of a hop per m/s of its initial vertical speed, s²/m.
@@ -143,7 +143,7 @@ impl Hops {
         if self.sticks.is_some_and(|last| landings > last) {
             return self.rolls();
         }
-        self.motion_after_friction(self.friction_impulse * self.powers(landings))
+        self.motion_after_friction(self.friction_impulse * self.power_sum(landings))
     }
 
     fn rolls(&self) -> (DVec2, DVec3) {
@@ -165,32 +165,32 @@ impl Hops {
         let e = self.cloth.restitution;
         let velocity = self.start.velocity.truncate();
         let slides = self.sticks.map_or(landing, |last| last.min(landing));
-        let sum = self.powers(slides);
-        let friction = self.friction_impulse * sum * self.powers(slides + 1) / (1.0 + e);
+        let sum = self.power_sum(slides);
+        let friction = self.friction_impulse * sum * self.power_sum(slides + 1) / (1.0 + e);
         let mut displacement = e * (sum * velocity - friction * self.direction);
         if landing > slides {
-            displacement += self.decayed(slides + 1) * self.powers(landing - slides) * self.rolling();
+            displacement += self.power(slides + 1) * self.power_sum(landing - slides) * self.rolling();
         }
-        self.touchdown() + self.per_speed() * self.landing * displacement
+        self.touchdown() + self.per_speed() * self.landing_speed * displacement
     }
 
     /// Returns the position of the first landing, m.
     fn touchdown(&self) -> DVec2 {
-        self.start.position.truncate() + self.first * self.start.velocity.truncate()
+        self.start.position.truncate() + self.first_landing * self.start.velocity.truncate()
     }
 
     /// Returns the state of the ball on the cloth after the last hop.
     pub fn end(&self) -> BallState {
         let e = self.cloth.restitution;
         let (position, (velocity, spin)) = if let Some(last) = self.sticks {
-            let rest = self.decayed(last + 1) / (1.0 - e);
-            (self.landing_position(last) + self.per_speed() * self.landing * rest * self.rolling(), self.rolls())
+            let rest = self.power(last + 1) / (1.0 - e);
+            (self.landing_position(last) + self.per_speed() * self.landing_speed * rest * self.rolling(), self.rolls())
         } else {
             let sum = 1.0 / (1.0 - e);
             let displacement =
                 e * sum * (self.start.velocity.truncate() - self.friction_impulse * sum / (1.0 + e) * self.direction);
             (
-                self.touchdown() + self.per_speed() * self.landing * displacement,
+                self.touchdown() + self.per_speed() * self.landing_speed * displacement,
                 self.motion_after_friction(self.friction_impulse * sum),
             )
         };
@@ -201,10 +201,11 @@ impl Hops {
     pub fn arc(&self, landings: u32) -> Arc {
         if landings == 0 {
             let SpatialState { position, velocity, .. } = self.start;
-            return Arc { begin: 0.0, end: self.first, position, velocity };
+            return Arc { begin: 0.0, end: self.first_landing, position, velocity };
         }
-        let climb = self.landing * self.decayed(landings);
-        let begin = self.first + self.per_speed() * self.landing * self.cloth.restitution * self.powers(landings - 1);
+        let climb = self.landing_speed * self.power(landings);
+        let begin = self.first_landing
+            + self.per_speed() * self.landing_speed * self.cloth.restitution * self.power_sum(landings - 1);
         Arc {
             begin,
             end: begin + self.per_speed() * climb,
@@ -216,12 +217,16 @@ impl Hops {
     /// Returns the number of landings `t` seconds after the start.
     pub fn landings(&self, t: f64) -> u32 {
         let e = self.cloth.restitution;
-        if t < self.first || e == 0.0 {
+        if t < self.first_landing || e == 0.0 {
             return 0;
         }
-        let since = (t - self.first) / (self.per_speed() * self.landing * e);
+        let since = (t - self.first_landing) / (self.per_speed() * self.landing_speed * e);
         let left = (1.0 - e).mul_add(-since, 1.0);
-        if left <= 0.0 { u32::MAX } else { 1 + (libm::log(left) / self.decay()).floor().clamp(0.0, 1e9) as u32 }
+        if left <= 0.0 {
+            u32::MAX
+        } else {
+            1 + (libm::log(left) / self.log_restitution()).floor().clamp(0.0, 1e9) as u32
+        }
     }
 
     /// Returns position, velocity and spin `t` seconds after the start.

@@ -202,9 +202,9 @@ impl Resting {
                 continue;
             }
             let middle = self.forces(self.scene(table, &self.half_way(&trial)), &trial.forces);
-            let course = self.longest_course(&trial, &middle);
-            trial.step.best_length = trial.step.best_length.min(course);
-            let Some(shorter) = self.shorter(table, &trial, course).filter(|_| span > shortest) else {
+            let accurate = self.longest_polynomial_step(&trial, &middle);
+            trial.step.best_length = trial.step.best_length.min(accurate);
+            let Some(shorter) = self.shorter(table, &trial, accurate).filter(|_| span > shortest) else {
                 let trial = self.breaking_half(table, &begin, &trial, &middle).unwrap_or(trial);
                 let doubtful = trial.forces.slack < -self.constants.tolerance.force_error || self.shared;
                 let broken = doubtful && !self.satisfies_laws(table, &trial);

@@ -57,7 +57,7 @@ pub struct Tolerance {
     /// A ball that a rail lifts more slowly than this stays on the cloth, m/s.
     pub least_lift: f64,
     /// A chatter ends at this bounce speed whatever presses the ball, m/s, be it a slip about to end or another ball behind it. Its bounces
-    /// are 1e-19 m high, and the rest of them moves a ball by less than 1e-9 m.
+    /// are less than 1e-19 m high, and the rest of them moves a ball by less than 1e-9 m.
     pub slowest_bounce: f64,
     /// A chatter of several coupled contacts whose bounces create slips ends at this bounce speed, m/s; its value in metres is the
     /// resulting accuracy of the positions.

@@ -18,7 +18,7 @@ pub(super) const DEPARTING: f64 = 1e-10;
 /// of `mu_s = 0.2`, and after a few hundredths of a millisecond and 1e-13 m on one of 0.0001.
 const STARTING: f64 = 1e-8;
 
-/// A slip begins slowly if its acceleration is less than this share of its friction's. Its direction would then follow the friction's so
+/// A slip begins slowly if its acceleration is less than this share of its friction's. Its direction would then turn with the friction so
 /// fast that integration steps would be tiny.
 const SLOW_START: f64 = 0.3;
 

@@ -19,7 +19,7 @@ const ROUNDING: f64 = 256.0 * f64::EPSILON;
 /// Newton steps before sweeps are tried. From a nearby active set two or three are enough, from an arbitrary one about eight.
 const NEWTON_STEPS: usize = 24;
 
-/// Newton steps that may leave an error that is not smaller before the search stops. In the slowest shots, one in a thousand of the searches
+/// Newton steps without a smaller error after which the search stops. In the slowest shots, one in a thousand of the searches
 /// that succeed has more such steps, and three in four of those that fail.
 const MAX_FAILURES: u32 = 6;
 

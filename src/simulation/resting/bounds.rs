@@ -9,7 +9,7 @@ use crate::{
     table::{BALLS, Table},
 };
 
-/// A step is repeated if the step length for half the accepted deviation is shorter than this share of it: `2^(-1/6)`.
+/// A step is repeated if the length that would halve the accepted deviation is below this share of it: `2^(-1/6)`.
 const DEVIATION_MARGIN: f64 = 0.89;
 
 /// Largest accepted ratio of a slip that has begun slowly to its limit, at the end of a step.
@@ -45,14 +45,14 @@ impl Resting {
     }
 
     /// Returns a shorter step if the error is too large, the trajectory is not close to a polynomial, or a slip that has begun slowly
-    /// becomes too fast. `course` is the longest step with an accurate trajectory.
-    pub(super) fn shorter(&self, table: &Table, trial: &Trial, course: f64) -> Option<f64> {
+    /// becomes too fast. `accurate` is the longest step with an accurate trajectory.
+    pub(super) fn shorter(&self, table: &Table, trial: &Trial, accurate: f64) -> Option<f64> {
         let tolerance = &self.constants.tolerance;
         if trial.step.error.is_nan() || trial.step.error > tolerance.step_error {
             return Some(trial.step.best_length.min(0.7 * trial.span));
         }
-        if course < DEVIATION_MARGIN * trial.span {
-            return Some(course);
+        if accurate < DEVIATION_MARGIN * trial.span {
+            return Some(accurate);
         }
         let yielded = self.yielded(table, &trial.step.end.balls) / tolerance.yielding;
         (yielded > MAX_YIELDED).then(|| (1.0 / yielded).max(0.1) * trial.span)
@@ -60,7 +60,7 @@ impl Resting {
 
     /// Returns the longest step whose trajectory is represented by its polynomial, estimated from the deviation at half the time: h²/24
     /// times the error of the polynomial's acceleration there, by the remainder term of a polynomial of degree five.
-    pub(super) fn longest_course(&self, trial: &Trial, middle: &Forces) -> f64 {
+    pub(super) fn longest_polynomial_step(&self, trial: &Trial, middle: &Forces) -> f64 {
         let h = trial.step.end.time;
         let missed = |ball: usize| {
             let [begin, end] = [&self.begin, &trial.step.end.balls].map(|balls| balls[ball].velocity);

@@ -17,7 +17,7 @@ impl App {
     }
 
     pub(super) fn close_overlay(&mut self) {
-        if self.overlay.take().is_some_and(|(page, _)| page == Overlay::Messages) {
+        if self.overlay.take() == Some((Overlay::Messages, 0)) {
             // Messages that arrived meanwhile were visible in the first line.
             self.toasts.clear();
         }

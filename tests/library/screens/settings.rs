@@ -183,7 +183,7 @@ fn session_values_are_shown_and_used_as_starting_points() {
         "4 changed",
         "rule        •◂ three-cushion ▸ now",
         "Now \"three-cushion\", also",
-        "saves \"three-cushion\".",
+        "Enter twice saves",
     ]);
     let player = player.press("Right Right");
     assert_eq!(player.app.coach.query.rule, Rule::OneCushion);
