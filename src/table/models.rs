@@ -64,6 +64,19 @@ impl Rails {
         own.unwrap_or_default()
     }
 
+    /// Returns the TOML keys of constants that the model of the rails does not use, each with the models that do.
+    pub fn unused(&self) -> Vec<[&'static str; 2]> {
+        let has_height = self.height.is_some() || Rail::ALL.iter().any(|rail| self.overrides(*rail).height.is_some());
+        let mut unused = Vec::new();
+        if has_height && self.model == RailModel::Equator {
+            unused.push(["height", "`nose`, `smooth` and `mathavan`"]);
+        }
+        if self.kappa.is_some() && self.model != RailModel::Smooth {
+            unused.push(["kappa", "`smooth`"]);
+        }
+        unused
+    }
+
     /// Returns the field with the overrides of `rail`.
     pub const fn overrides_mut(&mut self, rail: Rail) -> &mut Option<RailOverrides> {
         match rail {

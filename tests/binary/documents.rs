@@ -36,6 +36,10 @@ fn the_output_of_table_show_is_a_valid_table_file() {
     std::fs::write(file, shown.replace("name = \"match\"", "name = \"mine\"")).unwrap();
     assert!(stdout(&["table", "check", file]).contains("mine: 2.84 x 1.42 m"));
     assert!(stdout(&["simulate", "--table", file, "--shot", "0,0,0,0,2"]).contains("all still after"));
+    assert_eq!(stderr(&["table", "check", file], 0), "");
+    std::fs::write(file, shown.replace("model = \"smooth\"", "model = \"equator\"")).unwrap();
+    let notes = stderr(&["table", "check", file], 0);
+    assert!(notes.contains("rail.height has no effect") && notes.contains("rail.kappa has no effect"), "{notes}");
 }
 
 #[test]

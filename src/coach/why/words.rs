@@ -118,7 +118,14 @@ impl Why {
                 Some(format!("shots {} and {last}: higher rates may be chance", numbers.join(", ")))
             }
         };
-        shortened_texts(luck.into_iter().chain(self.facts(cue_ball)).collect()).map(|sentence| capitalize(&sentence))
+        let facts = self.facts(cue_ball);
+        // Nothing but the make probability speaks for it.
+        let only_against = luck.is_none() && facts.first().is_some_and(|fact| fact.starts_with("but "));
+        let lead = only_against.then(|| match self.second {
+            Some(_) => "it is made most often".to_owned(),
+            None => "no other was found".to_owned(),
+        });
+        shortened_texts(luck.or(lead).into_iter().chain(facts).collect()).map(|sentence| capitalize(&sentence))
     }
 
     /// Returns facts that the list of the shots does not contain. If the plan decides, that comes first.
@@ -135,12 +142,12 @@ impl Why {
         reasons.extend(self.aim_deg.map(|width| {
             let own = degrees(width);
             let Some(its) = second.and_then(|second| second.aim_deg) else {
-                return Reason::new(true, format!("its aim tolerance is {own} wide"));
+                return Reason::new(true, format!("the aim tolerance is {own} wide"));
             };
             let words = match degrees(its) {
-                its if its == own => format!("its aim tolerance is {own} wide, like that of {other}"),
-                there if width > its => format!("its aim tolerance is wider, {own} ({other}: {there})"),
-                there => format!("its aim tolerance is narrower, {own} ({other}: {there})"),
+                its if its == own => format!("the aim tolerance is {own} wide, like that of {other}"),
+                there if width > its => format!("the aim tolerance is wider, {own} ({other}: {there})"),
+                there => format!("the aim tolerance is narrower, {own} ({other}: {there})"),
             };
             Reason::new(!words.contains("narrower"), words)
         }));
