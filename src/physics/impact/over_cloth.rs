@@ -4,11 +4,20 @@
 //! the cloth, and the upper ball cannot rebound. The two would press on each other in ever shorter bounces, each of which removes
 //! tangential motion, so that a ball would never slide off the top of another. In a soft impact the cloth therefore supports the lower ball
 //! during the impact: this ball gives way only along the table, and the upper ball slides off in bounces without loss.
+//!
+//! Friction moves the lower ball along the table, and with it the line of centres. The normal impulse makes up for that: otherwise each
+//! bounce would be slower than the one before.
 
 use glam::DVec3;
 
 use super::{super::SpatialState, BallImpact, direction, separation_speed};
 use crate::physics::Cloth;
+
+/// Largest number of corrections of the normal impulse. On cloths up to a friction of one, each reduces the error to less than half.
+const MAX_CORRECTIONS: u32 = 100;
+
+/// Share of the separation speed that may be missing after the corrections.
+const CORRECTED: f64 = 1e-12;
 
 impl BallImpact {
     /// Applies a collision of two balls, at least one of which is in the air, including the reaction of the `cloth`. After a soft impact
@@ -61,19 +70,40 @@ impl BallImpact {
         // Restitution of the balls and then of the cloth; a slow impact loses nothing.
         let restitution = self.restitution_at(approach) * cloth.restitution;
         let opening = separation_speed(approach, restitution, slowest);
-        let push = (approach + opening) / (1.0 + along_table.length_squared());
-        upper.velocity += push * n;
-        lower.velocity -= push * along_table;
-        let relative = upper.velocity - lower.velocity;
-        let slip = relative - relative.dot(n) * n - radius * (upper.spin + lower.spin).cross(n);
-        let factor = self.friction_factor(push, slip.length());
-        let friction = -factor * slip;
-        upper.velocity += friction;
-        lower.velocity -= friction.with_z(0.0);
-        let twist = (2.5 / radius * factor) * n.cross(slip);
-        upper.spin += twist;
-        lower.spin += twist;
-        cloth.apply_friction(radius, (push * n.z + friction.z).max(0.0), lower);
+        let parts = 1.0 + along_table.length_squared();
+        let before = [*upper, *lower];
+        let pushed = |push: f64| {
+            let [mut upper, mut lower] = before;
+            upper.velocity += push * n;
+            lower.velocity -= push * along_table;
+            let relative = upper.velocity - lower.velocity;
+            let slip = relative - relative.dot(n) * n - radius * (upper.spin + lower.spin).cross(n);
+            let factor = self.friction_factor(push, slip.length());
+            let friction = -factor * slip;
+            upper.velocity += friction;
+            lower.velocity -= friction.with_z(0.0);
+            let twist = (2.5 / radius * factor) * n.cross(slip);
+            upper.spin += twist;
+            lower.spin += twist;
+            cloth.apply_friction(radius, (push * n.z + friction.z).max(0.0), &mut lower);
+            [upper, lower]
+        };
+        let missing = |[upper, lower]: &[SpatialState; 2]| opening - (upper.velocity - lower.velocity).dot(n);
+        let energy =
+            |balls: &[SpatialState; 2]| balls.iter().map(|ball| ball.specific_energy(radius, 0.0)).sum::<f64>();
+        let first = (approach + opening) / parts;
+        let alone = pushed(first);
+        let (mut push, mut after) = (first, alone);
+        for _ in 0..MAX_CORRECTIONS {
+            let short = missing(&after);
+            if short <= f64::EPSILON * opening {
+                break;
+            }
+            push += short / parts;
+            after = pushed(push);
+        }
+        let is_solved = missing(&after) <= CORRECTED * opening && energy(&after) <= energy(&before);
+        [*upper, *lower] = if is_solved { after } else { alone };
         separate_slowly(slowest, n, upper, lower);
     }
 }

@@ -232,6 +232,9 @@ fn balls_meet<R: Real>(numbers: &Numbers<R>, first: &mut Ball<R>, second: &mut B
     (approach, one + other)
 }
 
+/// Largest number of corrections of the normal impulse of such a collision.
+const MAX_CORRECTIONS: u32 = 120;
+
 /// Collides a ball in the air with one on the cloth so softly that the lower ball stays there. The cloth supports the lower
 /// ball, so that it yields only horizontally, and the upper ball gets the rebound of both the balls and the cloth. Returns the
 /// same as [`balls_meet`]; `None` if the lower ball is thrown up, or if the two separate anyway.
@@ -261,18 +264,39 @@ fn supported_meet<R: Real>(numbers: &Numbers<R>, one: &mut Ball<R>, other: &mut 
     let still = Vector::zero();
     let given_back = numbers.ball_restitution_at(approach) * flight.restitution;
     let opens = (given_back * approach).max(approach.min(flight.slowest));
-    let push = (approach + opens) / (R::of(1.0) + n.flat().dot(n.flat()));
-    let mut work = Change { linear: n * push, angular: still }.apply(numbers, upper)
-        + Change { linear: n.flat() * -push, angular: still }.apply(numbers, lower);
-    let relative = upper.velocity - lower.velocity;
-    let slip = relative - n * relative.dot(n) + n.cross(upper.spin + lower.spin) * numbers.radius;
-    let rub = slip * -coulomb(numbers.ball_friction_at(slip.length()), push, slip.length(), R::ratio(1.0, 7.0));
-    let angular = (n * -numbers.radius).cross(rub) * numbers.mass_over_inertia;
-    work = work
-        + Change { linear: rub, angular }.apply(numbers, upper)
-        + Change { linear: -rub.flat(), angular }.apply(numbers, lower)
-        + apply_cloth_friction(numbers, (push * n.z + rub.z).max(R::zero()), lower);
-    work = work + separate_slowly(flight.slowest, numbers, n, upper, lower);
+    let parts = R::of(1.0) + n.flat().dot(n.flat());
+    let before = [*upper, *lower];
+    let pushed = |push: R| {
+        let [mut upper, mut lower] = before;
+        let mut work = Change { linear: n * push, angular: still }.apply(numbers, &mut upper)
+            + Change { linear: n.flat() * -push, angular: still }.apply(numbers, &mut lower);
+        let relative = upper.velocity - lower.velocity;
+        let slip = relative - n * relative.dot(n) + n.cross(upper.spin + lower.spin) * numbers.radius;
+        let rub = slip * -coulomb(numbers.ball_friction_at(slip.length()), push, slip.length(), R::ratio(1.0, 7.0));
+        let angular = (n * -numbers.radius).cross(rub) * numbers.mass_over_inertia;
+        work = work
+            + Change { linear: rub, angular }.apply(numbers, &mut upper)
+            + Change { linear: -rub.flat(), angular }.apply(numbers, &mut lower)
+            + apply_cloth_friction(numbers, (push * n.z + rub.z).max(R::zero()), &mut lower);
+        ([upper, lower], work)
+    };
+    // The push makes up for the opening speed that friction takes by moving the lower ball along the table.
+    let missing = |[upper, lower]: &[Ball<R>; 2]| opens - (upper.velocity - lower.velocity).dot(n);
+    let alone = pushed((approach + opens) / parts);
+    let (mut push, mut after) = ((approach + opens) / parts, alone);
+    for _ in 0..MAX_CORRECTIONS {
+        let short = missing(&after.0);
+        if short <= R::zero() {
+            break;
+        }
+        push = push + short / parts;
+        after = pushed(push);
+    }
+    // The work is what is dissipated.
+    let is_solved = missing(&after.0) <= opens * R::of(1e-12) && after.1 >= R::zero();
+    let ([above, below], work) = if is_solved { after } else { alone };
+    (*upper, *lower) = (above, below);
+    let work = work + separate_slowly(flight.slowest, numbers, n, upper, lower);
     Some((approach, work))
 }
 
