@@ -219,7 +219,8 @@ impl Impulse {
         Self { velocity, spin, lift: 0.0 }
     }
 
-    /// Checks that velocity, spin and lift are finite and within their limits. A ball at rest is accepted: it stays where it is.
+    /// Checks that velocity, spin and lift are finite and within their limits. A ball at rest is accepted: it stays where it is,
+    /// unless it spins about a horizontal axis.
     ///
     /// # Errors
     /// The first problem found.

@@ -3,6 +3,9 @@
 //! Every force obeys one of two laws. A normal force is just large enough to keep its contact closed, and never pulls. A friction sticks up
 //! to its limit and then slips. Together they form a complementarity problem with at most a few dozen unknowns. [`Scene::resolve`] solves
 //! it; [`Scene::forces`] follows its solution while the active set does not change.
+//!
+//! A resting contact is at the height of the ball's centre and has Coulomb friction with the coefficient of slow impacts, whatever the model
+//! of the rails.
 
 mod active_set;
 mod constraints;

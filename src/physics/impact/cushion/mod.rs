@@ -137,7 +137,8 @@ impl Cushion {
     }
 
     /// Applies a collision of a ball in the air with the nose in the direction `d` from its centre, a unit vector. Without the cloth, all
-    /// models reduce to an impact with Coulomb friction. The ball leaves at least at the speed `slowest`, m/s. Returns its approach speed,
+    /// models reduce to an impact with friction: that of `smooth`, or Coulomb's. Restitution falls with the speed along `d`; on the cloth, with
+    /// that along the normal into the table. The ball leaves at least at the speed `slowest`, m/s. Returns its approach speed,
     /// m/s, which is negative if it does not approach.
     pub fn resolve_in_space(&self, radius: f64, slowest: f64, d: DVec3, ball: &mut SpatialState) -> f64 {
         let stick_slip = if let Law::Nose { stick_slip, .. } = self.law { stick_slip } else { StickSlip::Sharp };

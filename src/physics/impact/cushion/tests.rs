@@ -101,10 +101,14 @@ proptest! {
     }
 
     #[test]
-    fn smooth_friction_never_exceeds_coulomb_or_its_limit(ball in moving()) {
-        let [smooth, sharp] = [RailModel::Smooth, RailModel::Nose].map(|model| hit(&cushion(model, 0.0365), &ball));
-        let taken = |after: BallState| (after.spin - ball.spin).length();
-        prop_assert!(taken(smooth) <= 1.146 * taken(sharp) * (1.0 + 1e-12));
+    fn smooth_friction_never_exceeds_coulomb(ball in moving()) {
+        // With so little friction every impact slips. The spin changes by 5/(2R) times the friction impulse per mass.
+        let rail = Rails { model: RailModel::Smooth, height: Some(0.0365), kappa: Some(1.146), ..Rails::default() };
+        let table = Table { rail, radius: RADIUS, rail_restitution: 0.87, rail_friction: 0.02, ..Table::default() };
+        let mut after = ball;
+        let impulse = Cushion::of(&table, Rail::Right).resolve(RADIUS, DVec2::NEG_X, &mut after);
+        let friction = 0.4 * RADIUS * (after.spin - ball.spin).length();
+        prop_assert!(friction <= 0.02 * impulse.normal * (1.0 + 1e-9), "{friction} of {}", impulse.normal);
     }
 }
 
