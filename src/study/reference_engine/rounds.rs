@@ -118,8 +118,8 @@ pub fn collide_single<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, conta
     }
 }
 
-/// Applies simultaneous impacts that share balls, with these normal impulses, at the height of the balls' centres and with the
-/// friction of slow impacts. Adds the contacts with an impulse to `met`, and returns the dissipated energy per mass.
+/// Applies simultaneous impacts that share balls, with these normal impulses, at the height of the balls' centres and with
+/// Coulomb friction. Adds the contacts with an impulse to `met`, and returns the dissipated energy per mass.
 fn one_round<R: Real>(
     numbers: &Numbers<R>,
     balls: &mut Balls<R>,
@@ -142,8 +142,11 @@ fn one_round<R: Real>(
     for (contact, push) in contacts.iter().zip(pushes).filter(|(_, push)| **push > R::zero()) {
         met.push(*contact);
         let slip = contact.slip(numbers, balls);
-        let stops = if contact.balls().1.is_some() { R::ratio(1.0, 7.0) } else { R::ratio(2.0, 7.0) };
-        let share = coulomb(contact.friction(numbers), *push, slip.length(), stops);
+        let (friction, stops) = match contact {
+            Contact::Balls(..) => (numbers.ball_friction_at(slip.length()), R::ratio(1.0, 7.0)),
+            Contact::Rail(..) => (contact.friction(numbers), R::ratio(2.0, 7.0)),
+        };
+        let share = coulomb(friction, *push, slip.length(), stops);
         frictions.push((Row::slip(numbers, *contact, contact.normal(balls), slip), -share));
     }
     let mut change = before.map(|_| (Vector::zero(), Vector::zero()));
