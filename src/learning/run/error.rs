@@ -54,9 +54,9 @@ pub enum RunError {
         /// The run's folder.
         folder: String,
         /// Damage of the current checkpoint.
-        current: Box<Damage>,
+        current: String,
         /// Damage of the previous checkpoint, if it exists.
-        previous: Option<Box<Damage>>,
+        previous: Option<String>,
     },
     /// The agent is unknown.
     #[error(transparent)]
@@ -98,34 +98,6 @@ pub enum RunError {
         /// The run's folder.
         folder: String,
     },
-}
-
-/// Version of the checkpoint format.
-pub const FORMAT: u32 = 2;
-
-/// A checkpoint cannot be used to resume.
-#[derive(Debug, thiserror::Error)]
-#[error("{path}: {reason}")]
-pub struct Damage {
-    pub(super) path: String,
-    pub(super) reason: DamageReason,
-}
-
-/// Reason why the bytes of a checkpoint cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum DamageReason {
-    #[error("{0}")]
-    File(#[from] std::io::Error),
-    #[error("it is damaged: its content does not fit its checksum")]
-    Checksum,
-    #[error("it has no checksum: it is damaged, or not a checkpoint of this version of carom")]
-    NoChecksum,
-    #[error("it has format {0}, and this version of carom reads format {FORMAT}")]
-    Format(u32),
-    #[error("its agent \"{0}\" is not known to this version of carom")]
-    Agent(String),
-    #[error("{0}")]
-    Content(#[from] WeightsError),
 }
 
 /// Returns a converter of a file's error to a [`RunError`], for `map_err`.

@@ -116,7 +116,7 @@ impl Run {
         let mut run = Self { folder: folder.to_owned(), config, learner, state, checkpoints, _lock: lock };
         // The checkpoint comes first, so that the run can be resumed however early it is killed.
         run.write_checkpoint()?;
-        run.config.write(folder)?;
+        json::write(&folder.join(config::FILE), &run.config)?;
         Ok(run)
     }
 
@@ -138,7 +138,7 @@ impl Run {
             let config = Config::of(learner.as_ref(), state.schedule, state.from.clone());
             if error.kind() == ErrorKind::NotFound {
                 // The run was killed before it was written, or the file was removed.
-                config.write(folder)?;
+                json::write(&folder.join(config::FILE), &config)?;
             } else {
                 // The file is kept, because a user may still find in it when and by which version the run was started.
                 let unreadable = config::unreadable_message(folder, &error);
