@@ -78,10 +78,7 @@ impl Ddpg {
 
     /// Makes one update from a minibatch of `played` shots. The actor also imitates `searched`, the best strokes found by search.
     /// `lr_factor` scales both learning rates. Returns the critic's mean cross entropy, nats, and its mean probability of success over
-    /// all heads.
-    ///
-    /// # Errors
-    /// Fails if sizes differ or the networks no longer return finite numbers.
+    /// all heads. Fails if sizes differ or the networks no longer return finite numbers.
     pub fn update(&mut self, played: &ShotBatch, searched: Option<&ShotBatch>, lr_factor: f64) -> Result<UpdateStats> {
         let loss = self.critic_loss(played)?;
         self.critic_optimiser.set_learning_rate(lr_factor * self.hyper.critic_learning_rate);

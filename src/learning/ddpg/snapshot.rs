@@ -1,5 +1,4 @@
-//! The trainer's part of a checkpoint: everything on which the next iteration depends, so that a resumed run equals an uninterrupted
-//! one.
+//! The trainer's part of a checkpoint: everything on which the next iteration depends, so that a resumed run equals an uninterrupted one.
 
 use std::sync::Arc;
 
@@ -78,10 +77,8 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
     })
 }
 
-/// Restores the trainer that [`write()`] wrote, from the file's arrays and the note.
-///
-/// # Errors
-/// Fails if they do not fit together or are from a version with other features or actions.
+/// Restores the trainer that [`write()`] wrote, from the file's arrays and the note. Fails if they do not fit together or are from a version
+/// with other features or actions.
 pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
     let note: TrainerState = serde_json::from_value(note).map_err(|_| WeightsError::Metadata)?;
     let hyper = &note.task.hyperparameters;

@@ -181,9 +181,6 @@ impl<'a> Reader<'a> {
     }
 
     /// Returns the network that [`Writer::add_network`] wrote. Its layers must have these `sizes`, inputs first.
-    ///
-    /// # Errors
-    /// Fails if the sizes differ or an array is missing.
     pub(crate) fn network(&self, name: &str, sizes: &[usize]) -> Result<Mlp, WeightsError> {
         let weight = |layer: usize| format!("{name}.{layer}.weight");
         let shapes = (0..).map_while(|layer| Some(self.arrays.tensor(&weight(layer)).ok()?.shape().to_vec()));
@@ -207,11 +204,14 @@ impl<'a> Reader<'a> {
         Ok(Mlp::from_parameters(sizes, parameters)?)
     }
 
-    /// Returns the optimiser of `network` that `Writer::add_optimiser` wrote after `steps` steps.
-    ///
-    /// # Errors
-    /// Fails if an array is missing or does not fit the network.
-    pub fn optimiser(&self, name: &str, network: &Mlp, config: AdamConfig, steps: u32) -> Result<Adam, WeightsError> {
+    /// Returns the optimiser of `network` that [`Writer::add_optimiser`] wrote after `steps` steps.
+    pub(crate) fn optimiser(
+        &self,
+        name: &str,
+        network: &Mlp,
+        config: AdamConfig,
+        steps: u32,
+    ) -> Result<Adam, WeightsError> {
         let moment = |order: usize| -> Result<Tensor, WeightsError> {
             let name = moment_name(name, order);
             let (_, values) = self.array(&name)?;

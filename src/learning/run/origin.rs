@@ -86,10 +86,7 @@ impl Weights {
         Self { start, settings: learner.settings(), table: Some(learner.table().clone()), notice, bytes }
     }
 
-    /// Loads the weights into an untrained agent.
-    ///
-    /// # Errors
-    /// [`RunError::Origin`] if the agents, the meaning of the networks' inputs and outputs, or the sizes differ.
+    /// Loads the weights into an untrained agent. Fails if the agents, the meaning of the networks' inputs and outputs, or the sizes differ.
     pub fn load_into(&self, learner: &mut dyn Learner) -> Result<(), RunError> {
         let refuse = |reason| RunError::Origin { path: self.start.path.clone(), reason };
         let (found, expected) = (&self.start.agent, learner.agent());
