@@ -242,10 +242,7 @@ mod tests {
                 let Networks { actor, critic, .. } = &agent.online;
                 for goal in [agent.actor_objective(&batch.observed).unwrap().0, agent.imitation_loss(&batch).unwrap()] {
                     let gradients = goal.backward().unwrap();
-                    assert!(
-                        gradients.get(critic.parameters()).is_none(),
-                        "the actor's goals leave the critic unchanged"
-                    );
+                    assert!(gradients.get(critic.parameters()).is_none(), "no goal of the actor moves the critic");
                 }
                 [
                     error_of_gradient(critic, || agent.critic_loss(&batch).unwrap()),
@@ -323,9 +320,6 @@ mod tests {
             loss(&agent, &sure)
         };
         let [before, without, with] = [loss(&start, &sure), after(0.0), after(1.0)];
-        assert!(
-            with < 0.5 * before && with < 0.5 * without,
-            "{before} before, {without} without, {with} with imitation"
-        );
+        assert!(with < 0.5 * before && with < 0.5 * without, "{before} before, {without} without, {with} with it");
     }
 }

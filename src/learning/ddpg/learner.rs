@@ -203,11 +203,8 @@ mod tests {
             assert_ne!(weights(&pupil), weights(&untrained), "another seed gives other weights");
             pupil.load_weights(&Reader::new(file).unwrap()).unwrap();
             let [own, given] = [&pupil, &teacher].map(|trainer| weights(trainer).concat());
-            assert!(
-                own.iter()
-                    .zip(&given)
-                    .all(|(own, given)| (own - given).abs() <= tolerance * given.abs() + tolerance * 1e-3)
-            );
+            let is_near = |(own, given): (&f32, &f32)| (own - given).abs() <= tolerance * (given.abs() + 1e-3);
+            assert!(own.iter().zip(&given).all(is_near));
             assert_eq!(pupil.shots(), 0);
         }
     }

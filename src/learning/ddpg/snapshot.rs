@@ -143,8 +143,7 @@ fn transitions(reader: &Reader<'_>, name: &str, inputs: Inputs) -> Result<Vec<Tr
     let context = context.as_chunks::<2>().0;
     let rails = if inputs.rails_first { reader.array(&rails)?.1 } else { vec![STRAIGHT; successes.len()] };
     if [observations.len(), actions.len(), context.len(), rails.len()] != [successes.len(); 4] {
-        let expected = format!("{} shots", successes.len());
-        return Err(WeightsError::Array { name: views, expected });
+        return Err(WeightsError::Array(views, format!("{} shots", successes.len())));
     }
     let shots = observations.iter().zip(actions).zip(context).zip(rails).zip(successes);
     Ok(shots

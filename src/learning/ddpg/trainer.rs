@@ -122,7 +122,7 @@ pub(in crate::learning) mod tests {
             task.hyperparameters = Hyperparameters { critic_chooses, ranking, ..task.hyperparameters };
             let mut trainer = Trainer::new(task, Table::default()).unwrap();
             trainer.iterate().unwrap();
-            assert_eq!((trainer.shots(), trainer.replay.len()), (16, 16), "ranking {ranking}");
+            assert_eq!((trainer.shots(), trainer.replay.stored().len()), (16, 16), "ranking {ranking}");
         }
     }
 

@@ -26,14 +26,9 @@ pub enum WeightsError {
     /// A safetensors file with another content.
     #[error("its metadata has no \"carom\" entry of the right kind")]
     Metadata,
-    /// An array is missing, or its type or shape is not the expected one.
-    #[error("its array \"{name}\" is not {expected}")]
-    Array {
-        /// The array's name.
-        name: String,
-        /// Expected type or shape.
-        expected: String,
-    },
+    /// This array is missing, or its type or shape is not this expected one.
+    #[error("its array \"{0}\" is not {1}")]
+    Array(String, String),
     /// The layers of a network are not the expected ones.
     #[error("its network \"{name}\" has {found}, and the settings ask for {wanted}")]
     Shape {
@@ -176,7 +171,7 @@ impl<'a> Reader<'a> {
     fn typed(&self, name: &str, dtype: Dtype, expected: &str) -> Result<TensorView<'a>, WeightsError> {
         match self.arrays.tensor(name) {
             Ok(array) if array.dtype() == dtype => Ok(array),
-            _ => Err(WeightsError::Array { name: name.to_owned(), expected: expected.to_owned() }),
+            _ => Err(WeightsError::Array(name.to_owned(), expected.to_owned())),
         }
     }
 
@@ -197,7 +192,7 @@ impl<'a> Reader<'a> {
             let name = format!("{name}.{layer}.bias");
             let (shape, bias) = self.array(&name)?;
             if shape != pair[1..] {
-                return Err(WeightsError::Array { name, expected: format!("{} values", pair[1]) });
+                return Err(WeightsError::Array(name, format!("{} values", pair[1])));
             }
             parameters.extend(bias);
         }
@@ -217,7 +212,7 @@ impl<'a> Reader<'a> {
             let (_, values) = self.array(&name)?;
             let expected = network.parameters().elem_count();
             if values.len() != expected {
-                return Err(WeightsError::Array { name, expected: format!("{expected} values") });
+                return Err(WeightsError::Array(name, format!("{expected} values")));
             }
             Ok(Tensor::from_vec(values, expected, &Device::Cpu)?)
         };
@@ -271,9 +266,8 @@ mod tests {
         assert!(bytes.len() < 2 * mlp.parameters().elem_count() + 700, "{} bytes", bytes.len());
         let read = Reader::new(&bytes).unwrap().network("actor", mlp.sizes()).unwrap();
         let values = |mlp: &Mlp| mlp.parameters().to_vec1::<f32>().unwrap();
-        assert!(
-            values(&read).iter().zip(values(&mlp)).all(|(read, own)| (read - own).abs() <= 5e-4 * own.abs() + 1e-7)
-        );
+        let is_near = |(read, own): (&f32, f32)| (read - own).abs() <= 5e-4 * own.abs() + 1e-7;
+        assert!(values(&read).iter().zip(values(&mlp)).all(is_near));
         assert_eq!(file(&read), bytes, "rounded values must not change when they are rounded again");
     }
 

@@ -33,11 +33,8 @@ const FORMAT: u32 = 2;
 
 /// Parses a checkpoint's `bytes`, which were read from `path`.
 pub fn load(path: &Path, bytes: Vec<u8>) -> Result<Loaded, RunError> {
-    restore(bytes).map_err(|reason| RunError::Checkpoints {
-        folder: path.parent().unwrap_or(path).display().to_string(),
-        current: damage(path, &reason),
-        previous: None,
-    })
+    let folder = path.parent().unwrap_or(path).display().to_string();
+    restore(bytes).map_err(|reason| RunError::Checkpoints(folder, damage(path, &reason)))
 }
 
 fn damage(path: &Path, reason: &io::Error) -> String {
@@ -97,7 +94,8 @@ impl Checkpoints {
             }
             Err(previous) => {
                 let previous = (!is_missing(&previous)).then(|| damage(&folder.join(PREVIOUS), &previous));
-                Err(RunError::Checkpoints { folder: folder.display().to_string(), current, previous })
+                let all: Vec<_> = std::iter::once(current).chain(previous).collect();
+                Err(RunError::Checkpoints(folder.display().to_string(), all.join("; ")))
             }
         }
     }

@@ -203,8 +203,7 @@ impl Run {
     }
 
     fn unsaved(&self, reason: RunError) -> RunError {
-        let folder = self.folder.display().to_string();
-        RunError::Unsaved { shots: self.learner.shots(), reason: Box::new(reason), folder }
+        RunError::Unsaved(self.learner.shots(), Box::new(reason), self.folder.display().to_string())
     }
 }
 
@@ -250,7 +249,7 @@ fn check_unoccupied(folder: &Path, own: Option<&str>) -> Result<(), RunError> {
     for entry in std::fs::read_dir(folder).map_err(file(folder))? {
         let entry = entry.map_err(file(folder))?.file_name();
         if entry != Lock::FILE && own.is_none_or(|own| entry != *own) {
-            return Err(RunError::Foreign { folder: name(), entry: entry.to_string_lossy().into_owned() });
+            return Err(RunError::Foreign(name(), entry.to_string_lossy().into_owned()));
         }
     }
     Ok(())
