@@ -98,15 +98,9 @@ fn scaled_constants(table: &Table) -> [f64; CONSTANTS] {
 /// Whether networks with a context are trained for tables like this one: it differs from `match` or `textbook` only in what the context
 /// describes, and by no more than in training.
 pub fn is_known_table(table: &Table) -> bool {
-    let is_near = scaled_constants(table)
-        .into_iter()
-        .chain((table.tilt / TILT_UNIT).to_array())
-        .all(|number| number.abs() <= MAX_DEVIATION);
-    is_near
-        && ["match", "textbook"]
-            .into_iter()
-            .filter_map(|name| Table::preset(name).ok())
-            .any(|base| is_like(table, &base))
+    let mut numbers = scaled_constants(table).into_iter().chain((table.tilt / TILT_UNIT).to_array());
+    numbers.all(|number| number.abs() <= MAX_DEVIATION)
+        && ["match", "textbook"].iter().any(|name| Table::preset(name).is_ok_and(|base| is_like(table, &base)))
 }
 
 /// Whether a table differs from `base` only in what the context describes.

@@ -32,7 +32,6 @@ const STREAM: u64 = 0x0070_6c61_7474;
 /// A layout, and the context under which it is played.
 pub(super) type ContextualLayout = (Layout, Context);
 
-/// Returns a share of a number, rounded.
 fn part(share: f64, of: usize) -> usize {
     ((of as f64 * share).round() as usize).min(of)
 }
