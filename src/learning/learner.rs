@@ -84,11 +84,9 @@ pub fn merge_settings(settings: &mut Value, changes: &Value, defaults: &Value) {
     }
 }
 
-/// Returns an agent's settings, from an object of the settings (or parts of settings) that differ from its defaults.
-///
-/// # Errors
-/// Fails if a setting is unknown or of another type, or if `validate` refuses the settings.
-pub fn settings_from<S: Default + Serialize + DeserializeOwned>(
+/// Returns an agent's settings, from an object of the settings (or parts of settings) that differ from its defaults. Fails if a setting is
+/// unknown or of another type, or if `validate` refuses the settings.
+pub(crate) fn settings_from<S: Default + Serialize + DeserializeOwned>(
     object: &Value,
     validate: impl Fn(&S) -> Result<(), SettingError>,
 ) -> Result<S, StartError> {

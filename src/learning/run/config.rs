@@ -108,10 +108,7 @@ impl Config {
     }
 
     /// Reads the configuration of the run in `folder`.
-    ///
-    /// # Errors
-    /// Fails if the file is missing or is not a configuration.
-    pub fn read(folder: &Path) -> std::io::Result<Self> {
+    pub(crate) fn read(folder: &Path) -> std::io::Result<Self> {
         json::read(&folder.join(FILE), storage::MAX_SMALL_FILE)
     }
 

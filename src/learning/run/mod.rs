@@ -212,11 +212,9 @@ pub fn contains_run(folder: &Path) -> bool {
     [checkpoint::CURRENT, checkpoint::PREVIOUS].iter().any(|name| folder.join(name).exists())
 }
 
-/// Deletes a run: removes the files that it has written into its folder, and the folder if it is then empty.
-///
-/// # Errors
-/// [`RunError::Missing`], [`RunError::Busy`], or the errors of the file system.
-pub fn discard(folder: &Path) -> Result<(), RunError> {
+/// Deletes a run: removes the files that it has written into its folder, and the folder if it is then empty. Fails if there is no run, or if
+/// another process works on it.
+pub(crate) fn discard(folder: &Path) -> Result<(), RunError> {
     if !contains_run(folder) {
         return Err(RunError::Missing(folder.display().to_string()));
     }

@@ -108,10 +108,7 @@ impl Policy {
     /// Returns the bundled policy that suits `rule`, `table` and the player best. For a player who `errs` this is the policy with a
     /// context, else the table's own. For a player without errors it is the table's own, else that of `match` if it has a context, else
     /// the policy with a context.
-    ///
-    /// # Errors
-    /// The same as [`Policy::bundled`].
-    pub fn bundled_for(table: &Table, rule: Rule, errs: bool) -> Option<Result<Self, PolicyError>> {
+    pub(crate) fn bundled_for(table: &Table, rule: Rule, errs: bool) -> Option<Result<Self, PolicyError>> {
         let own = || Self::bundled(table, rule);
         let read = |bytes| Self::from_bytes(bytes, &format!("the bundled policy for {rule} on tables like \"match\""));
         let with_context = || bundled_file("context", rule).filter(|_| is_known_table(table)).map(read);
@@ -126,15 +123,12 @@ impl Policy {
     }
 
     /// Returns the bundled policy called `name`.
-    ///
-    /// # Errors
-    /// The same as [`Policy::bundled`].
-    pub fn bundled_by_name(name: &str) -> Option<Result<Self, PolicyError>> {
+    pub(crate) fn bundled_by_name(name: &str) -> Option<Result<Self, PolicyError>> {
         bundled_bytes(name).map(|bytes| Self::from_bytes(bytes, name))
     }
 
     /// Returns the name of this policy among the bundled ones; `None` if it is not one of them.
-    pub fn bundled_name(&self) -> Option<&'static str> {
+    pub(crate) fn bundled_name(&self) -> Option<&'static str> {
         // Seed, shots and settings identify a policy.
         let is_this =
             |bytes| Reader::new(bytes).is_ok_and(|file| file.note().is_ok_and(|note: Origin| note == self.origin));
@@ -142,10 +136,7 @@ impl Policy {
     }
 
     /// Returns a checksum of the networks and their metadata: policies with equal checksums play equally.
-    ///
-    /// # Errors
-    /// The same as [`Writer::finish`].
-    pub fn checksum(&self) -> Result<String, WeightsError> {
+    pub(crate) fn checksum(&self) -> Result<String, WeightsError> {
         Ok(checksum(&self.to_bytes()?))
     }
 

@@ -39,11 +39,8 @@ pub fn find(folder: &Path, name: &str) -> Option<PathBuf> {
     Some(file(folder, name)).filter(|kept| is_name(name) && kept.exists())
 }
 
-/// Copies the policy file `policy` to `folder` under `name` and returns the new path. Replaces a policy of the same name only
-/// if `replaces`.
-///
-/// # Errors
-/// [`SavePolicyError`]; an existing policy is then unchanged.
+/// Copies the policy file `policy` to `folder` under `name` and returns the new path. Replaces a policy of the same name only if
+/// `replaces`. After an error, an existing policy is unchanged.
 pub fn save(folder: &Path, policy: &Path, name: &str, replaces: bool) -> Result<PathBuf, SavePolicyError> {
     if !is_name(name) {
         return Err(SavePolicyError::Name(name.to_owned()));

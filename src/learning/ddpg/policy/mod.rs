@@ -2,7 +2,7 @@
 
 pub mod calibration;
 pub mod file;
-pub mod library;
+pub(crate) mod library;
 
 use std::sync::Arc;
 
@@ -83,10 +83,7 @@ impl Policy {
     }
 
     /// As [`Policy::proposals`], computed by several threads.
-    ///
-    /// # Panics
-    /// Never, like [`Policy::proposals`].
-    pub fn proposals_by(&self, team: &Team, table: &Table, layout: &Layout, skill: &Skill) -> Vec<Proposal> {
+    pub(crate) fn proposals_by(&self, team: &Team, table: &Table, layout: &Layout, skill: &Skill) -> Vec<Proposal> {
         let (shared, inputs, errors) = (Arc::new(table.clone()), self.origin.hyperparameters.inputs(), skill.scale());
         let observations = Observation::all(table, layout, inputs.rails_first);
         let parts: Vec<&[Observation]> = observations.chunks(observations.len().div_ceil(team.size())).collect();
