@@ -52,8 +52,8 @@ const STRAIGHT: f32 = -1.0;
 pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsError> {
     let agent = &trainer.agent;
     for (name, networks) in [("online", &agent.online), ("target", &agent.target)] {
-        writer.add_network(&format!("{name}.actor"), &networks.actor)?;
-        writer.add_network(&format!("{name}.critic"), &networks.critic)?;
+        writer.add_network(&format!("{name}.actor"), &networks.actor, false)?;
+        writer.add_network(&format!("{name}.critic"), &networks.critic, false)?;
     }
     writer.add_optimiser("actor", &agent.actor_optimiser)?;
     writer.add_optimiser("critic", &agent.critic_optimiser)?;

@@ -69,21 +69,18 @@ impl Writer {
         self.arrays.push((name.into(), Dtype::F64, shape.to_vec(), bytes));
     }
 
-    /// Adds a network layer by layer: `name.0.weight` (inputs x outputs), `name.0.bias`, and so on.
-    pub(crate) fn add_network(&mut self, name: &str, network: &Mlp) -> Result<(), WeightsError> {
-        for (name, shape, values) in layers(name, network)? {
-            self.add(name, &shape, &values);
-        }
-        Ok(())
-    }
-
-    /// Adds a network in half precision (16 bits per value), for networks whose training is finished.
-    pub(crate) fn add_network_half(&mut self, name: &str, network: &Mlp) -> Result<(), WeightsError> {
-        for (name, shape, values) in layers(name, network)? {
-            let mut bytes = Vec::with_capacity(2 * values.len());
-            let values = Tensor::from_vec(values, shape.as_slice(), &Device::Cpu)?;
-            values.to_dtype(DType::F16)?.write_bytes(&mut bytes)?;
-            self.arrays.push((name, Dtype::F16, shape, bytes));
+    /// Adds a network layer by layer: `name.0.weight` (inputs x outputs), `name.0.bias`, and so on. Networks whose training is finished have
+    /// half precision (16 bits per value).
+    pub(crate) fn add_network(&mut self, name: &str, network: &Mlp, is_half: bool) -> Result<(), WeightsError> {
+        let (dtype, precision) = if is_half { (Dtype::F16, DType::F16) } else { (Dtype::F32, DType::F32) };
+        let mut start = 0;
+        for (layer, pair) in network.sizes().windows(2).enumerate() {
+            for (part, shape) in [("weight", pair), ("bias", &pair[1..])] {
+                let (count, mut bytes) = (shape.iter().product(), Vec::new());
+                network.parameters().narrow(0, start, count)?.to_dtype(precision)?.write_bytes(&mut bytes)?;
+                self.arrays.push((format!("{name}.{layer}.{part}"), dtype, shape.to_vec(), bytes));
+                start += count;
+            }
         }
         Ok(())
     }
@@ -221,22 +218,6 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Name, shape and values.
-type Array = (String, Vec<usize>, Vec<f32>);
-
-/// Splits a network into arrays, layer by layer: the weights, then the bias.
-fn layers(name: &str, network: &Mlp) -> Result<Vec<Array>, WeightsError> {
-    let (mut rest, mut arrays) = (network.parameters().to_vec1::<f32>()?, Vec::new());
-    for (layer, pair) in network.sizes().windows(2).enumerate() {
-        for (part, shape) in [("weight", pair), ("bias", &pair[1..])] {
-            let after = rest.split_off(shape.iter().product());
-            arrays.push((format!("{name}.{layer}.{part}"), shape.to_vec(), rest));
-            rest = after;
-        }
-    }
-    Ok(arrays)
-}
-
 /// Describes layer sizes in words.
 pub(crate) fn units<'a>(sizes: impl IntoIterator<Item = &'a usize>) -> String {
     let sizes: Vec<_> = sizes.into_iter().map(usize::to_string).collect();
@@ -259,7 +240,7 @@ mod tests {
         let mlp = Mlp::random(&[30, 40, 2], &mut Xoshiro256PlusPlus::seed_from_u64(1)).unwrap();
         let file = |mlp: &Mlp| {
             let mut writer = Writer::default();
-            writer.add_network_half("actor", mlp).unwrap();
+            writer.add_network("actor", mlp, true).unwrap();
             writer.finish(&"a note").unwrap()
         };
         let bytes = file(&mlp);
@@ -275,7 +256,7 @@ mod tests {
     fn damaged_and_foreign_files_are_refused_with_a_reason() {
         let mut writer = Writer::default();
         let mlp = Mlp::random(&[3, 4, 2], &mut Xoshiro256PlusPlus::seed_from_u64(1)).unwrap();
-        writer.add_network("actor", &mlp).unwrap();
+        writer.add_network("actor", &mlp, false).unwrap();
         writer.add("extra", &[1], &[f32::NAN]);
         writer.add_f64("exact", &[1], &[0.1]);
         let bytes = writer.finish(&"a note").unwrap();

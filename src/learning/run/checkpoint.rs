@@ -205,8 +205,9 @@ fn restore(bytes: Vec<u8>) -> io::Result<Loaded> {
         None => return refuse("it has no checksum: it is damaged, or not a checkpoint of this version of carom"),
     }
     let reader = Reader::new(&bytes).map_err(io::Error::other)?;
-    let Version { format } = reader.note().map_err(io::Error::other)?;
-    if format != FORMAT {
+    // Notes of all formats have this entry in common.
+    let format = &reader.note::<Value>().map_err(io::Error::other)?["format"];
+    if *format != FORMAT {
         return refuse(&format!("it has format {format}, and this version of carom reads format {FORMAT}"));
     }
     let Header { agent, state, learner, .. } = reader.note().map_err(io::Error::other)?;
@@ -226,12 +227,6 @@ pub fn agent_of_checkpoint(path: &Path) -> Option<String> {
 fn note_entry(path: &Path, name: &str) -> Option<Value> {
     let bytes = storage::read(path, storage::MAX_LARGE_FILE).ok()?;
     Reader::new(&bytes).ok()?.note::<Value>().ok()?.get(name).cloned()
-}
-
-/// The part of the note that all versions have in common.
-#[derive(Deserialize)]
-struct Version {
-    format: u32,
 }
 
 #[cfg(test)]

@@ -191,7 +191,7 @@ impl Policy {
     pub(in crate::learning) fn to_bytes(&self) -> Result<Vec<u8>, WeightsError> {
         let mut writer = Writer::default();
         for (name, network) in [("actor", &self.networks.actor), ("critic", &self.networks.critic)] {
-            writer.add_network_half(name, network)?;
+            writer.add_network(name, network, true)?;
         }
         let mut bytes = writer.finish(&Note { policy_checksum: CHECKSUM_PLACEHOLDER, origin: &self.origin })?;
         if write_checksum(POLICY_FIELD, &mut bytes) { Ok(bytes) } else { Err(WeightsError::Metadata) }
