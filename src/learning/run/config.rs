@@ -128,11 +128,6 @@ impl Config {
         (theirs != ours)
             .then(|| format!("the run was started by {theirs}, and this is {ours}: the final weights may differ"))
     }
-
-    /// Returns the day of the start, UTC, as 2026-11-20.
-    pub fn day(&self) -> &str {
-        self.started.get(..10).unwrap_or(&self.started)
-    }
 }
 
 /// Largest number of characters of a table's name in a folder's name.

@@ -191,7 +191,8 @@ impl Run {
     /// Writes the policy, unless `go_on` returns `false` before it is complete.
     fn write_policy(&self, score: Score, go_on: &mut dyn FnMut() -> bool) -> Result<(), RunError> {
         let path = self.policy_path();
-        match self.learner.policy(score.mean_reward, self.config.day(), go_on)? {
+        let started = &self.config.started;
+        match self.learner.policy(score.mean_reward, started.get(..10).unwrap_or(started), go_on)? {
             Some(bytes) => write_atomic(&path, &bytes).map_err(file(&path)),
             None => Ok(()),
         }

@@ -17,7 +17,7 @@ use crate::{
         nn::weights::{Reader, WeightsError},
         policy::bundled_bytes,
     },
-    storage::{self, write_atomic},
+    storage,
     table::Table,
 };
 
@@ -31,7 +31,8 @@ pub struct Weights {
     pub table: Option<Table>,
     /// Warning if the weights are those of the previous checkpoint, because the current one is damaged.
     pub notice: Option<String>,
-    bytes: Vec<u8>,
+    /// The whole file.
+    pub(super) bytes: Vec<u8>,
 }
 
 impl Weights {
@@ -108,10 +109,5 @@ impl Weights {
             )),
             error => refuse(error.to_string()),
         })
-    }
-
-    /// Writes a copy of the file.
-    pub fn write(&self, path: &Path) -> Result<(), RunError> {
-        write_atomic(path, &self.bytes).map_err(file(path))
     }
 }

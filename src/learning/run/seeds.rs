@@ -99,7 +99,8 @@ impl Group {
         // Accepts an existing weights file: the same command was killed after writing it and is repeated now.
         super::check_unoccupied(folder, weights.map(|_| WEIGHTS))?;
         if let Some(weights) = weights {
-            weights.write(&folder.join(WEIGHTS))?;
+            let path = folder.join(WEIGHTS);
+            write_atomic(&path, &weights.bytes).map_err(file(&path))?;
         }
         let file = GroupFile { seeds, from: weights.map(|weights| weights.start.clone()), spec };
         json::write(&folder.join(FILE), &file)?;
