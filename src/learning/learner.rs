@@ -1,6 +1,6 @@
 //! The interface between a training run and any agent: [`Learner`], its kinds, plan, settings and progress.
 
-use std::fmt::{Debug, Display};
+use std::fmt::Debug;
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use serde_json::{Value, json};
@@ -51,13 +51,6 @@ pub enum StartError {
     /// candle reports an error.
     #[error("the agent cannot start: {}", first_line(.0))]
     Network(#[from] candle_core::Error),
-}
-
-impl StartError {
-    /// Creates the error for settings that are refused for `reason`.
-    pub fn settings(reason: impl Display) -> Self {
-        Self::Settings(reason.to_string())
-    }
 }
 
 /// Returns an agent's settings as a JSON object.
@@ -119,9 +112,9 @@ pub(crate) fn settings_from<S: Default + Serialize + DeserializeOwned>(
             Some(format!("{name} = {value}: {}", plain_message(&error, accepted(name))))
         };
         let named = object.as_object().and_then(|settings| settings.iter().find_map(error_of));
-        StartError::settings(named.unwrap_or_else(|| plain_message(&error.to_string(), None)))
+        StartError::Settings(named.unwrap_or_else(|| plain_message(&error.to_string(), None)))
     })?;
-    validate(&settings).map_err(StartError::settings)?;
+    validate(&settings).map_err(|error| StartError::Settings(error.to_string()))?;
     Ok(settings)
 }
 

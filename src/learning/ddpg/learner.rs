@@ -46,7 +46,8 @@ pub const AGENT: AgentKind = AgentKind {
 fn hyperparameters(settings: &Value) -> Result<Hyperparameters, StartError> {
     let hyperparameters: Hyperparameters = settings_from(settings, Hyperparameters::validate)?;
     if hyperparameters.searched > 0 && !hyperparameters.context {
-        return Err(StartError::settings("searches need players with errors: use searched with context = true"));
+        let reason = "searches need players with errors: use searched with context = true";
+        return Err(StartError::Settings(reason.to_owned()));
     }
     let Hyperparameters { imitation, actor_learning_rate, .. } = hyperparameters;
     if imitation > 0.0 && actor_learning_rate < MIN_ACTOR_LEARNING_RATE {
@@ -54,7 +55,7 @@ fn hyperparameters(settings: &Value) -> Result<Hyperparameters, StartError> {
             "imitation = {imitation} has no effect with an actor_learning_rate of {actor_learning_rate:e} (perhaps set by --from): \
              accepted is {MIN_ACTOR_LEARNING_RATE:e} and more, or imitation = 0"
         );
-        return Err(StartError::settings(reason));
+        return Err(StartError::Settings(reason));
     }
     Ok(hyperparameters)
 }

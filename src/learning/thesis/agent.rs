@@ -158,9 +158,9 @@ pub(crate) const fn kind_of<A: Agent + 'static>() -> AgentKind {
         start: |plan, table, settings| {
             let settings = settings_from(settings, A::Settings::validate)?;
             if settings.needs_point_rewards() && plan.reward.rule().is_none() {
-                return Err(StartError::settings(
-                    "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion",
-                ));
+                let reason =
+                    "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
+                return Err(StartError::Settings(reason.to_owned()));
             }
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(plan.seed);
             let game = CaromGame::new(table, plan.reward, settings.episode());
