@@ -242,42 +242,35 @@ mod tests {
         State { schedule: Schedule::for_shots(100), from: None, accumulator: Accumulator::default() }
     }
 
-    /// A folder with two checkpoints, and the shots played at each.
-    fn folder_of_two() -> (tempfile::TempDir, [u64; 2]) {
-        let folder = tempfile::tempdir().unwrap();
-        let mut learner = Trainer::new(small_task(), Table::default()).unwrap();
-        let mut checkpoints = Checkpoints::new(folder.path());
-        let shots = [(); 2].map(|()| {
-            learner.iterate().unwrap();
-            checkpoints.write(&bytes(&learner, &state()).unwrap()).unwrap();
-            learner.shots()
-        });
-        (folder, shots)
-    }
-
     fn shots_after_opening(folder: &Path) -> Result<(u64, bool), RunError> {
         Checkpoints::open(folder).map(|(_, loaded)| (loaded.learner.shots(), loaded.fallback.is_some()))
     }
 
     #[test]
-    fn the_previous_checkpoint_replaces_a_missing_one() {
-        let (folder, [before, last]) = folder_of_two();
+    fn the_previous_checkpoint_replaces_a_damaged_or_missing_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut learner = Trainer::new(small_task(), Table::default()).unwrap();
+        let mut checkpoints = Checkpoints::new(folder.path());
+        let [before, last] = [(); 2].map(|()| {
+            learner.iterate().unwrap();
+            checkpoints.write(&bytes(&learner, &state()).unwrap()).unwrap();
+            learner.shots()
+        });
         assert_eq!(shots_after_opening(folder.path()).unwrap(), (last, false));
         assert_eq!(shots_in(folder.path()), Some(last));
-        fs::remove_file(folder.path().join(CURRENT)).unwrap();
-        assert_eq!(shots_after_opening(folder.path()).unwrap(), (before, true));
-        fs::remove_file(folder.path().join(PREVIOUS)).unwrap();
-        assert!(matches!(shots_after_opening(folder.path()), Err(RunError::Missing(_))));
-    }
-
-    #[test]
-    fn a_damaged_checkpoint_keeps_the_previous_one() {
-        let (folder, [before, _]) = folder_of_two();
         fs::write(folder.path().join(CURRENT), b"damaged").unwrap();
         let (mut checkpoints, loaded) = Checkpoints::open(folder.path()).unwrap();
         checkpoints.write(b"the disk lies").unwrap();
         assert_eq!(loaded.learner.shots(), before);
+        assert_eq!(
+            shots_after_opening(folder.path()).unwrap(),
+            (before, true),
+            "no damaged one becomes the previous one"
+        );
+        fs::remove_file(folder.path().join(CURRENT)).unwrap();
         assert_eq!(shots_after_opening(folder.path()).unwrap(), (before, true));
+        fs::remove_file(folder.path().join(PREVIOUS)).unwrap();
+        assert!(matches!(shots_after_opening(folder.path()), Err(RunError::Missing(_))));
     }
 
     #[test]
