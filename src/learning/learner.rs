@@ -1,6 +1,6 @@
 //! The interface between a training run and any agent: [`Learner`], its kinds, plan, settings and progress.
 
-use std::fmt::{Debug, Display};
+use std::fmt::Debug;
 
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use serde_json::{Value, json};
@@ -20,11 +20,8 @@ use crate::{
     table::{Layout, Table},
 };
 
-/// Creates an untrained agent from a plan, a table and settings.
-pub type StartFn = fn(TrainingPlan, Table, &Value) -> Result<Box<dyn Learner>, StartError>;
-
-/// Restores a learner from a file.
-pub type RestoreFn = fn(&Reader<'_>, Value) -> Result<Box<dyn Learner>, WeightsError>;
+/// A new or restored agent, or why there is none.
+pub type Created<E> = Result<Box<dyn Learner>, E>;
 
 /// A kind of agent: how to create it untrained, and how to restore a saved one.
 #[derive(Clone, Copy, Debug)]
@@ -36,9 +33,9 @@ pub struct AgentKind {
     /// Returns all settings, from an object of those that differ from the agent's defaults.
     pub settings: fn(&Value) -> Result<Value, StartError>,
     /// Creates an untrained agent for a plan on a table. The value is an object of the settings that differ from the agent's defaults.
-    pub start: StartFn,
+    pub start: fn(TrainingPlan, Table, &Value) -> Created<StartError>,
     /// Restores the learner whose [`Learner::save`] filled the file and returned the note.
-    pub restore: RestoreFn,
+    pub restore: fn(&Reader<'_>, Value) -> Created<WeightsError>,
     /// Settings that apply only when weights are loaded; `--from` does not pass them on.
     pub not_inherited: &'static [&'static str],
     /// Settings that define the meaning of the networks' inputs and outputs. Weights are usable only with equal values of these.
@@ -56,13 +53,6 @@ pub enum StartError {
     Network(#[from] candle_core::Error),
 }
 
-impl StartError {
-    /// Creates the error for settings that are refused for `reason`.
-    pub fn settings(reason: impl Display) -> Self {
-        Self::Settings(reason.to_string())
-    }
-}
-
 /// Returns an agent's settings as a JSON object.
 pub fn settings_as_object(settings: &impl Serialize) -> Value {
     // Settings are numbers, words and lists of them, which always serialize.
@@ -77,7 +67,7 @@ pub fn merge_settings(settings: &mut Value, changes: &Value, defaults: &Value) {
         return;
     };
     if !settings.is_object() {
-        *settings = Value::Object(serde_json::Map::new());
+        *settings = json!({});
     }
     for (name, value) in changes {
         match defaults.get(name) {
@@ -87,11 +77,9 @@ pub fn merge_settings(settings: &mut Value, changes: &Value, defaults: &Value) {
     }
 }
 
-/// Returns an agent's settings, from an object of the settings (or parts of settings) that differ from its defaults.
-///
-/// # Errors
-/// Fails if a setting is unknown or of another type, or if `validate` refuses the settings.
-pub fn settings_from<S: Default + Serialize + DeserializeOwned>(
+/// Returns an agent's settings, from an object of the settings (or parts of settings) that differ from its defaults. Fails if a setting is
+/// unknown or of another type, or if `validate` refuses the settings.
+pub(crate) fn settings_from<S: Default + Serialize + DeserializeOwned>(
     object: &Value,
     validate: impl Fn(&S) -> Result<(), SettingError>,
 ) -> Result<S, StartError> {
@@ -105,7 +93,7 @@ pub fn settings_from<S: Default + Serialize + DeserializeOwned>(
     let accepted = |name: &str| {
         [json!(0), json!(u32::MAX), json!([0])].into_iter().find_map(|value| {
             let settings = read(&json!({ name: value })).ok()?;
-            validate(&settings).err()?.accepted_for(name)
+            validate(&settings).err().filter(|error| error.name == name).map(|error| error.accepted)
         })
     };
     let settings = read(object).map_err(|error| {
@@ -115,23 +103,19 @@ pub fn settings_from<S: Default + Serialize + DeserializeOwned>(
             // Settings of earlier versions are accepted without effect, but the message must not offer them.
             let error = match error.split_once("expected one of ") {
                 Some((start, _)) if defaults.get(name).is_none() => {
-                    format!("{start}expected one of {}", names(&defaults))
+                    let known = defaults.as_object().into_iter().flat_map(serde_json::Map::keys);
+                    let known: Vec<_> = known.map(|name| format!("`{name}`")).collect();
+                    format!("{start}expected one of {}", known.join(", "))
                 }
                 _ => error,
             };
             Some(format!("{name} = {value}: {}", plain_message(&error, accepted(name))))
         };
         let named = object.as_object().and_then(|settings| settings.iter().find_map(error_of));
-        StartError::settings(named.unwrap_or_else(|| plain_message(&error.to_string(), None)))
+        StartError::Settings(named.unwrap_or_else(|| plain_message(&error.to_string(), None)))
     })?;
-    validate(&settings).map_err(StartError::settings)?;
+    validate(&settings).map_err(|error| StartError::Settings(error.to_string()))?;
     Ok(settings)
-}
-
-/// Lists the names in an object.
-fn names(object: &Value) -> String {
-    let names = object.as_object().into_iter().flat_map(serde_json::Map::keys);
-    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
 /// Rewrites a message of serde in plain words and adds the accepted range, if it is known.
@@ -139,9 +123,8 @@ fn plain_message(message: &str, accepted: Option<&str>) -> String {
     let message = in_plain_words(message).replace("unknown field", "unknown setting");
     let Some(range) = accepted else { return message };
     let message = message.replace("a whole number from 0 on", "a whole number");
-    ["expected a whole number", "expected a number"]
-        .iter()
-        .fold(message, |message, words| message.replace(words, &format!("{words}; accepted is {range}")))
+    let with_range = |message: String, words| message.replace(words, &format!("{words}; accepted is {range}"));
+    ["expected a whole number", "expected a number"].into_iter().fold(message, with_range)
 }
 
 /// Goal and length of a training; the same fields for every agent.
@@ -273,11 +256,8 @@ mod tests {
             let (changed, defaults) = (settings(&changes), settings(&json!({})));
             assert_eq!(changed.pointer(part), changes.pointer(part), "{agent}");
             assert_eq!(changed.pointer(other), defaults.pointer(other), "{agent}");
-            assert_eq!(
-                (defaults, settings(&changed)),
-                ((kind.settings)(&json!({})).unwrap(), changed.clone()),
-                "{agent}"
-            );
+            assert_eq!(defaults, (kind.settings)(&json!({})).unwrap(), "{agent}");
+            assert_eq!(settings(&changed), changed, "{agent}");
             assert_eq!((kind.settings)(&changes).unwrap(), changed, "{agent}");
         }
     }

@@ -6,16 +6,9 @@ use std::fmt::Display;
 #[derive(Debug, thiserror::Error, PartialEq)]
 #[error("{name} = {value} is outside its range; accepted is {accepted}")]
 pub struct SettingError {
-    name: &'static str,
+    pub(super) name: &'static str,
     value: String,
-    accepted: &'static str,
-}
-
-impl SettingError {
-    /// Returns the accepted range if this error is about the setting `name`.
-    pub fn accepted_for(&self, name: &str) -> Option<&'static str> {
-        (self.name == name).then_some(self.accepted)
-    }
+    pub(super) accepted: &'static str,
 }
 
 pub fn check(

@@ -27,7 +27,7 @@ use crate::{
         nn::{adam::AdamConfig, mlp::Operations},
         thesis::{
             actor_critic::{ActorCritic, Guidance, Rates, sizes},
-            replay::{Batch, StoredTransition},
+            replay::Batch,
         },
     },
     physics::CueInputs,
@@ -197,18 +197,7 @@ fn thesis_updates(
     // A small learning rate keeps the networks finite: training on one batch over and over cannot converge to anything useful.
     let rates = Rates { adam: AdamConfig { learning_rate: 1e-6, gradient_clip: 1.0 }, target_retention: 0.999 };
     let mut agent = ActorCritic::random(&sizes(actor, critic), rates, &mut rng)?.with_operations(operations);
-    let mut number = || rng.random_range(-1.0..1.0);
-    let drawn: Vec<StoredTransition> = (0..rows)
-        .map(|_| StoredTransition {
-            state: std::array::from_fn(|_| number()),
-            action: std::array::from_fn(|_| number()),
-            index: 0,
-            reward: number(),
-            continues: goes_on,
-            next: std::array::from_fn(|_| number()),
-        })
-        .collect();
-    let batch = Batch::new(&drawn, 0.99)?;
+    let batch = Batch::random(rows, goes_on, &mut rng)?;
     updates_a_second(time, || agent.update(&batch, &Guidance::NONE))
 }
 

@@ -98,15 +98,9 @@ fn scaled_constants(table: &Table) -> [f64; CONSTANTS] {
 /// Whether networks with a context are trained for tables like this one: it differs from `match` or `textbook` only in what the context
 /// describes, and by no more than in training.
 pub fn is_known_table(table: &Table) -> bool {
-    let is_near = scaled_constants(table)
-        .into_iter()
-        .chain((table.tilt / TILT_UNIT).to_array())
-        .all(|number| number.abs() <= MAX_DEVIATION);
-    is_near
-        && ["match", "textbook"]
-            .into_iter()
-            .filter_map(|name| Table::preset(name).ok())
-            .any(|base| is_like(table, &base))
+    let mut numbers = scaled_constants(table).into_iter().chain((table.tilt / TILT_UNIT).to_array());
+    numbers.all(|number| number.abs() <= MAX_DEVIATION)
+        && ["match", "textbook"].iter().any(|name| Table::preset(name).is_ok_and(|base| is_like(table, &base)))
 }
 
 /// Whether a table differs from `base` only in what the context describes.
@@ -151,10 +145,7 @@ mod tests {
             let drawn = sampler.draw(|| 0.2 * f64::from(step) - 2.0);
             assert!(is_known_table(&drawn), "{drawn:?}");
         }
-        assert!(
-            is_known_table(&Table { flight: None, ..mine.clone() }),
-            "a table that was saved before balls could fly"
-        );
+        assert!(is_known_table(&Table { flight: None, ..mine.clone() }), "it was saved before balls could fly");
         assert!(!is_known_table(&Table { length: 2.54, width: 1.27, ..mine.clone() }));
         assert!(!is_known_table(&Table { rail_restitution: 0.6, ..mine.clone() }));
         assert!(!is_known_table(&Table { rail: Rails { model: RailModel::Nose, ..mine.rail }, ..mine }));

@@ -171,12 +171,8 @@ impl Hyperparameters {
         check_positive("critic_learning_rate", self.critic_learning_rate)?;
         check_positive("actor_learning_rate", self.actor_learning_rate)?;
         check_positive("gradient_clip", self.gradient_clip)?;
-        check(
-            "target_rate",
-            self.target_rate,
-            0.0 < self.target_rate && self.target_rate <= 1.0,
-            "more than 0, up to 1",
-        )?;
+        let rate = self.target_rate;
+        check("target_rate", rate, 0.0 < rate && rate <= 1.0, "more than 0, up to 1")?;
         check_share("critic_chooses", self.critic_chooses)?;
         check_share("perfect", self.perfect)?;
         check_share("ranking", self.ranking)?;

@@ -29,10 +29,6 @@ use crate::{
 /// Learning rate of the actor below which it practically does not learn.
 pub const MIN_ACTOR_LEARNING_RATE: f64 = 1e-6;
 
-/// Indices of the networks in [`Hyperparameters::sizes`].
-const ACTOR: usize = 0;
-const CRITIC: usize = 1;
-
 /// The entry in the list of agents.
 pub const AGENT: AgentKind = AgentKind {
     name: "ddpg",
@@ -50,7 +46,8 @@ pub const AGENT: AgentKind = AgentKind {
 fn hyperparameters(settings: &Value) -> Result<Hyperparameters, StartError> {
     let hyperparameters: Hyperparameters = settings_from(settings, Hyperparameters::validate)?;
     if hyperparameters.searched > 0 && !hyperparameters.context {
-        return Err(StartError::settings("searches need players with errors: use searched with context = true"));
+        let reason = "searches need players with errors: use searched with context = true";
+        return Err(StartError::Settings(reason.to_owned()));
     }
     let Hyperparameters { imitation, actor_learning_rate, .. } = hyperparameters;
     if imitation > 0.0 && actor_learning_rate < MIN_ACTOR_LEARNING_RATE {
@@ -58,7 +55,7 @@ fn hyperparameters(settings: &Value) -> Result<Hyperparameters, StartError> {
             "imitation = {imitation} has no effect with an actor_learning_rate of {actor_learning_rate:e} (perhaps set by --from): \
              accepted is {MIN_ACTOR_LEARNING_RATE:e} and more, or imitation = 0"
         );
-        return Err(StartError::settings(reason));
+        return Err(StartError::Settings(reason));
     }
     Ok(hyperparameters)
 }
@@ -141,16 +138,15 @@ impl Learner for Trainer {
         let prefix = if weights.has("target.actor.0.weight") { "target." } else { "" };
         let hyper = self.agent.hyper.clone();
         let inputs = hyper.inputs();
-        let network = |name: &str, which: usize| {
+        let network = |name: &str, is_critic: bool| {
             let name = format!("{prefix}{name}");
-            weights.network(&name, &hyper.sizes()[which]).or_else(|error| {
+            let read = |hyper: &Hyperparameters| weights.network(&name, &hyper.sizes()[usize::from(is_critic)]);
+            read(&hyper).or_else(|error| {
                 // Weights with fewer inputs are loaded, too: the new inputs have no effect until the network learns to use them.
                 let fewer = [(inputs.context, false), (false, inputs.rails_first), (false, false)];
                 let fewer =
                     fewer.map(|(context, rails_first)| Hyperparameters { context, rails_first, ..hyper.clone() });
-                let load = |fewer: &Hyperparameters| {
-                    weights.network(&name, &fewer.sizes()[which]).ok().map(|network| (network, fewer.inputs()))
-                };
+                let load = |fewer: &Hyperparameters| Some((read(fewer).ok()?, fewer.inputs()));
                 let Some((mut network, loaded)) = fewer.iter().find_map(load) else { return Err(error) };
                 if inputs.context && !loaded.context {
                     network = network.with_more_inputs(STATE_FEATURES, CONTEXT_FEATURES)?;
@@ -158,14 +154,14 @@ impl Learner for Trainer {
                 if inputs.rails_first && !loaded.rails_first {
                     network = network.with_more_inputs(inputs.actor() - Rail::ALL.len(), Rail::ALL.len())?;
                     let end = network.sizes()[0];
-                    network = network.with_more_inputs(end, if which == CRITIC { RAIL_FEATURES } else { 0 })?;
+                    network = network.with_more_inputs(end, if is_critic { RAIL_FEATURES } else { 0 })?;
                 }
                 Ok(network)
             })
         };
         let own = &self.agent.online;
-        let actor = if self.agent.hyper.new_actor { own.actor.duplicate()? } else { network("actor", ACTOR)? };
-        let critic = network("critic", CRITIC)?;
+        let actor = if self.agent.hyper.new_actor { own.actor.duplicate()? } else { network("actor", false)? };
+        let critic = network("critic", true)?;
         self.agent = Ddpg::starting_from(Networks::new(&hyper, actor, critic)?, hyper)?;
         Ok(())
     }
@@ -184,6 +180,7 @@ mod tests {
 
     #[test]
     fn weights_load_from_checkpoints_and_policies() {
+        let untrained = Trainer::new(small_task(), Table::default()).unwrap();
         let mut teacher = Trainer::new(small_task(), Table::default()).unwrap();
         teacher.iterate().unwrap();
         let mut writer = Writer::default();
@@ -199,14 +196,11 @@ mod tests {
             let mut task = small_task();
             task.plan.seed = 6;
             let mut pupil = Trainer::new(task, Table::default()).unwrap();
-            assert_ne!(weights(&pupil), weights(&teacher));
+            assert_ne!(weights(&pupil), weights(&untrained), "another seed gives other weights");
             pupil.load_weights(&Reader::new(file).unwrap()).unwrap();
             let [own, given] = [&pupil, &teacher].map(|trainer| weights(trainer).concat());
-            assert!(
-                own.iter()
-                    .zip(&given)
-                    .all(|(own, given)| (own - given).abs() <= tolerance * given.abs() + tolerance * 1e-3)
-            );
+            let is_near = |(own, given): (&f32, &f32)| (own - given).abs() <= tolerance * (given.abs() + 1e-3);
+            assert!(own.iter().zip(&given).all(is_near));
             assert_eq!(pupil.shots(), 0);
         }
     }

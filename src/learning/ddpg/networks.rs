@@ -86,13 +86,6 @@ impl Networks {
         actions_in(observed.space(), &self.propose(observed)?)
     }
 
-    /// Returns the heads' actions, observation by observation, and the critic's logit of success for each.
-    pub fn propose_with_logits(&self, observed: &ObservationBatch) -> Result<(Vec<Action>, Vec<f32>)> {
-        let actions = self.propose(observed)?;
-        let logits = self.critic.forward_frozen(&observed.with_actions(&actions)?)?;
-        Ok((actions_in(observed.space(), &actions)?, logits.flatten_all()?.to_vec1()?))
-    }
-
     /// Returns the proposals of all heads for these observations: the observation, the action and the critic's logit.
     pub fn proposals(
         &self,
@@ -100,7 +93,9 @@ impl Networks {
         observations: Vec<ContextualObservation>,
     ) -> Result<Vec<(Observation, Action, f32)>> {
         let observed = ObservationBatch::new(inputs, observations)?;
-        let (actions, logits) = self.propose_with_logits(&observed)?;
+        let rows = self.propose(&observed)?;
+        let logits = self.critic.forward_frozen(&observed.with_actions(&rows)?)?.flatten_all()?.to_vec1::<f32>()?;
+        let actions = actions_in(observed.space(), &rows)?;
         let heads = actions.len() / observed.observations.len();
         let all = actions.into_iter().zip(logits).enumerate();
         Ok(all.map(|(row, (action, logit))| (observed.observations[row / heads].observation, action, logit)).collect())

@@ -148,10 +148,8 @@ mod tests {
             let layout = Layout::random(&table, &mut rng);
             for observation in Observation::all_straight(&layout) {
                 assert!(observation.cue.x >= 0.0);
-                assert!(
-                    (observation.first.distance(observation.second) - layout.balls[1].distance(layout.balls[2])).abs()
-                        < 1e-12
-                );
+                let distance = layout.balls[1].distance(layout.balls[2]);
+                assert!((observation.first.distance(observation.second) - distance).abs() < 1e-12);
             }
         }
     }

@@ -8,7 +8,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     action::Action,
     agent::Transition,
-    expert::{Expert, SearchResult},
+    expert::Expert,
     hyperparameters::{Hyperparameters, RANKED},
     networks::Networks,
     observation::Observation,
@@ -32,7 +32,6 @@ const STREAM: u64 = 0x0070_6c61_7474;
 /// A layout, and the context under which it is played.
 pub(super) type ContextualLayout = (Layout, Context);
 
-/// Returns a share of a number, rounded.
 fn part(share: f64, of: usize) -> usize {
     ((of as f64 * share).round() as usize).min(of)
 }
@@ -91,7 +90,7 @@ impl Trainer {
                 let expert = Expert { tables, reward, inputs, networks, layout, context: *context };
                 expert.search(&proposals, &mut Xoshiro256PlusPlus::seed_from_u64(*seed))
             })?;
-        for SearchResult { best, others } in found {
+        for [best, others] in found {
             for stroke in &best {
                 self.searched.push(*stroke);
             }

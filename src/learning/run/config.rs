@@ -5,7 +5,7 @@ use std::{fmt::Display, path::Path};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::{error::RunError, json};
+use super::json;
 use crate::{
     game::Reward,
     learning::learner::{Learner, TrainingPlan},
@@ -108,20 +108,15 @@ impl Config {
     }
 
     /// Reads the configuration of the run in `folder`.
-    ///
-    /// # Errors
-    /// Fails if the file is missing or is not a configuration.
-    pub fn read(folder: &Path) -> std::io::Result<Self> {
+    pub(crate) fn read(folder: &Path) -> std::io::Result<Self> {
         json::read(&folder.join(FILE), storage::MAX_SMALL_FILE)
-    }
-
-    /// Writes the configuration of the run in `folder`.
-    pub(super) fn write(&self, folder: &Path) -> Result<(), RunError> {
-        json::write(&folder.join(FILE), self)
     }
 
     /// Returns the version of carom that started the run if it is newer than this one.
     pub fn newer_version(&self) -> Option<&str> {
+        let numbers = |version: &str| -> Vec<u64> {
+            version.split(['.', '-', '+']).map_while(|part| part.parse().ok()).collect()
+        };
         (numbers(&self.version) > numbers(VERSION)).then_some(self.version.as_str())
     }
 
@@ -132,11 +127,6 @@ impl Config {
         let (theirs, ours) = (name(&self.version, self.source.as_deref()), name(VERSION, COMMIT));
         (theirs != ours)
             .then(|| format!("the run was started by {theirs}, and this is {ours}: the final weights may differ"))
-    }
-
-    /// Returns the day of the start, UTC, as 2026-11-20.
-    pub fn day(&self) -> &str {
-        self.started.get(..10).unwrap_or(&self.started)
     }
 }
 
@@ -162,9 +152,4 @@ pub fn unreadable_message(folder: &Path, reason: &std::io::Error) -> String {
         Some(version) => format!("{FILE} was written by carom {version} and cannot be read by carom {VERSION}"),
         None => format!("{FILE} cannot be read ({reason})"),
     }
-}
-
-/// Parses the numbers of a version, for comparison.
-fn numbers(version: &str) -> Vec<u64> {
-    version.split(['.', '-', '+']).map_while(|part| part.parse().ok()).collect()
 }

@@ -62,10 +62,7 @@ pub struct Record {
 }
 
 /// Reads all complete lines of a file; lines that are not records are left out. A missing file counts as empty.
-///
-/// # Errors
-/// The errors of the file system.
-pub fn read(path: &Path) -> io::Result<Vec<Record>> {
+pub(super) fn read(path: &Path) -> io::Result<Vec<Record>> {
     Ok(records(&content(path)?).collect())
 }
 

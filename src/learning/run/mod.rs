@@ -116,7 +116,7 @@ impl Run {
         let mut run = Self { folder: folder.to_owned(), config, learner, state, checkpoints, _lock: lock };
         // The checkpoint comes first, so that the run can be resumed however early it is killed.
         run.write_checkpoint()?;
-        run.config.write(folder)?;
+        json::write(&folder.join(config::FILE), &run.config)?;
         Ok(run)
     }
 
@@ -138,7 +138,7 @@ impl Run {
             let config = Config::of(learner.as_ref(), state.schedule, state.from.clone());
             if error.kind() == ErrorKind::NotFound {
                 // The run was killed before it was written, or the file was removed.
-                config.write(folder)?;
+                json::write(&folder.join(config::FILE), &config)?;
             } else {
                 // The file is kept, because a user may still find in it when and by which version the run was started.
                 let unreadable = config::unreadable_message(folder, &error);
@@ -191,7 +191,8 @@ impl Run {
     /// Writes the policy, unless `go_on` returns `false` before it is complete.
     fn write_policy(&self, score: Score, go_on: &mut dyn FnMut() -> bool) -> Result<(), RunError> {
         let path = self.policy_path();
-        match self.learner.policy(score.mean_reward, self.config.day(), go_on)? {
+        let started = &self.config.started;
+        match self.learner.policy(score.mean_reward, started.get(..10).unwrap_or(started), go_on)? {
             Some(bytes) => write_atomic(&path, &bytes).map_err(file(&path)),
             None => Ok(()),
         }
@@ -203,8 +204,7 @@ impl Run {
     }
 
     fn unsaved(&self, reason: RunError) -> RunError {
-        let folder = self.folder.display().to_string();
-        RunError::Unsaved { shots: self.learner.shots(), reason: Box::new(reason), folder }
+        RunError::Unsaved(self.learner.shots(), Box::new(reason), self.folder.display().to_string())
     }
 }
 
@@ -213,11 +213,9 @@ pub fn contains_run(folder: &Path) -> bool {
     [checkpoint::CURRENT, checkpoint::PREVIOUS].iter().any(|name| folder.join(name).exists())
 }
 
-/// Deletes a run: removes the files that it has written into its folder, and the folder if it is then empty.
-///
-/// # Errors
-/// [`RunError::Missing`], [`RunError::Busy`], or the errors of the file system.
-pub fn discard(folder: &Path) -> Result<(), RunError> {
+/// Deletes a run: removes the files that it has written into its folder, and the folder if it is then empty. Fails if there is no run, or if
+/// another process works on it.
+pub(crate) fn discard(folder: &Path) -> Result<(), RunError> {
     if !contains_run(folder) {
         return Err(RunError::Missing(folder.display().to_string()));
     }
@@ -250,7 +248,7 @@ fn check_unoccupied(folder: &Path, own: Option<&str>) -> Result<(), RunError> {
     for entry in std::fs::read_dir(folder).map_err(file(folder))? {
         let entry = entry.map_err(file(folder))?.file_name();
         if entry != Lock::FILE && own.is_none_or(|own| entry != *own) {
-            return Err(RunError::Foreign { folder: name(), entry: entry.to_string_lossy().into_owned() });
+            return Err(RunError::Foreign(name(), entry.to_string_lossy().into_owned()));
         }
     }
     Ok(())

@@ -17,7 +17,7 @@ use crate::{
         nn::weights::{Reader, WeightsError},
         policy::bundled_bytes,
     },
-    storage::{self, write_atomic},
+    storage,
     table::Table,
 };
 
@@ -31,7 +31,8 @@ pub struct Weights {
     pub table: Option<Table>,
     /// Warning if the weights are those of the previous checkpoint, because the current one is damaged.
     pub notice: Option<String>,
-    bytes: Vec<u8>,
+    /// The whole file.
+    pub(super) bytes: Vec<u8>,
 }
 
 impl Weights {
@@ -66,8 +67,7 @@ impl Weights {
             seed: origin.seed,
             shots: origin.shots,
         };
-        let settings =
-            note_of(&origin.hyperparameters).map_err(|error| RunError::Origin { path, reason: error.to_string() })?;
+        let settings = note_of(&origin.hyperparameters).map_err(|error| RunError::Origin(path, error.to_string()))?;
         Ok(Self { start, settings, table: None, notice: None, bytes })
     }
 
@@ -86,12 +86,9 @@ impl Weights {
         Self { start, settings: learner.settings(), table: Some(learner.table().clone()), notice, bytes }
     }
 
-    /// Loads the weights into an untrained agent.
-    ///
-    /// # Errors
-    /// [`RunError::Origin`] if the agents, the meaning of the networks' inputs and outputs, or the sizes differ.
+    /// Loads the weights into an untrained agent. Fails if the agents, the meaning of the networks' inputs and outputs, or the sizes differ.
     pub fn load_into(&self, learner: &mut dyn Learner) -> Result<(), RunError> {
-        let refuse = |reason| RunError::Origin { path: self.start.path.clone(), reason };
+        let refuse = |reason| RunError::Origin(self.start.path.clone(), reason);
         let (found, expected) = (&self.start.agent, learner.agent());
         if found != expected {
             return Err(refuse(format!(
@@ -112,10 +109,5 @@ impl Weights {
             )),
             error => refuse(error.to_string()),
         })
-    }
-
-    /// Writes a copy of the file.
-    pub fn write(&self, path: &Path) -> Result<(), RunError> {
-        write_atomic(path, &self.bytes).map_err(file(path))
     }
 }

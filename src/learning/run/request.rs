@@ -49,11 +49,9 @@ impl Request {
         write_atomic_unsynced(&folder.join(FILE), self.word().as_bytes())
     }
 
-    /// Reads and removes the request to the run in `folder`; `None` if there is none.
-    ///
-    /// # Errors
-    /// For an unknown request, a sentence that names it and the accepted ones.
-    pub fn receive(folder: &Path) -> Option<Result<Self, String>> {
+    /// Reads and removes the request to the run in `folder`; `None` if there is none. The error for an unknown request is a sentence that
+    /// names it and the accepted ones.
+    pub(super) fn receive(folder: &Path) -> Option<Result<Self, String>> {
         // An empty file is not a request yet: its writer has opened it and will write later.
         if fs::metadata(folder.join(FILE)).ok()?.len() == 0 {
             return None;
@@ -73,7 +71,7 @@ impl Request {
     }
 
     /// Removes the request, if there is one, because it was meant for a process that has ended.
-    pub fn clear(folder: &Path) {
+    pub(super) fn clear(folder: &Path) {
         // Errors are ignored: a request that stays is carried out again, which changes nothing.
         let _ = fs::remove_file(folder.join(FILE));
     }

@@ -86,11 +86,11 @@ impl Run {
         let (metrics, records) = MetricsFile::open(&path, self.learner.shots()).map_err(file(&path))?;
         let (last, shots) = (records.last().map(|record| record.shots), self.learner.shots());
         let is_whole = !metrics::lacks_lines(last, shots, self.state.schedule.log_every);
-        // A finished run writes no more lines.
-        let events =
-            if self.learner.is_finished() { None } else { EventFile::open(&self.folder, &records, is_whole).ok() };
         let layouts = held_out_layouts(self.learner.table(), self.state.schedule.evaluation_layouts, HELD_OUT_SEED);
+        let mut events = None;
+        // A finished run writes no more lines.
         if !self.learner.is_finished() {
+            events = EventFile::open(&self.folder, &records, is_whole).ok();
             // A result exists here if the last checkpoint of a finished run was lost and the run resumes from the previous one.
             let _ = fs::remove_file(self.folder.join(RESULT));
         }
@@ -265,13 +265,7 @@ impl Run {
 impl Reporting<'_> {
     /// Polls for a request; warns about one that is not understood.
     fn request(&mut self) -> Option<Request> {
-        match self.heartbeat.request()? {
-            Ok(request) => Some(request),
-            Err(sentence) => {
-                self.warn(&sentence);
-                None
-            }
-        }
+        self.heartbeat.request()?.map_err(|sentence| self.warn(&sentence)).ok()
     }
 
     fn warn(&mut self, sentence: &str) {

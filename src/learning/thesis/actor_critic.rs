@@ -147,10 +147,7 @@ impl ActorCritic {
         }
     }
 
-    /// Makes one update: the critic's step, the actor's step and both soft updates.
-    ///
-    /// # Errors
-    /// Fails if the networks no longer return finite numbers.
+    /// Makes one update: the critic's step, the actor's step and both soft updates. Fails if the networks no longer return finite numbers.
     pub fn update(&mut self, batch: &Batch, guidance: &Guidance) -> Result<UpdateStats> {
         let [[actor, critic], [target_actor, target_critic]] = [&self.online, &self.target];
         let [actor_optimiser, critic_optimiser] = &mut self.optimisers;
@@ -196,30 +193,15 @@ fn split([actor, critic]: &[Vec<usize>; 2], values: &[f32]) -> std::result::Resu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::learning::thesis::replay::StoredTransition;
-    use rand::{RngExt, SeedableRng};
+    use crate::learning::thesis::{
+        agent::{Choice, Transition},
+        environment::Observation,
+    };
+    use rand::SeedableRng;
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     const RATES: Rates =
         Rates { adam: AdamConfig { learning_rate: 1e-3, gradient_clip: 1.0 }, target_retention: 0.999 };
-
-    fn random_batch(rows: usize, continues: impl Fn(usize) -> bool, seed: u64) -> Batch {
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-        let drawn: Vec<StoredTransition> = (0..rows)
-            .map(|row| {
-                let mut number = || rng.random_range(-1.0f32..1.0);
-                StoredTransition {
-                    state: std::array::from_fn(|_| number()),
-                    action: std::array::from_fn(|_| number()),
-                    index: 0,
-                    reward: number(),
-                    continues: continues(row),
-                    next: std::array::from_fn(|_| number()),
-                }
-            })
-            .collect();
-        Batch::new(&drawn, 0.99).unwrap()
-    }
 
     #[test]
     fn the_first_step_descends_both_losses() {
@@ -227,7 +209,7 @@ mod tests {
         let adam = AdamConfig { learning_rate: 1e-12, gradient_clip: f64::INFINITY };
         let (sizes, rates) = (sizes(&[5, 4], &[6, 5]), Rates { adam, ..RATES });
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(4);
-        let batch = random_batch(8, |_| true, 9);
+        let batch = Batch::random(8, true, &mut Xoshiro256PlusPlus::seed_from_u64(9)).unwrap();
         let mut start = ActorCritic::random(&sizes, rates, &mut rng).unwrap().values().unwrap();
         let count = start.len() / 4;
         start[..2 * count].iter_mut().for_each(|value| *value *= 1.5);
@@ -262,13 +244,11 @@ mod tests {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
         let mut agent = ActorCritic::random(&sizes, RATES, &mut rng).unwrap();
         let state = [0.3, -0.2, 0.5, 0.1, -0.7, 0.4];
-        let lesson = |direction| StoredTransition {
-            state,
-            action: [direction, 0.5],
-            index: 0,
+        let lesson = |direction| Transition {
+            before: Observation { state, cell: 0 },
+            choice: Choice { action: [direction, 0.5], index: 0 },
             reward: 1.0,
-            continues: false,
-            next: state,
+            ..Transition::default()
         };
         let states = Tensor::from_slice(&state, (1, STATES), &Device::Cpu).unwrap();
         let act = |agent: &ActorCritic| agent.act(&states).unwrap().flatten_all().unwrap().to_vec1::<f32>().unwrap();
@@ -298,7 +278,7 @@ mod tests {
         let sizes = sizes(&[4], &[4]);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(6);
         let mut agent = ActorCritic::random(&sizes, RATES, &mut rng).unwrap();
-        let mut batch = random_batch(8, |_| false, 1);
+        let mut batch = Batch::random(8, false, &mut Xoshiro256PlusPlus::seed_from_u64(1)).unwrap();
         batch.rewards = (batch.rewards * f64::NAN).unwrap();
         let before = agent.values().unwrap();
         assert!(agent.update(&batch, &Guidance::NONE).unwrap_err().to_string().contains("finite"));

@@ -41,7 +41,7 @@ impl Choice {
 }
 
 /// One shot from which an agent learns.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Transition {
     /// Observation before the shot.
     pub before: Observation,
@@ -158,9 +158,9 @@ pub(crate) const fn kind_of<A: Agent + 'static>() -> AgentKind {
         start: |plan, table, settings| {
             let settings = settings_from(settings, A::Settings::validate)?;
             if settings.needs_point_rewards() && plan.reward.rule().is_none() {
-                return Err(StartError::settings(
-                    "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion",
-                ));
+                let reason =
+                    "hindsight and demonstrations are about points: use them with r3, one-cushion or three-cushion";
+                return Err(StartError::Settings(reason.to_owned()));
             }
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(plan.seed);
             let game = CaromGame::new(table, plan.reward, settings.episode());
@@ -251,14 +251,13 @@ impl<A: Agent> Learner for TrainingLoop<A> {
     }
 
     fn score(&self, layouts: &[Layout]) -> Result<Score, Error> {
-        let play = |layout| {
-            let choice = self.agent.best(&self.state.game.observation(layout))?;
-            let State { plan, game, .. } = &self.state;
+        let State { plan, game, .. } = &self.state;
+        let play = |(cue, layout): (CueInputs, &Layout)| {
             // Scored like every other agent: on a table that checks the room for the cue, a stroke without room earns nothing.
-            let reward = plan.reward.of_playable(&game.table, layout, &cue_inputs(choice.action), u32::MAX);
-            Ok((reward, reward >= 1.0))
+            let reward = plan.reward.of_playable(&game.table, layout, &cue, u32::MAX);
+            (reward, reward >= 1.0)
         };
-        Ok(Score::of(&layouts.iter().map(play).collect::<Result<Vec<_>, Error>>()?))
+        Ok(Score::of(&self.choose_shots(layouts)?.into_iter().zip(layouts).map(play).collect::<Vec<_>>()))
     }
 
     fn choose_shots(&self, layouts: &[Layout]) -> Result<Vec<CueInputs>, Error> {

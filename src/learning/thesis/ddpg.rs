@@ -15,7 +15,7 @@ use super::{
     exploration::OrnsteinUhlenbeck,
     lessons::{Lessons, LessonsState},
     q_learning::check_episode,
-    replay::{self, Batch, MEMORY, StoredTransition},
+    replay::{self, Batch, MEMORY},
     symmetry::{SYMMETRIES, View},
 };
 use crate::learning::{
@@ -221,7 +221,7 @@ const WIDEST: f64 = 0.5;
 pub struct PlainDdpg {
     settings: PlainDdpgSettings,
     networks: ActorCritic,
-    replay: ReplayBuffer<StoredTransition>,
+    replay: ReplayBuffer<Transition>,
     lessons: Lessons,
     noise: Action,
     shots: u64,
@@ -247,7 +247,7 @@ impl PlainDdpg {
         drawn.extend(self.replay.sample(settings.batch.saturating_sub(lessons), rng));
         for shot in &mut drawn {
             let [view, next] = match settings.fixed_view() {
-                Some(view) => [view(shot.state), view(shot.next)],
+                Some(view) => [view(shot.before.state), view(shot.after.state)],
                 None if settings.symmetric => [View::symmetric(rng.random_range(0..SYMMETRIES)); 2],
                 None => continue,
             };
@@ -256,9 +256,7 @@ impl PlainDdpg {
         let batch = Batch::new(&drawn, settings.discount)?;
         self.networks.update(&batch, &settings.guidance(lessons, self.shots))
     }
-}
 
-impl PlainDdpg {
     /// Returns the actor's action with this noise, which is added in the agent's own view: a direction beyond half a turn means the same
     /// there as on the table.
     fn act(&self, seen: &Observation, noise: Action) -> Result<Choice, Error> {
@@ -311,7 +309,7 @@ impl Agent for PlainDdpg {
     }
 
     fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {
-        self.replay.push(StoredTransition::of(transition));
+        self.replay.push(*transition);
         if self.settings.noise_restarts && !transition.continues {
             self.noise = Action::default();
         }

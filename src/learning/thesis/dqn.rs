@@ -13,7 +13,7 @@ use super::{
     environment::{DISCRETE_ACTIONS, Environment, Observation, STATES},
     exploration::Epsilon,
     q_learning::{check_episode, check_epsilon},
-    replay::{self, Batch, MEMORY, StoredTransition, number},
+    replay::{self, Batch, MEMORY, number},
 };
 use crate::learning::{
     learner::{Progress, UpdateStats, note_of},
@@ -91,7 +91,7 @@ pub struct Dqn {
     online: Mlp,
     target: Mlp,
     optimiser: Adam,
-    replay: ReplayBuffer<StoredTransition>,
+    replay: ReplayBuffer<Transition>,
     shots: u64,
 }
 
@@ -172,14 +172,14 @@ impl Agent for Dqn {
     }
 
     fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {
-        self.replay.push(StoredTransition::of(transition));
+        self.replay.push(*transition);
         self.shots += 1;
         if self.shots <= self.settings.warm_up as u64 { Ok(None) } else { self.update(rng).map(Some) }
     }
 
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError> {
-        writer.add_network("online", &self.online)?;
-        writer.add_network("target", &self.target)?;
+        writer.add_network("online", &self.online, false)?;
+        writer.add_network("target", &self.target, false)?;
         writer.add_optimiser("", &self.optimiser)?;
         let next = replay::save(&self.replay, MEMORY, writer);
         note_of(&DqnState { shots: self.shots, updates: self.optimiser.steps(), next })

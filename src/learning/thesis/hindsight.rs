@@ -37,7 +37,8 @@ pub fn layouts(
     cue: &CueInputs,
     rng: &mut (impl Rng + ?Sized),
 ) -> Vec<Layout> {
-    let path = CuePath::of(table, layout, cue);
+    let mut path = CuePath { first_hit: None, segments: Vec::new(), contact_steps: StepBudget(CONTACT_STEPS) };
+    watch(table, layout, &strike(table, cue), &mut path);
     let Some((first, begin)) = path.first_hit else { return Vec::new() };
     let mut draw = || {
         let [moment, speed, across] = rng.random::<[f64; 3]>();
@@ -64,13 +65,6 @@ struct CuePath {
 }
 
 impl CuePath {
-    /// Simulates a shot, with at most [`CONTACT_STEPS`] steps of resting contacts.
-    fn of(table: &Table, layout: &Layout, cue: &CueInputs) -> Self {
-        let mut path = Self { first_hit: None, segments: Vec::new(), contact_steps: StepBudget(CONTACT_STEPS) };
-        watch(table, layout, &strike(table, cue), &mut path);
-        path
-    }
-
     /// Returns the cue ball's position (m) and velocity (m/s) at `time`; `None` before the first hit and after the path's end.
     fn at(&self, time: f64) -> Option<[DVec2; 2]> {
         let (segment, _) = self.segments.iter().find(|(segment, end)| segment.start <= time && time <= *end)?;

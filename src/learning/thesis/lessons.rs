@@ -6,9 +6,10 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
 use super::{
+    agent::{Choice, Transition},
     ddpg::PlainDdpgSettings,
-    environment::{Action, Environment, Observation, State},
-    replay::{self, StoredTransition},
+    environment::{Action, Environment, Observation},
+    replay,
 };
 use crate::learning::{
     nn::weights::{Reader, WeightsError, Writer},
@@ -18,7 +19,7 @@ use crate::learning::{
 /// The replay buffers of both kinds of lessons, in the order of their [`NAMES`].
 #[derive(Debug)]
 pub struct Lessons {
-    buffers: [ReplayBuffer<StoredTransition>; 2],
+    buffers: [ReplayBuffer<Transition>; 2],
     /// Layouts on which demonstrations have been sought.
     layouts: u64,
 }
@@ -52,7 +53,7 @@ impl Lessons {
         let [hindsight, demonstrations] = &mut self.buffers;
         if settings.hindsight > 0.0 {
             for state in environment.hindsight_states(action, rng) {
-                hindsight.push(lesson(state, action));
+                hindsight.push(lesson(Observation { state, cell: 0 }, action));
             }
         }
         if settings.demonstrations > 0.0 && self.layouts < settings.demonstration_layouts {
@@ -60,14 +61,14 @@ impl Lessons {
             for _ in 0..settings.demonstration_tries {
                 let tried: Action = std::array::from_fn(|_| rng.random_range(-1.0..=1.0));
                 if environment.reward_for(tried) >= 1.0 {
-                    demonstrations.push(lesson(seen.state, tried));
+                    demonstrations.push(lesson(*seen, tried));
                 }
             }
         }
     }
 
     /// Draws `rows` lessons of each kind uniformly; none of a kind whose buffer is empty.
-    pub fn sample(&self, rows: [usize; 2], rng: &mut (impl Rng + ?Sized)) -> Vec<StoredTransition> {
+    pub fn sample(&self, rows: [usize; 2], rng: &mut (impl Rng + ?Sized)) -> Vec<Transition> {
         self.buffers.iter().zip(rows).flat_map(|(buffer, rows)| buffer.sample(rows, rng)).collect()
     }
 
@@ -85,7 +86,7 @@ impl Lessons {
 }
 
 /// Returns a lesson: a shot that makes the point. The game clamps actions to their range, so the lesson contains the clamped action.
-fn lesson(state: State, action: Action) -> StoredTransition {
-    let action = action.map(|value| value.clamp(-1.0, 1.0));
-    StoredTransition { state, action, index: 0, reward: 1.0, continues: false, next: state }
+fn lesson(seen: Observation, action: Action) -> Transition {
+    let choice = Choice { action: action.map(|value| value.clamp(-1.0, 1.0)), index: 0 };
+    Transition { before: seen, choice, reward: 1.0, continues: false, after: seen }
 }

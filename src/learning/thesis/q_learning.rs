@@ -6,7 +6,7 @@ use candle_core::Error;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::{
     agent::{Agent, Choice, Settings, Transition},
@@ -15,7 +15,7 @@ use super::{
     exploration::Epsilon,
 };
 use crate::learning::{
-    learner::{Progress, UpdateStats, note_of},
+    learner::{Progress, UpdateStats},
     nn::weights::{Reader, WeightsError, Writer},
     settings::{SettingError, check, check_positive, check_share},
 };
@@ -77,11 +77,6 @@ pub struct QLearning {
     settings: QLearningSettings,
     /// For each state, the actions tried in it and their values.
     table: BTreeMap<u32, Vec<(u32, f32)>>,
-    shots: u64,
-}
-
-#[derive(Serialize, Deserialize)]
-struct QLearningState {
     shots: u64,
 }
 
@@ -157,11 +152,11 @@ impl Agent for QLearning {
         let numbers: Vec<f32> =
             entries().flat_map(|(cell, (index, value))| [cell as f32, index as f32, value]).collect();
         writer.add("table", &[numbers.len() / 3, 3], &numbers);
-        note_of(&QLearningState { shots: self.shots })
+        Ok(json!({ "shots": self.shots }))
     }
 
     fn restore(settings: QLearningSettings, reader: &Reader<'_>, note: Value) -> Result<Self, WeightsError> {
-        let QLearningState { shots } = serde_json::from_value(note).map_err(|_| WeightsError::Metadata)?;
+        let shots = note["shots"].as_u64().ok_or(WeightsError::Metadata)?;
         let mut agent = Self { settings, table: BTreeMap::new(), shots };
         agent.load_weights(reader)?;
         Ok(agent)

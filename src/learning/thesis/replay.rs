@@ -1,27 +1,16 @@
-//! Experience replay (thesis 4.3.1): the stored form of a transition, replay buffers in files, and minibatches.
+//! Experience replay (thesis 4.3.1): replay buffers in files, and minibatches.
 
 use candle_core::{Device, Error, Tensor};
+use rand::{Rng, RngExt};
 
 use super::{
-    agent::Transition,
-    environment::{ACTIONS, Action, STATES, State},
+    agent::{Choice, Transition},
+    environment::{ACTIONS, Observation, STATES},
 };
 use crate::learning::{
     nn::weights::{Reader, WeightsError, Writer},
     replay::ReplayBuffer,
 };
-
-/// A transition as the replay buffer stores it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct StoredTransition {
-    pub state: State,
-    pub action: Action,
-    /// Index of the action, for agents with discrete actions.
-    pub index: u32,
-    pub reward: f32,
-    pub continues: bool,
-    pub next: State,
-}
 
 /// Name, in a file, of the replay buffer with the agent's own shots.
 pub const MEMORY: &str = "memory";
@@ -29,33 +18,27 @@ pub const MEMORY: &str = "memory";
 /// Numbers per transition in a file.
 const NUMBERS: usize = 2 * STATES + ACTIONS + 3;
 
-impl StoredTransition {
-    /// Converts a transition to its stored form.
-    pub fn of(transition: &Transition) -> Self {
-        let Transition { before, choice, reward, continues, after } = *transition;
-        let (state, next, reward) = (before.state, after.state, reward as f32);
-        Self { state, action: choice.action, index: choice.index, reward, continues, next }
-    }
+fn numbers(shot: &Transition) -> [f32; NUMBERS] {
+    let [a, b, c, d, e, f] = shot.before.state;
+    let [g, h, i, j, k, l] = shot.after.state;
+    let Choice { action: [phi, speed], index } = shot.choice;
+    let (reward, continues) = (shot.reward as f32, f32::from(u8::from(shot.continues)));
+    // An action's index is below 2^24, so `f32` represents it exactly.
+    [a, b, c, d, e, f, g, h, i, j, k, l, phi, speed, index as f32, reward, continues]
+}
 
-    fn numbers(&self) -> [f32; NUMBERS] {
-        let [a, b, c, d, e, f] = self.state;
-        let [g, h, i, j, k, l] = self.next;
-        let continues = f32::from(u8::from(self.continues));
-        // An action's index is below 2^24, so `f32` represents it exactly.
-        [a, b, c, d, e, f, g, h, i, j, k, l, self.action[0], self.action[1], self.index as f32, self.reward, continues]
-    }
-
-    fn from_numbers(numbers: &[f32; NUMBERS]) -> Self {
-        let &[a, b, c, d, e, f, g, h, i, j, k, l, phi, speed, index, reward, continues] = numbers;
-        let (state, next) = ([a, b, c, d, e, f], [g, h, i, j, k, l]);
-        Self { state, next, action: [phi, speed], index: index as u32, reward, continues: continues != 0.0 }
-    }
+/// Returns the transition of these numbers. A file contains no discrete states, which the agents with a replay buffer do not use.
+fn from_numbers(numbers: &[f32; NUMBERS]) -> Transition {
+    let &[a, b, c, d, e, f, g, h, i, j, k, l, phi, speed, index, reward, continues] = numbers;
+    let [before, after] = [[a, b, c, d, e, f], [g, h, i, j, k, l]].map(|state| Observation { state, cell: 0 });
+    let choice = Choice { action: [phi, speed], index: index as u32 };
+    Transition { before, choice, reward: reward.into(), continues: continues != 0.0, after }
 }
 
 /// Adds a replay buffer to a file under `name`; returns the index of the slot that the next transition overwrites.
-pub fn save(buffer: &ReplayBuffer<StoredTransition>, name: &str, writer: &mut Writer) -> usize {
-    let numbers: Vec<f32> = buffer.stored().iter().flat_map(StoredTransition::numbers).collect();
-    writer.add(name, &[buffer.len(), NUMBERS], &numbers);
+pub fn save(buffer: &ReplayBuffer<Transition>, name: &str, writer: &mut Writer) -> usize {
+    let numbers: Vec<f32> = buffer.stored().iter().flat_map(numbers).collect();
+    writer.add(name, &[buffer.stored().len(), NUMBERS], &numbers);
     buffer.next()
 }
 
@@ -65,14 +48,14 @@ pub fn restore(
     reader: &Reader<'_>,
     name: &str,
     next: usize,
-) -> Result<ReplayBuffer<StoredTransition>, WeightsError> {
+) -> Result<ReplayBuffer<Transition>, WeightsError> {
     let capacity = capacity.max(1);
     let (shape, numbers) = reader.array(name)?;
     if shape.len() != 2 || shape[1] != NUMBERS || shape[0] > capacity {
         let expected = format!("at most {capacity} rows of {NUMBERS} values");
-        return Err(WeightsError::Array { name: name.to_owned(), expected });
+        return Err(WeightsError::Array(name.to_owned(), expected));
     }
-    let stored = numbers.as_chunks::<NUMBERS>().0.iter().map(StoredTransition::from_numbers).collect();
+    let stored = numbers.as_chunks::<NUMBERS>().0.iter().map(from_numbers).collect();
     Ok(ReplayBuffer::restore(capacity, stored, next))
 }
 
@@ -96,20 +79,33 @@ pub struct Batch {
 }
 
 impl Batch {
-    pub fn new(drawn: &[StoredTransition], discount: f64) -> Result<Self, Error> {
+    pub fn new(drawn: &[Transition], discount: f64) -> Result<Self, Error> {
         let rows = drawn.len();
         let matrix = |values: Vec<f32>, columns: usize| Tensor::from_vec(values, (rows, columns), &Device::Cpu);
         let discounts = drawn.iter().map(|drawn| if drawn.continues { discount as f32 } else { 0.0 });
-        let indices = drawn.iter().map(|drawn| drawn.index).collect();
+        let indices = drawn.iter().map(|drawn| drawn.choice.index).collect();
         Ok(Self {
-            states: matrix(drawn.iter().flat_map(|drawn| drawn.state).collect(), STATES)?,
-            actions: matrix(drawn.iter().flat_map(|drawn| drawn.action).collect(), ACTIONS)?,
+            states: matrix(drawn.iter().flat_map(|drawn| drawn.before.state).collect(), STATES)?,
+            actions: matrix(drawn.iter().flat_map(|drawn| drawn.choice.action).collect(), ACTIONS)?,
             indices: Tensor::from_vec(indices, (rows, 1), &Device::Cpu)?,
-            rewards: matrix(drawn.iter().map(|drawn| drawn.reward).collect(), 1)?,
+            rewards: matrix(drawn.iter().map(|drawn| drawn.reward as f32).collect(), 1)?,
             discounts: matrix(discounts.collect(), 1)?,
             any_continues: drawn.iter().any(|drawn| drawn.continues),
-            next_states: matrix(drawn.iter().flat_map(|drawn| drawn.next).collect(), STATES)?,
+            next_states: matrix(drawn.iter().flat_map(|drawn| drawn.after.state).collect(), STATES)?,
         })
+    }
+
+    /// Draws a minibatch of numbers uniform between -1 and 1 with a discount of 0.99, for benchmarks and tests.
+    pub fn random(rows: usize, continues: bool, rng: &mut impl Rng) -> Result<Self, Error> {
+        let mut number = || rng.random_range(-1.0f32..1.0);
+        let draw = |_| Transition {
+            before: Observation { state: std::array::from_fn(|_| number()), cell: 0 },
+            choice: Choice { action: std::array::from_fn(|_| number()), index: 0 },
+            reward: number().into(),
+            continues,
+            after: Observation { state: std::array::from_fn(|_| number()), cell: 0 },
+        };
+        Self::new(&(0..rows).map(draw).collect::<Vec<_>>(), 0.99)
     }
 
     /// Returns the targets of the values (rows x 1): the reward plus, if the episode continued, the discounted value that `next` returns
@@ -134,7 +130,7 @@ mod tests {
     #[test]
     fn oversized_replay_buffers_are_refused() {
         let mut replay = ReplayBuffer::new(3);
-        (0..3).for_each(|_| replay.push(StoredTransition::default()));
+        (0..3).for_each(|_| replay.push(Transition::default()));
         let mut writer = Writer::default();
         let next = save(&replay, MEMORY, &mut writer);
         let bytes = writer.finish(&"").unwrap();

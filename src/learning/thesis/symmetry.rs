@@ -5,8 +5,8 @@ use std::f32::consts::PI;
 use glam::Vec2;
 
 use super::{
-    environment::{Action, State},
-    replay::StoredTransition,
+    agent::{Choice, Transition},
+    environment::{Action, Observation, State},
 };
 
 /// Number of symmetric views, the identity included: the table mirrored along its length and its width, the object balls exchanged.
@@ -81,9 +81,10 @@ impl View {
     }
 
     /// Returns a transition in this view; `next` is the view of its next state.
-    pub fn shot(self, shot: &StoredTransition, next: Self) -> StoredTransition {
-        let (state, action) = (self.state(shot.state), self.action(shot.action));
-        StoredTransition { state, action, next: next.state(shot.next), ..*shot }
+    pub fn shot(self, shot: &Transition, next: Self) -> Transition {
+        let seen = |view: Self, seen: Observation| Observation { state: view.state(seen.state), ..seen };
+        let choice = Choice { action: self.action(shot.choice.action), ..shot.choice };
+        Transition { before: seen(self, shot.before), choice, after: seen(next, shot.after), ..*shot }
     }
 }
 
@@ -138,31 +139,33 @@ mod tests {
         for _ in 0..100 {
             let layout = Layout::random(&table, &mut rng);
             let played = [rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0)];
-            let state = game.observation(&layout).state;
-            let shot = StoredTransition { state, action: played, index: 0, reward: 0.0, continues: false, next: state };
+            let before = game.observation(&layout);
+            let (state, choice) = (before.state, Choice { action: played, index: 0 });
+            let shot = Transition { before, choice, after: before, ..Transition::default() };
             let earned = game.reward_of(&layout, played);
             let relative = View::relative(state);
             assert!((relative.on_table(relative.action(played))[0] - played[0]).abs() < 1e-6);
             for symmetry in 0..SYMMETRIES {
                 let view = View::symmetric(symmetry);
-                let seen = view.shot(&shot, view);
-                assert_eq!(View::canonical(seen.state).state(seen.state), View::canonical(state).state(state));
-                let again = View::relative(seen.state);
-                for (number, before) in again.state(seen.state).into_iter().zip(relative.state(state)) {
+                let shot_seen = view.shot(&shot, view);
+                let (seen, action) = (shot_seen.before.state, shot_seen.choice.action);
+                assert_eq!(View::canonical(seen).state(seen), View::canonical(state).state(state));
+                let again = View::relative(seen);
+                for (number, before) in again.state(seen).into_iter().zip(relative.state(state)) {
                     assert!((number - before).abs() < 1e-6);
                 }
-                assert!((again.action(seen.action)[0] - relative.action(played)[0]).abs() < 1e-6);
-                assert!((view.action(seen.action)[0] - played[0]).abs() < 1e-6);
+                assert!((again.action(action)[0] - relative.action(played)[0]).abs() < 1e-6);
+                assert!((view.action(action)[0] - played[0]).abs() < 1e-6);
                 let ball = |index: usize| {
-                    let [x, y] = [0, 1].map(|axis| f64::from(seen.state[2 * index + axis]));
+                    let [x, y] = [0, 1].map(|axis| f64::from(seen[2 * index + axis]));
                     DVec2::new(x, y) * table.reach()
                 };
                 let mirrored = Layout::new([0, 1, 2].map(ball));
-                assert_eq!(seen.next, seen.state);
+                assert_eq!(shot_seen.after, shot_seen.before);
                 cases += 1;
-                same += u32::from(game.reward_of(&mirrored, seen.action) == earned);
+                same += u32::from(game.reward_of(&mirrored, action) == earned);
                 if symmetry == 0 {
-                    assert_eq!(seen, shot);
+                    assert_eq!(shot_seen, shot);
                 }
             }
         }

@@ -87,7 +87,7 @@ impl Training {
     /// # Errors
     /// Fails if the agent cannot start.
     pub fn run(&self, table: &Table, played: &dyn Fn(u64) -> bool) -> Result<Option<Curve>, StartError> {
-        let agent = AgentKind::named(self.agent).map_err(StartError::settings)?;
+        let agent = AgentKind::named(self.agent).map_err(|error| StartError::Settings(error.to_string()))?;
         let plan = TrainingPlan { reward: self.reward, seed: self.seed, shots: self.shots };
         let mut learner = (agent.start)(plan, table.clone(), &self.settings)?;
         let mut curve = Curve::default();

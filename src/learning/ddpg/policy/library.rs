@@ -30,13 +30,8 @@ pub enum SavePolicyError {
     #[error(transparent)]
     Policy(#[from] PolicyError),
     /// The file cannot be written.
-    #[error("{path}: {reason}")]
-    File {
-        /// Path of the file.
-        path: String,
-        /// Error of the operating system.
-        reason: io::Error,
-    },
+    #[error("{0}: {1}")]
+    File(String, io::Error),
 }
 
 /// Returns the path of the policy `name` in `folder`, if it exists.
@@ -44,11 +39,8 @@ pub fn find(folder: &Path, name: &str) -> Option<PathBuf> {
     Some(file(folder, name)).filter(|kept| is_name(name) && kept.exists())
 }
 
-/// Copies the policy file `policy` to `folder` under `name` and returns the new path. Replaces a policy of the same name only
-/// if `replaces`.
-///
-/// # Errors
-/// [`SavePolicyError`]; an existing policy is then unchanged.
+/// Copies the policy file `policy` to `folder` under `name` and returns the new path. Replaces a policy of the same name only if
+/// `replaces`. After an error, an existing policy is unchanged.
 pub fn save(folder: &Path, policy: &Path, name: &str, replaces: bool) -> Result<PathBuf, SavePolicyError> {
     if !is_name(name) {
         return Err(SavePolicyError::Name(name.to_owned()));
@@ -61,7 +53,7 @@ pub fn save(folder: &Path, policy: &Path, name: &str, replaces: bool) -> Result<
         return Err(SavePolicyError::Exists(name.to_owned()));
     }
     let (_, bytes) = Policy::load_with_bytes(policy)?;
-    write_atomic(&kept, &bytes).map_err(|reason| SavePolicyError::File { path: kept.display().to_string(), reason })?;
+    write_atomic(&kept, &bytes).map_err(|reason| SavePolicyError::File(kept.display().to_string(), reason))?;
     Ok(kept)
 }
 
