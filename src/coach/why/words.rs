@@ -43,7 +43,7 @@ impl Why {
                 PositionUnit::Diamonds => format_trimmed(along / diamond, 1),
                 PositionUnit::Mm => format!("{} mm", format_trimmed(1e3 * along, 0)),
             });
-            reason.words += &format!(" of the strokes, at {along} along and {up} up");
+            reason.words = format!("{} of the strokes, at {along} along and {up} up", reason.words);
         }
         parts.extend(with_but(reasons));
         let alone = if self.is_the_first {
