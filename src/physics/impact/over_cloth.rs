@@ -219,6 +219,20 @@ mod tests {
         assert_eq!(upper, still);
     }
 
+    /// The lower ball slides on the cloth, whose friction moves it: bounces that became slower by this would never end.
+    #[test]
+    fn friction_does_not_slow_soft_bounces() {
+        let table = Table { flight: Some(Flight::default()), ..Table::preset("thesis").unwrap() };
+        let (law, cloth) = (BallImpact::of(&table), Cloth::of(&table).unwrap());
+        let n = DVec3::new(-0.22, 0.0, (1.0_f64 - 0.22 * 0.22).sqrt());
+        let (along, spin) = (DVec3::new(1.43, 0.0, 0.0), DVec3::new(0.0, 52.4, 0.0));
+        let mut upper = SpatialState { position: 2.0 * table.radius * n, velocity: along - 1e-3 * n, spin: -spin };
+        let mut lower = SpatialState { position: DVec3::ZERO, velocity: along, spin };
+        let approach = law.resolve_over_cloth(table.radius, 2e-3, &cloth, &mut upper, &mut lower);
+        let opening = (upper.velocity - lower.velocity).dot(n);
+        assert!((opening - approach).abs() < 1e-11 * approach, "{approach} {opening}");
+    }
+
     #[test]
     fn soft_landing_on_a_ball_rebounds_softly_keeping_tangential_motion() {
         let table =
