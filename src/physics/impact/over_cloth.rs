@@ -224,7 +224,7 @@ mod tests {
     fn friction_does_not_slow_soft_bounces() {
         let table = Table { flight: Some(Flight::default()), ..Table::preset("thesis").unwrap() };
         let (law, cloth) = (BallImpact::of(&table), Cloth::of(&table).unwrap());
-        let n = DVec3::new(-0.22, 0.0, (1.0_f64 - 0.22 * 0.22).sqrt());
+        let n = DVec3::new(0.22, 0.0, (1.0_f64 - 0.22 * 0.22).sqrt());
         let (along, spin) = (DVec3::new(1.43, 0.0, 0.0), DVec3::new(0.0, 52.4, 0.0));
         let mut upper = SpatialState { position: 2.0 * table.radius * n, velocity: along - 1e-3 * n, spin: -spin };
         let mut lower = SpatialState { position: DVec3::ZERO, velocity: along, spin };
