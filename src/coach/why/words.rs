@@ -100,7 +100,7 @@ impl Why {
                 format!("shot 2 ({}){made}{luck}", second.parts(names))
             },
         );
-        let mut facts = self.facts(cue_ball);
+        let mut facts: Vec<String> = with_but(self.reasons(cue_ball, "shot 2")).collect();
         let first = if self.is_by_plan() { format!("{second}; {}", facts.remove(0)) } else { second };
         shortened_texts(std::iter::once(first).chain(facts).collect())
     }
@@ -118,19 +118,14 @@ impl Why {
                 Some(format!("shots {} and {last}: higher rates may be chance", numbers.join(", ")))
             }
         };
-        let facts = self.facts(cue_ball);
-        // Nothing but the make probability speaks for it.
-        let only_against = luck.is_none() && facts.first().is_some_and(|fact| fact.starts_with("but "));
-        let lead = only_against.then(|| match self.second {
-            Some(_) => "it is made most often".to_owned(),
-            None => "no other was found".to_owned(),
-        });
-        shortened_texts(luck.or(lead).into_iter().chain(facts).collect()).map(|sentence| capitalize(&sentence))
-    }
-
-    /// Returns facts that the list of the shots does not contain. If the plan decides, that comes first.
-    fn facts(&self, cue_ball: CueBall) -> Vec<String> {
-        with_but(self.reasons(cue_ball, "shot 2")).collect()
+        let reasons = self.reasons(cue_ball, "shot 2");
+        let lead = || {
+            // Nothing but the make probability speaks for it.
+            reasons.first().filter(|reason| !reason.is_for)?;
+            Some(if self.second.is_some() { "it is made most often" } else { "no other was found" }.to_owned())
+        };
+        let lead = luck.or_else(lead);
+        shortened_texts(lead.into_iter().chain(with_but(reasons)).collect()).map(|sentence| capitalize(&sentence))
     }
 
     /// Returns what speaks for the shot, then what speaks against it, compared with the second-best shot, which is called `other`. If the
@@ -144,12 +139,15 @@ impl Why {
             let Some(its) = second.and_then(|second| second.aim_deg) else {
                 return Reason::new(true, format!("the aim tolerance is {own} wide"));
             };
-            let words = match degrees(its) {
-                its if its == own => format!("the aim tolerance is {own} wide, like that of {other}"),
-                there if width > its => format!("the aim tolerance is wider, {own} ({other}: {there})"),
-                there => format!("the aim tolerance is narrower, {own} ({other}: {there})"),
-            };
-            Reason::new(!words.contains("narrower"), words)
+            match degrees(its) {
+                its if its == own => {
+                    Reason::new(true, format!("the aim tolerance is {own} wide, like that of {other}"))
+                }
+                there => {
+                    let than = if width > its { "wider" } else { "narrower" };
+                    Reason::new(width > its, format!("the aim tolerance is {than}, {own} ({other}: {there})"))
+                }
+            }
         }));
         reasons.extend(self.kiss.map(|Kiss { share, balls: [one, other], .. }| {
             let words = format!("{} and {} kiss in {}", names[one], names[other], percent(share));
@@ -288,8 +286,29 @@ mod tests {
         }
         let said = second(&[]).words(CueBall::White, Units::default());
         assert!(said.starts_with("It is made 48 % of the time, the second shot 54 %. "), "{said}");
-        let alone = Why { second: None, ..why }.words(CueBall::White, Units::default());
+        let without_second = Why { second: None, ..why.clone() };
+        let alone = without_second.words(CueBall::White, Units::default());
         assert!(alone.ends_with('.') && !alone.contains("second shot"), "{alone}");
         assert!(alone.ends_with("Nothing else was found that makes the point."), "{alone}");
+        // What speaks against the shot comes last, after "but".
+        let second = Difference { aim_deg: Some(2.0), next_probability: Some(0.3), ..second(&[]).second.unwrap() };
+        let both = Why {
+            aim_deg: Some(1.0),
+            next_probability: Some(0.6),
+            second: Some(second),
+            unsure: Vec::new(),
+            kiss: None,
+            ..without_second.clone()
+        };
+        let [first, ..] = &both.facts_beyond_list(CueBall::White).collect::<Vec<_>>()[..] else { panic!("no facts") };
+        assert_eq!(
+            first,
+            "It leaves the next point at 60 % (after shot 2: 30 %); but the aim tolerance is narrower, 1\u{b0} (shot 2: 2\u{b0})."
+        );
+        let against = Why { next_probability: None, ..both };
+        let [first, ..] = &against.facts_beyond_list(CueBall::White).collect::<Vec<_>>()[..] else {
+            panic!("no facts")
+        };
+        assert!(first.starts_with("It is made most often; but the aim tolerance is narrower"), "{first}");
     }
 }
