@@ -85,7 +85,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         TableCommand::Check { file } => {
             let table = load_table(file)?;
             for [key, models] in table.rail.unused() {
-                print_note(format_args!("note: rail.{key} has no effect; used by {models} rails only"));
+                print_note(format_args!(
+                    "note: rail.{key} has no effect here: only rails of the model {models} use it"
+                ));
             }
             if args.json {
                 printing::json_line(&mut out, &table)?;

@@ -14,9 +14,7 @@ pub const CHECKSUM_PLACEHOLDER: &str = "0000000000000000";
 
 /// Writes the checksum into the field `name`. Returns `false` if `bytes` have no such field.
 pub fn write_checksum(name: &str, bytes: &mut [u8]) -> bool {
-    let prefix = format!("{{\\\"{name}\\\":\\\"").into_bytes();
-    let start = bytes.windows(prefix.len()).position(|window| window == prefix).map(|start| start + prefix.len());
-    let Some(offset) = start.filter(|start| start + DIGITS <= bytes.len()) else { return false };
+    let Some(offset) = digits_offset(name, bytes) else { return false };
     bytes[offset..offset + DIGITS].copy_from_slice(CHECKSUM_PLACEHOLDER.as_bytes());
     let digits = checksum(bytes);
     bytes[offset..offset + DIGITS].copy_from_slice(digits.as_bytes());
@@ -35,6 +33,13 @@ pub fn checksum(bytes: &[u8]) -> String {
 pub fn is_intact(name: &str, bytes: &[u8]) -> Option<bool> {
     let mut sealed = bytes.to_vec();
     write_checksum(name, &mut sealed).then(|| sealed == bytes)
+}
+
+/// Returns the offset of the checksum's first digit.
+fn digits_offset(name: &str, bytes: &[u8]) -> Option<usize> {
+    let prefix = format!("{{\\\"{name}\\\":\\\"").into_bytes();
+    let offset = bytes.windows(prefix.len()).position(|window| window == prefix)? + prefix.len();
+    (offset + DIGITS <= bytes.len()).then_some(offset)
 }
 
 #[cfg(test)]

@@ -34,6 +34,11 @@ impl<T: Copy> ReplayBuffer<T> {
         self.next
     }
 
+    /// Number of stored shots.
+    pub const fn len(&self) -> usize {
+        self.stored.len()
+    }
+
     /// Share of the buffer that is filled.
     pub fn fill_fraction(&self) -> f64 {
         self.stored.len() as f64 / self.capacity as f64
@@ -69,7 +74,7 @@ mod tests {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
         assert!(buffer.sample(5, &mut rng).is_empty());
         (0..5).for_each(|shot| buffer.push(shot));
-        assert_eq!((buffer.stored().len(), buffer.fill_fraction()), (3, 1.0));
+        assert_eq!((buffer.len(), buffer.fill_fraction()), (3, 1.0));
         let mut seen = buffer.sample(100, &mut rng);
         seen.sort_unstable();
         seen.dedup();

@@ -18,13 +18,10 @@ pub(super) fn is_accepted_friction(value: f64) -> bool {
 /// The values that [`is_accepted_friction`] accepts, for error messages.
 pub(super) const ACCEPTED_FRICTION: &str = "0 to below 1, where the forces of a contact are unique";
 
-/// Largest `mu_s` that is accepted with the rail model of Mathavan. From 0.9 on, its few integration steps would let a ball gain energy at a
-/// rail with the largest restitution and friction.
-pub const MAX_CLOTH_FRICTION: f64 = 0.8;
-
-/// Returns the largest `mu_s` that is accepted with this rail model.
-pub(super) const fn max_sliding_friction(model: RailModel) -> f64 {
-    if matches!(model, RailModel::Mathavan) { MAX_CLOTH_FRICTION } else { f64::INFINITY }
+/// Returns the largest `mu_s` that is accepted with this rail model. From 0.9 on, the few integration steps of Mathavan's model would let a
+/// ball gain energy at a rail with the largest restitution and friction.
+pub const fn max_sliding_friction(model: RailModel) -> f64 {
+    if matches!(model, RailModel::Mathavan) { 0.8 } else { f64::INFINITY }
 }
 
 /// Returns the steepest accepted slope, m/s².

@@ -15,7 +15,7 @@ mod sampler;
 
 pub use cue_ball::{CueBall, UnknownCueBall};
 pub use doubt::{AlternativeLaw, DoubtError, TableDoubt};
-pub use flaws::{MAX_CLOTH_FRICTION, steepest_tilt};
+pub use flaws::{max_sliding_friction, steepest_tilt};
 pub use flight::Flight;
 pub use layout::{BALL_NAMES, BALLS, Layout, LayoutError, PAIRS, TOUCHING_TOLERANCE};
 pub(crate) use models::is_zero;

@@ -69,10 +69,10 @@ impl Rails {
         let has_height = self.height.is_some() || Rail::ALL.iter().any(|rail| self.overrides(*rail).height.is_some());
         let mut unused = Vec::new();
         if has_height && self.model == RailModel::Equator {
-            unused.push(["height", "`nose`, `smooth` and `mathavan`"]);
+            unused.push(["height", "nose, smooth or mathavan"]);
         }
         if self.kappa.is_some() && self.model != RailModel::Smooth {
-            unused.push(["kappa", "`smooth`"]);
+            unused.push(["kappa", "smooth"]);
         }
         unused
     }

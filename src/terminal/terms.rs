@@ -24,6 +24,9 @@ pub struct Terms {
 }
 
 impl Terms {
+    /// Keys of the settings whose present values the next session keeps, unless the settings file changes.
+    pub const KEPT: [&str; 3] = ["rule", "skill", "plan"];
+
     /// Applies the changes from `before` to `now` to `self`. A term of `self` that differs from `before` stays.
     #[must_use]
     pub fn with_change(self, [before, now]: [Self; 2]) -> Self {

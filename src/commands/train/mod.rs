@@ -274,7 +274,7 @@ fn how_to_resume(folder: &Path) -> Failure {
 
 fn failure(error: RunError) -> Failure {
     match error {
-        RunError::Agent(_) | RunError::Origin(..) | RunError::Start(StartError::Settings(_)) => {
+        RunError::Agent(_) | RunError::Origin { .. } | RunError::Start(StartError::Settings(_)) => {
             Failure::wrong_input(error)
         }
         RunError::Policy(error) => error.into(),

@@ -51,7 +51,7 @@ impl TrainingRequest {
 fn start_in_free_folder<T>(folder: &Path, start: impl Fn(&Path) -> Result<T, RunError>) -> Result<T, RunError> {
     let mut begun = start(folder);
     for number in 2_u32.. {
-        if !matches!(begun, Err(RunError::Occupied(_) | RunError::Foreign(..) | RunError::Busy(_))) {
+        if !matches!(begun, Err(RunError::Occupied(_) | RunError::Foreign { .. } | RunError::Busy(_))) {
             break;
         }
         let mut name = folder.as_os_str().to_owned();

@@ -145,7 +145,10 @@ mod tests {
             let drawn = sampler.draw(|| 0.2 * f64::from(step) - 2.0);
             assert!(is_known_table(&drawn), "{drawn:?}");
         }
-        assert!(is_known_table(&Table { flight: None, ..mine.clone() }), "it was saved before balls could fly");
+        assert!(
+            is_known_table(&Table { flight: None, ..mine.clone() }),
+            "a table that was saved before balls could fly"
+        );
         assert!(!is_known_table(&Table { length: 2.54, width: 1.27, ..mine.clone() }));
         assert!(!is_known_table(&Table { rail_restitution: 0.6, ..mine.clone() }));
         assert!(!is_known_table(&Table { rail: Rails { model: RailModel::Nose, ..mine.rail }, ..mine }));

@@ -81,6 +81,15 @@ impl Candidate {
     }
 }
 
+/// Result of a search.
+#[derive(Clone, Debug, Default)]
+pub struct SearchResult {
+    /// The winner, and the best strokes of other observations that come near to it; the best one first.
+    pub best: Vec<Transition>,
+    /// Other strokes that reached successive halving.
+    pub others: Vec<Transition>,
+}
+
 /// Keeps the first `left` of sorted candidates, but at most `per_observation` of one observation; returns the others. So successive
 /// halving does not end with nearly equal strokes, and the heads imitate strokes of several observations.
 fn truncate_diverse(candidates: &mut Vec<Candidate>, left: usize, per_observation: usize) -> Vec<Candidate> {
@@ -95,14 +104,9 @@ fn truncate_diverse(candidates: &mut Vec<Candidate>, left: usize, per_observatio
 }
 
 impl Expert<'_> {
-    /// Runs the search, starting with `proposals`, and returns the strokes that reached successive halving: first the winner and the best
-    /// strokes of other observations that come near to it, then the others. The success of each comes from new attempts, because the
-    /// winner's attempts in successive halving were lucky. Empty if no stroke earned anything.
-    pub fn search(
-        &self,
-        proposals: &[(Observation, Action)],
-        rng: &mut (impl Rng + ?Sized),
-    ) -> Result<[Vec<Transition>; 2]> {
+    /// Runs the search, starting with `proposals`, and returns the strokes that reached successive halving. The success of each comes from
+    /// new attempts, because the winner's attempts in successive halving were lucky. Empty if no stroke earned anything.
+    pub fn search(&self, proposals: &[(Observation, Action)], rng: &mut (impl Rng + ?Sized)) -> Result<SearchResult> {
         let seed = rng.random();
         let tried = (0..RANDOM_STROKES).map(|_| {
             let table = self.tables.table(self.context);
@@ -149,7 +153,7 @@ impl Expert<'_> {
             Transition { observation: candidate.observation, context: self.context, action: candidate.action, success }
         };
         let Some(winner) = candidates.first().copied().filter(|winner| winner.earned > 0.0) else {
-            return Ok([Vec::new(), Vec::new()]);
+            return Ok(SearchResult::default());
         };
         let (mut best, mut others) = (Vec::<Candidate>::new(), removed);
         for candidate in candidates {
@@ -158,8 +162,9 @@ impl Expert<'_> {
             let strokes = if is_imitated { &mut best } else { &mut others };
             strokes.push(candidate);
         }
-        Ok([(best, ROUNDS[2].0), (others, ATTEMPTS_FOR_OTHERS)]
-            .map(|(strokes, attempts)| strokes.iter().map(|stroke| again(stroke, attempts)).collect()))
+        let [best, others] = [(best, ROUNDS[2].0), (others, ATTEMPTS_FOR_OTHERS)]
+            .map(|(strokes, attempts)| strokes.iter().map(|stroke| again(stroke, attempts)).collect());
+        Ok(SearchResult { best, others })
     }
 
     /// Sorts candidates by the critic's prediction, the best first.
@@ -246,8 +251,8 @@ mod tests {
             let context = Context { table: 0, errors: 3.7 };
             let expert = Expert { tables: &tables, reward, inputs, networks, layout: &layout, context };
             let proposal = Candidate::new(Observation::new(&layout, 0), expert.random_stroke(&mut rng));
-            let [best, _] = expert.search(&[(proposal.observation, proposal.action)], &mut rng).unwrap();
-            let winner = best.first().unwrap();
+            let strokes = expert.search(&[(proposal.observation, proposal.action)], &mut rng).unwrap();
+            let winner = strokes.best.first().unwrap();
             let mut again = [proposal, Candidate::new(winner.observation, winner.action)];
             expert.halving_round(&mut again[..1], 100, 7);
             expert.halving_round(&mut again[1..], 100, 7);

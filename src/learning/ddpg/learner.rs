@@ -29,6 +29,10 @@ use crate::{
 /// Learning rate of the actor below which it practically does not learn.
 pub const MIN_ACTOR_LEARNING_RATE: f64 = 1e-6;
 
+/// Indices of the networks in [`Hyperparameters::sizes`].
+const ACTOR: usize = 0;
+const CRITIC: usize = 1;
+
 /// The entry in the list of agents.
 pub const AGENT: AgentKind = AgentKind {
     name: "ddpg",
@@ -138,9 +142,9 @@ impl Learner for Trainer {
         let prefix = if weights.has("target.actor.0.weight") { "target." } else { "" };
         let hyper = self.agent.hyper.clone();
         let inputs = hyper.inputs();
-        let network = |name: &str, is_critic: bool| {
+        let network = |name: &str, which: usize| {
             let name = format!("{prefix}{name}");
-            let read = |hyper: &Hyperparameters| weights.network(&name, &hyper.sizes()[usize::from(is_critic)]);
+            let read = |hyper: &Hyperparameters| weights.network(&name, &hyper.sizes()[which]);
             read(&hyper).or_else(|error| {
                 // Weights with fewer inputs are loaded, too: the new inputs have no effect until the network learns to use them.
                 let fewer = [(inputs.context, false), (false, inputs.rails_first), (false, false)];
@@ -154,14 +158,14 @@ impl Learner for Trainer {
                 if inputs.rails_first && !loaded.rails_first {
                     network = network.with_more_inputs(inputs.actor() - Rail::ALL.len(), Rail::ALL.len())?;
                     let end = network.sizes()[0];
-                    network = network.with_more_inputs(end, if is_critic { RAIL_FEATURES } else { 0 })?;
+                    network = network.with_more_inputs(end, if which == CRITIC { RAIL_FEATURES } else { 0 })?;
                 }
                 Ok(network)
             })
         };
         let own = &self.agent.online;
-        let actor = if self.agent.hyper.new_actor { own.actor.duplicate()? } else { network("actor", false)? };
-        let critic = network("critic", true)?;
+        let actor = if self.agent.hyper.new_actor { own.actor.duplicate()? } else { network("actor", ACTOR)? };
+        let critic = network("critic", CRITIC)?;
         self.agent = Ddpg::starting_from(Networks::new(&hyper, actor, critic)?, hyper)?;
         Ok(())
     }
@@ -180,7 +184,6 @@ mod tests {
 
     #[test]
     fn weights_load_from_checkpoints_and_policies() {
-        let untrained = Trainer::new(small_task(), Table::default()).unwrap();
         let mut teacher = Trainer::new(small_task(), Table::default()).unwrap();
         teacher.iterate().unwrap();
         let mut writer = Writer::default();
@@ -196,11 +199,14 @@ mod tests {
             let mut task = small_task();
             task.plan.seed = 6;
             let mut pupil = Trainer::new(task, Table::default()).unwrap();
-            assert_ne!(weights(&pupil), weights(&untrained), "another seed gives other weights");
+            assert_ne!(weights(&pupil), weights(&teacher));
             pupil.load_weights(&Reader::new(file).unwrap()).unwrap();
             let [own, given] = [&pupil, &teacher].map(|trainer| weights(trainer).concat());
-            let is_near = |(own, given): (&f32, &f32)| (own - given).abs() <= tolerance * (given.abs() + 1e-3);
-            assert!(own.iter().zip(&given).all(is_near));
+            assert!(
+                own.iter()
+                    .zip(&given)
+                    .all(|(own, given)| (own - given).abs() <= tolerance * given.abs() + tolerance * 1e-3)
+            );
             assert_eq!(pupil.shots(), 0);
         }
     }

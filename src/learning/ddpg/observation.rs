@@ -148,8 +148,10 @@ mod tests {
             let layout = Layout::random(&table, &mut rng);
             for observation in Observation::all_straight(&layout) {
                 assert!(observation.cue.x >= 0.0);
-                let distance = layout.balls[1].distance(layout.balls[2]);
-                assert!((observation.first.distance(observation.second) - distance).abs() < 1e-12);
+                assert!(
+                    (observation.first.distance(observation.second) - layout.balls[1].distance(layout.balls[2])).abs()
+                        < 1e-12
+                );
             }
         }
     }

@@ -94,7 +94,10 @@ impl ObservationBatch {
     }
 
     /// Returns the critic's input for `actions` (rows x actions of the space), one row per action. Each observation has the same number of
-    /// consecutive rows, else it fails. Gradients flow to the actions.
+    /// consecutive rows. Gradients flow to the actions.
+    ///
+    /// # Errors
+    /// Fails if the number of actions is not a multiple of the number of observations.
     pub fn with_actions(&self, actions: &Tensor) -> Result<Tensor> {
         actions.apply_op1(Join { observed: self.clone(), slopes: OnceLock::new(), differentiate: actions.track_op() })
     }

@@ -72,8 +72,10 @@ pub fn cue_inputs(table: &Table, observation: &Observation, action: Action) -> C
     }
 }
 
-/// Returns the stroke that carries out `action` in an `observation` of `layout`, with the cue raised as far as rails and balls require;
-/// fails if it has no room at any elevation.
+/// Returns the stroke that carries out `action` in an `observation` of `layout`, with the cue raised as far as rails and balls require.
+///
+/// # Errors
+/// Fails if the cue has no room at any elevation.
 pub fn playable(
     table: &Table,
     layout: &Layout,

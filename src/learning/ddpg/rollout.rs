@@ -8,7 +8,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{
     action::Action,
     agent::Transition,
-    expert::Expert,
+    expert::{Expert, SearchResult},
     hyperparameters::{Hyperparameters, RANKED},
     networks::Networks,
     observation::Observation,
@@ -90,7 +90,7 @@ impl Trainer {
                 let expert = Expert { tables, reward, inputs, networks, layout, context: *context };
                 expert.search(&proposals, &mut Xoshiro256PlusPlus::seed_from_u64(*seed))
             })?;
-        for [best, others] in found {
+        for SearchResult { best, others } in found {
             for stroke in &best {
                 self.searched.push(*stroke);
             }

@@ -1,4 +1,5 @@
-//! The trainer's part of a checkpoint: everything on which the next iteration depends, so that a resumed run equals an uninterrupted one.
+//! The trainer's part of a checkpoint: everything on which the next iteration depends, so that a resumed run equals an uninterrupted
+//! one.
 
 use std::sync::Arc;
 
@@ -52,8 +53,8 @@ const STRAIGHT: f32 = -1.0;
 pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsError> {
     let agent = &trainer.agent;
     for (name, networks) in [("online", &agent.online), ("target", &agent.target)] {
-        writer.add_network(&format!("{name}.actor"), &networks.actor, false)?;
-        writer.add_network(&format!("{name}.critic"), &networks.critic, false)?;
+        writer.add_network(&format!("{name}.actor"), &networks.actor)?;
+        writer.add_network(&format!("{name}.critic"), &networks.critic)?;
     }
     writer.add_optimiser("actor", &agent.actor_optimiser)?;
     writer.add_optimiser("critic", &agent.critic_optimiser)?;
@@ -77,8 +78,10 @@ pub fn write(trainer: &Trainer, writer: &mut Writer) -> Result<Value, WeightsErr
     })
 }
 
-/// Restores the trainer that [`write()`] wrote, from the file's arrays and the note. Fails if they do not fit together or are from a version
-/// with other features or actions.
+/// Restores the trainer that [`write()`] wrote, from the file's arrays and the note.
+///
+/// # Errors
+/// Fails if they do not fit together or are from a version with other features or actions.
 pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
     let note: TrainerState = serde_json::from_value(note).map_err(|_| WeightsError::Metadata)?;
     let hyper = &note.task.hyperparameters;
@@ -143,7 +146,8 @@ fn transitions(reader: &Reader<'_>, name: &str, inputs: Inputs) -> Result<Vec<Tr
     let context = context.as_chunks::<2>().0;
     let rails = if inputs.rails_first { reader.array(&rails)?.1 } else { vec![STRAIGHT; successes.len()] };
     if [observations.len(), actions.len(), context.len(), rails.len()] != [successes.len(); 4] {
-        return Err(WeightsError::Array(views, format!("{} shots", successes.len())));
+        let expected = format!("{} shots", successes.len());
+        return Err(WeightsError::Array { name: views, expected });
     }
     let shots = observations.iter().zip(actions).zip(context).zip(rails).zip(successes);
     Ok(shots

@@ -116,13 +116,24 @@ pub(in crate::learning) mod tests {
     }
 
     #[test]
+    fn another_seed_gives_other_weights() {
+        let weights = |seed| {
+            let mut task = small_task();
+            task.plan.seed = seed;
+            let trainer = Trainer::new(task, Table::default()).unwrap();
+            trainer.agent.target.actor.parameters().to_vec1::<f32>().unwrap()
+        };
+        assert_ne!(weights(5), weights(6));
+    }
+
+    #[test]
     fn every_kind_of_shot_counts_as_one_shot() {
         for (ranking, critic_chooses) in [(0.0, 0.3), (0.5, 0.5), (1.0, 0.0), (0.4, 1.0)] {
             let mut task = small_task();
             task.hyperparameters = Hyperparameters { critic_chooses, ranking, ..task.hyperparameters };
             let mut trainer = Trainer::new(task, Table::default()).unwrap();
             trainer.iterate().unwrap();
-            assert_eq!((trainer.shots(), trainer.replay.stored().len()), (16, 16), "ranking {ranking}");
+            assert_eq!((trainer.shots(), trainer.replay.len()), (16, 16), "ranking {ranking}");
         }
     }
 

@@ -81,10 +81,14 @@ impl Mlp {
         Self { operations, ..self }
     }
 
-    /// Returns this network with another bias in its last layer, which must have as many outputs.
+    /// Returns this network with another bias in its last layer.
     pub fn with_output_bias(self, bias: &[f32]) -> Result<Self> {
         let mut parameters: Vec<f32> = self.parameters.to_vec1()?;
-        let start = parameters.len() - bias.len();
+        let outputs = self.sizes[self.sizes.len() - 1];
+        if bias.len() != outputs {
+            bail!("a bias of {} values does not fit {outputs} outputs", bias.len());
+        }
+        let start = parameters.len() - outputs;
         parameters[start..].copy_from_slice(bias);
         Ok(Self::from_parameters(&self.sizes, parameters)?.with_operations(self.operations))
     }
@@ -94,6 +98,9 @@ impl Mlp {
     pub fn with_more_inputs(self, after: usize, count: usize) -> Result<Self> {
         let mut parameters: Vec<f32> = self.parameters.to_vec1()?;
         let mut sizes = self.sizes;
+        if after > sizes[0] {
+            bail!("inputs cannot be inserted after input {after} of {}", sizes[0]);
+        }
         let at = after * sizes[1];
         parameters.splice(at..at, std::iter::repeat_n(0.0, count * sizes[1]));
         sizes[0] += count;
@@ -191,6 +198,7 @@ mod tests {
         let [before, after] = [(0, 2), (2, 3)].map(|(start, count)| inputs.narrow(1, start, count).unwrap());
         let joined = Tensor::cat(&[&before, &others, &after], 1).unwrap().contiguous().unwrap();
         assert!(largest_difference(&mlp.forward(&inputs).unwrap(), &wide.forward(&joined).unwrap()) < 1e-6);
+        assert!(mlp.with_more_inputs(6, 1).is_err());
     }
 
     #[test]

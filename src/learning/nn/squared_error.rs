@@ -7,7 +7,10 @@ use super::tensors::values;
 /// The mean squared difference of predictions and targets. It has a gradient with respect to the predictions only.
 struct SquaredError;
 
-/// Returns the mean squared error of `predicted` against `target`; fails if the shapes differ or if a tensor is not contiguous.
+/// Returns the mean squared error of `predicted` against `target`, of the same shape.
+///
+/// # Errors
+/// Fails if the shapes differ or if a tensor is not contiguous.
 pub fn squared_error(predicted: &Tensor, target: &Tensor) -> Result<Tensor> {
     predicted.apply_op2(target, SquaredError)
 }

@@ -26,9 +26,14 @@ pub enum WeightsError {
     /// A safetensors file with another content.
     #[error("its metadata has no \"carom\" entry of the right kind")]
     Metadata,
-    /// This array is missing, or its type or shape is not this expected one.
-    #[error("its array \"{0}\" is not {1}")]
-    Array(String, String),
+    /// An array is missing, or its type or shape is not the expected one.
+    #[error("its array \"{name}\" is not {expected}")]
+    Array {
+        /// The array's name.
+        name: String,
+        /// Expected type or shape.
+        expected: String,
+    },
     /// The layers of a network are not the expected ones.
     #[error("its network \"{name}\" has {found}, and the settings ask for {wanted}")]
     Shape {
@@ -69,18 +74,21 @@ impl Writer {
         self.arrays.push((name.into(), Dtype::F64, shape.to_vec(), bytes));
     }
 
-    /// Adds a network layer by layer: `name.0.weight` (inputs x outputs), `name.0.bias`, and so on. Networks whose training is finished have
-    /// half precision (16 bits per value).
-    pub(crate) fn add_network(&mut self, name: &str, network: &Mlp, is_half: bool) -> Result<(), WeightsError> {
-        let (dtype, precision) = if is_half { (Dtype::F16, DType::F16) } else { (Dtype::F32, DType::F32) };
-        let mut start = 0;
-        for (layer, pair) in network.sizes().windows(2).enumerate() {
-            for (part, shape) in [("weight", pair), ("bias", &pair[1..])] {
-                let (count, mut bytes) = (shape.iter().product(), Vec::new());
-                network.parameters().narrow(0, start, count)?.to_dtype(precision)?.write_bytes(&mut bytes)?;
-                self.arrays.push((format!("{name}.{layer}.{part}"), dtype, shape.to_vec(), bytes));
-                start += count;
-            }
+    /// Adds a network layer by layer: `name.0.weight` (inputs x outputs), `name.0.bias`, and so on.
+    pub(crate) fn add_network(&mut self, name: &str, network: &Mlp) -> Result<(), WeightsError> {
+        for (name, shape, values) in layers(name, network)? {
+            self.add(name, &shape, &values);
+        }
+        Ok(())
+    }
+
+    /// Adds a network in half precision (16 bits per value), for networks whose training is finished.
+    pub(crate) fn add_network_half(&mut self, name: &str, network: &Mlp) -> Result<(), WeightsError> {
+        for (name, shape, values) in layers(name, network)? {
+            let mut bytes = Vec::with_capacity(2 * values.len());
+            let values = Tensor::from_vec(values, shape.as_slice(), &Device::Cpu)?;
+            values.to_dtype(DType::F16)?.write_bytes(&mut bytes)?;
+            self.arrays.push((name, Dtype::F16, shape, bytes));
         }
         Ok(())
     }
@@ -168,11 +176,14 @@ impl<'a> Reader<'a> {
     fn typed(&self, name: &str, dtype: Dtype, expected: &str) -> Result<TensorView<'a>, WeightsError> {
         match self.arrays.tensor(name) {
             Ok(array) if array.dtype() == dtype => Ok(array),
-            _ => Err(WeightsError::Array(name.to_owned(), expected.to_owned())),
+            _ => Err(WeightsError::Array { name: name.to_owned(), expected: expected.to_owned() }),
         }
     }
 
     /// Returns the network that [`Writer::add_network`] wrote. Its layers must have these `sizes`, inputs first.
+    ///
+    /// # Errors
+    /// Fails if the sizes differ or an array is missing.
     pub(crate) fn network(&self, name: &str, sizes: &[usize]) -> Result<Mlp, WeightsError> {
         let weight = |layer: usize| format!("{name}.{layer}.weight");
         let shapes = (0..).map_while(|layer| Some(self.arrays.tensor(&weight(layer)).ok()?.shape().to_vec()));
@@ -189,33 +200,46 @@ impl<'a> Reader<'a> {
             let name = format!("{name}.{layer}.bias");
             let (shape, bias) = self.array(&name)?;
             if shape != pair[1..] {
-                return Err(WeightsError::Array(name, format!("{} values", pair[1])));
+                return Err(WeightsError::Array { name, expected: format!("{} values", pair[1]) });
             }
             parameters.extend(bias);
         }
         Ok(Mlp::from_parameters(sizes, parameters)?)
     }
 
-    /// Returns the optimiser of `network` that [`Writer::add_optimiser`] wrote after `steps` steps.
-    pub(crate) fn optimiser(
-        &self,
-        name: &str,
-        network: &Mlp,
-        config: AdamConfig,
-        steps: u32,
-    ) -> Result<Adam, WeightsError> {
+    /// Returns the optimiser of `network` that `Writer::add_optimiser` wrote after `steps` steps.
+    ///
+    /// # Errors
+    /// Fails if an array is missing or does not fit the network.
+    pub fn optimiser(&self, name: &str, network: &Mlp, config: AdamConfig, steps: u32) -> Result<Adam, WeightsError> {
         let moment = |order: usize| -> Result<Tensor, WeightsError> {
             let name = moment_name(name, order);
             let (_, values) = self.array(&name)?;
             let expected = network.parameters().elem_count();
             if values.len() != expected {
-                return Err(WeightsError::Array(name, format!("{expected} values")));
+                return Err(WeightsError::Array { name, expected: format!("{expected} values") });
             }
             Ok(Tensor::from_vec(values, expected, &Device::Cpu)?)
         };
         let moments = vec![[moment(0)?, moment(1)?]];
         Ok(Adam::resume(vec![network.parameters().clone()], config, moments, steps))
     }
+}
+
+/// Name, shape and values.
+type Array = (String, Vec<usize>, Vec<f32>);
+
+/// Splits a network into arrays, layer by layer: the weights, then the bias.
+fn layers(name: &str, network: &Mlp) -> Result<Vec<Array>, WeightsError> {
+    let (mut rest, mut arrays) = (network.parameters().to_vec1::<f32>()?, Vec::new());
+    for (layer, pair) in network.sizes().windows(2).enumerate() {
+        for (part, shape) in [("weight", pair), ("bias", &pair[1..])] {
+            let after = rest.split_off(shape.iter().product());
+            arrays.push((format!("{name}.{layer}.{part}"), shape.to_vec(), rest));
+            rest = after;
+        }
+    }
+    Ok(arrays)
 }
 
 /// Describes layer sizes in words.
@@ -240,15 +264,16 @@ mod tests {
         let mlp = Mlp::random(&[30, 40, 2], &mut Xoshiro256PlusPlus::seed_from_u64(1)).unwrap();
         let file = |mlp: &Mlp| {
             let mut writer = Writer::default();
-            writer.add_network("actor", mlp, true).unwrap();
+            writer.add_network_half("actor", mlp).unwrap();
             writer.finish(&"a note").unwrap()
         };
         let bytes = file(&mlp);
         assert!(bytes.len() < 2 * mlp.parameters().elem_count() + 700, "{} bytes", bytes.len());
         let read = Reader::new(&bytes).unwrap().network("actor", mlp.sizes()).unwrap();
         let values = |mlp: &Mlp| mlp.parameters().to_vec1::<f32>().unwrap();
-        let is_near = |(read, own): (&f32, f32)| (read - own).abs() <= 5e-4 * own.abs() + 1e-7;
-        assert!(values(&read).iter().zip(values(&mlp)).all(is_near));
+        assert!(
+            values(&read).iter().zip(values(&mlp)).all(|(read, own)| (read - own).abs() <= 5e-4 * own.abs() + 1e-7)
+        );
         assert_eq!(file(&read), bytes, "rounded values must not change when they are rounded again");
     }
 
@@ -256,7 +281,7 @@ mod tests {
     fn damaged_and_foreign_files_are_refused_with_a_reason() {
         let mut writer = Writer::default();
         let mlp = Mlp::random(&[3, 4, 2], &mut Xoshiro256PlusPlus::seed_from_u64(1)).unwrap();
-        writer.add_network("actor", &mlp, false).unwrap();
+        writer.add_network("actor", &mlp).unwrap();
         writer.add("extra", &[1], &[f32::NAN]);
         writer.add_f64("exact", &[1], &[0.1]);
         let bytes = writer.finish(&"a note").unwrap();

@@ -11,7 +11,7 @@ use serde_json::Value;
 
 use super::{
     config::{Provenance, Schedule},
-    error::RunError,
+    error::{Damage, DamageReason, FORMAT, RunError},
 };
 use crate::{
     learning::{
@@ -28,17 +28,22 @@ pub const CURRENT: &str = "checkpoint.safetensors";
 /// File name of the previous checkpoint.
 pub const PREVIOUS: &str = "checkpoint-previous.safetensors";
 
-/// Version of the checkpoint format.
-const FORMAT: u32 = 2;
-
 /// Parses a checkpoint's `bytes`, which were read from `path`.
 pub fn load(path: &Path, bytes: Vec<u8>) -> Result<Loaded, RunError> {
-    let folder = path.parent().unwrap_or(path).display().to_string();
-    restore(bytes).map_err(|reason| RunError::Checkpoints(folder, damage(path, &reason)))
+    loaded(path, Ok(bytes)).map_err(|damage| RunError::Checkpoints {
+        folder: path.parent().unwrap_or(path).display().to_string(),
+        current: Box::new(damage),
+        previous: None,
+    })
 }
 
-fn damage(path: &Path, reason: &io::Error) -> String {
-    format!("{}: {reason}", path.display())
+fn loaded(path: &Path, bytes: io::Result<Vec<u8>>) -> Result<Loaded, Damage> {
+    let load = || {
+        let bytes = bytes?;
+        let (learner, state) = restore(&bytes)?;
+        Ok(Loaded { learner, state, bytes, fallback: None })
+    };
+    load().map_err(|reason| Damage { path: path.display().to_string(), reason })
 }
 
 /// Returns the shots played at the current checkpoint in `folder`, or at the previous one if the current one cannot be read.
@@ -53,7 +58,7 @@ pub struct Loaded {
     pub state: State,
     pub bytes: Vec<u8>,
     /// Damage of the current checkpoint, if this is the previous one.
-    pub fallback: Option<String>,
+    pub fallback: Option<Damage>,
 }
 
 impl Loaded {
@@ -78,29 +83,37 @@ impl Checkpoints {
         Self { folder: folder.to_owned(), current_is_intact: false }
     }
 
-    /// Opens the checkpoints in `folder` and loads the newest intact one; fails with [`RunError::Missing`] or [`RunError::Checkpoints`].
+    /// Opens the checkpoints in `folder` and loads the newest intact one.
+    ///
+    /// # Errors
+    /// [`RunError::Missing`] or [`RunError::Checkpoints`].
     pub fn open(folder: &Path) -> Result<(Self, Loaded), RunError> {
-        let read = |name: &str| storage::read(&folder.join(name), storage::MAX_LARGE_FILE).and_then(restore);
-        let is_missing = |error: &io::Error| error.kind() == io::ErrorKind::NotFound;
-        let error = match read(CURRENT) {
-            Ok(loaded) => return Ok((Self { folder: folder.to_owned(), current_is_intact: true }, loaded)),
-            Err(error) => error,
+        let read = |name: &str| loaded(&folder.join(name), storage::read(&folder.join(name), storage::MAX_LARGE_FILE));
+        let is_missing = |damage: &Damage| match &damage.reason {
+            DamageReason::File(error) => error.kind() == io::ErrorKind::NotFound,
+            _ => false,
         };
-        let current = damage(&folder.join(CURRENT), &error);
+        let current = match read(CURRENT) {
+            Ok(loaded) => return Ok((Self { folder: folder.to_owned(), current_is_intact: true }, loaded)),
+            Err(damage) => damage,
+        };
         match read(PREVIOUS) {
             Ok(loaded) => Ok((Self::new(folder), Loaded { fallback: Some(current), ..loaded })),
-            Err(previous) if is_missing(&previous) && is_missing(&error) => {
+            Err(previous) if is_missing(&previous) && is_missing(&current) => {
                 Err(RunError::Missing(folder.display().to_string()))
             }
             Err(previous) => {
-                let previous = (!is_missing(&previous)).then(|| damage(&folder.join(PREVIOUS), &previous));
-                let all: Vec<_> = std::iter::once(current).chain(previous).collect();
-                Err(RunError::Checkpoints(folder.display().to_string(), all.join("; ")))
+                let previous = (!is_missing(&previous)).then(|| Box::new(previous));
+                let current = Box::new(current);
+                Err(RunError::Checkpoints { folder: folder.display().to_string(), current, previous })
             }
         }
     }
 
-    /// Writes a new checkpoint; the current one becomes the previous one. If that fails, existing intact checkpoints are kept.
+    /// Writes a new checkpoint; the current one becomes the previous one.
+    ///
+    /// # Errors
+    /// The errors of the file system. Existing intact checkpoints are kept.
     pub fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         let current = self.folder.join(CURRENT);
         let staged = StagedFile::new(&current, bytes)?;
@@ -196,26 +209,21 @@ pub fn bytes(learner: &dyn Learner, state: &State) -> Result<Vec<u8>, WeightsErr
     if write_checksum(CHECKPOINT_FIELD, &mut bytes) { Ok(bytes) } else { Err(WeightsError::Metadata) }
 }
 
-/// Restores the learner and the run's state from a checkpoint's bytes; the error is a sentence about the file.
-fn restore(bytes: Vec<u8>) -> io::Result<Loaded> {
-    let refuse = |reason: &str| Err(io::Error::other(reason));
-    match is_intact(CHECKPOINT_FIELD, &bytes) {
+/// Restores the learner and the run's state from a checkpoint's bytes.
+fn restore(bytes: &[u8]) -> Result<(Box<dyn Learner>, State), DamageReason> {
+    match is_intact(CHECKPOINT_FIELD, bytes) {
         Some(true) => {}
-        Some(false) => return refuse("it is damaged: its content does not fit its checksum"),
-        None => return refuse("it has no checksum: it is damaged, or not a checkpoint of this version of carom"),
+        Some(false) => return Err(DamageReason::Checksum),
+        None => return Err(DamageReason::NoChecksum),
     }
-    let reader = Reader::new(&bytes).map_err(io::Error::other)?;
-    // Notes of all formats have this entry in common.
-    let format = &reader.note::<Value>().map_err(io::Error::other)?["format"];
-    if *format != FORMAT {
-        return refuse(&format!("it has format {format}, and this version of carom reads format {FORMAT}"));
+    let reader = Reader::new(bytes)?;
+    let Version { format } = reader.note()?;
+    if format != FORMAT {
+        return Err(DamageReason::Format(format));
     }
-    let Header { agent, state, learner, .. } = reader.note().map_err(io::Error::other)?;
-    let Ok(kind) = AgentKind::named(&agent) else {
-        return refuse(&format!("its agent \"{agent}\" is not known to this version of carom"));
-    };
-    let learner = (kind.restore)(&reader, learner).map_err(io::Error::other)?;
-    Ok(Loaded { learner, state, bytes, fallback: None })
+    let Header { agent, state, learner, .. } = reader.note()?;
+    let agent = AgentKind::named(&agent).map_err(|_| DamageReason::Agent(agent))?;
+    Ok(((agent.restore)(&reader, learner)?, state))
 }
 
 /// Returns the agent of the checkpoint at `path`; `None` if the file is not a checkpoint or cannot be read.
@@ -227,6 +235,12 @@ pub fn agent_of_checkpoint(path: &Path) -> Option<String> {
 fn note_entry(path: &Path, name: &str) -> Option<Value> {
     let bytes = storage::read(path, storage::MAX_LARGE_FILE).ok()?;
     Reader::new(&bytes).ok()?.note::<Value>().ok()?.get(name).cloned()
+}
+
+/// The part of the note that all versions have in common.
+#[derive(Deserialize)]
+struct Version {
+    format: u32,
 }
 
 #[cfg(test)]
@@ -242,35 +256,42 @@ mod tests {
         State { schedule: Schedule::for_shots(100), from: None, accumulator: Accumulator::default() }
     }
 
+    /// A folder with two checkpoints, and the shots played at each.
+    fn folder_of_two() -> (tempfile::TempDir, [u64; 2]) {
+        let folder = tempfile::tempdir().unwrap();
+        let mut learner = Trainer::new(small_task(), Table::default()).unwrap();
+        let mut checkpoints = Checkpoints::new(folder.path());
+        let shots = [(); 2].map(|()| {
+            learner.iterate().unwrap();
+            checkpoints.write(&bytes(&learner, &state()).unwrap()).unwrap();
+            learner.shots()
+        });
+        (folder, shots)
+    }
+
     fn shots_after_opening(folder: &Path) -> Result<(u64, bool), RunError> {
         Checkpoints::open(folder).map(|(_, loaded)| (loaded.learner.shots(), loaded.fallback.is_some()))
     }
 
     #[test]
-    fn the_previous_checkpoint_replaces_a_damaged_or_missing_one() {
-        let folder = tempfile::tempdir().unwrap();
-        let mut learner = Trainer::new(small_task(), Table::default()).unwrap();
-        let mut checkpoints = Checkpoints::new(folder.path());
-        let [before, last] = [(); 2].map(|()| {
-            learner.iterate().unwrap();
-            checkpoints.write(&bytes(&learner, &state()).unwrap()).unwrap();
-            learner.shots()
-        });
+    fn the_previous_checkpoint_replaces_a_missing_one() {
+        let (folder, [before, last]) = folder_of_two();
         assert_eq!(shots_after_opening(folder.path()).unwrap(), (last, false));
         assert_eq!(shots_in(folder.path()), Some(last));
-        fs::write(folder.path().join(CURRENT), b"damaged").unwrap();
-        let (mut checkpoints, loaded) = Checkpoints::open(folder.path()).unwrap();
-        checkpoints.write(b"the disk lies").unwrap();
-        assert_eq!(loaded.learner.shots(), before);
-        assert_eq!(
-            shots_after_opening(folder.path()).unwrap(),
-            (before, true),
-            "no damaged one becomes the previous one"
-        );
         fs::remove_file(folder.path().join(CURRENT)).unwrap();
         assert_eq!(shots_after_opening(folder.path()).unwrap(), (before, true));
         fs::remove_file(folder.path().join(PREVIOUS)).unwrap();
         assert!(matches!(shots_after_opening(folder.path()), Err(RunError::Missing(_))));
+    }
+
+    #[test]
+    fn a_damaged_checkpoint_keeps_the_previous_one() {
+        let (folder, [before, _]) = folder_of_two();
+        fs::write(folder.path().join(CURRENT), b"damaged").unwrap();
+        let (mut checkpoints, loaded) = Checkpoints::open(folder.path()).unwrap();
+        checkpoints.write(b"the disk lies").unwrap();
+        assert_eq!(loaded.learner.shots(), before);
+        assert_eq!(shots_after_opening(folder.path()).unwrap(), (before, true));
     }
 
     #[test]
@@ -281,7 +302,7 @@ mod tests {
         let place = bytes.windows(format.len()).position(|window| window == format).unwrap();
         bytes[place + format.len() - 1] = b'9';
         assert!(write_checksum(CHECKPOINT_FIELD, &mut bytes));
-        let message = restore(bytes).unwrap_err().to_string();
+        let message = restore(&bytes).unwrap_err().to_string();
         assert!(message.contains("format 9,") && message.contains("format 2"), "{message}");
     }
 

@@ -5,7 +5,7 @@ use std::{fmt::Display, path::Path};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::json;
+use super::{error::RunError, json};
 use crate::{
     game::Reward,
     learning::learner::{Learner, TrainingPlan},
@@ -112,11 +112,13 @@ impl Config {
         json::read(&folder.join(FILE), storage::MAX_SMALL_FILE)
     }
 
+    /// Writes the configuration of the run in `folder`.
+    pub(super) fn write(&self, folder: &Path) -> Result<(), RunError> {
+        json::write(&folder.join(FILE), self)
+    }
+
     /// Returns the version of carom that started the run if it is newer than this one.
     pub fn newer_version(&self) -> Option<&str> {
-        let numbers = |version: &str| -> Vec<u64> {
-            version.split(['.', '-', '+']).map_while(|part| part.parse().ok()).collect()
-        };
         (numbers(&self.version) > numbers(VERSION)).then_some(self.version.as_str())
     }
 
@@ -152,4 +154,9 @@ pub fn unreadable_message(folder: &Path, reason: &std::io::Error) -> String {
         Some(version) => format!("{FILE} was written by carom {version} and cannot be read by carom {VERSION}"),
         None => format!("{FILE} cannot be read ({reason})"),
     }
+}
+
+/// Parses the numbers of a version, for comparison.
+fn numbers(version: &str) -> Vec<u64> {
+    version.split(['.', '-', '+']).map_while(|part| part.parse().ok()).collect()
 }

@@ -18,9 +18,14 @@ pub enum RunError {
     /// The folder already contains a run.
     #[error("{0} already contains a run; resume it with --resume {call}, or choose another folder with --run", call = shell_word(.0))]
     Occupied(String),
-    /// The folder contains other files, such as this one.
-    #[error("{0} is not empty and contains no run: \"{1}\" is in it; choose a new folder with --run")]
-    Foreign(String, String),
+    /// The folder contains other files.
+    #[error("{folder} is not empty and contains no run: \"{entry}\" is in it; choose a new folder with --run")]
+    Foreign {
+        /// The folder.
+        folder: String,
+        /// One of its entries.
+        entry: String,
+    },
     /// The path is a file, not a folder.
     #[error("{0} is a file, and a run needs a folder of its own; choose a new or empty one with --run")]
     NoFolder(String),
@@ -33,20 +38,40 @@ pub enum RunError {
     #[error("another process is training in {0}; wait until it ends or stop it, or choose another folder with --run")]
     Busy(String),
     /// A file of the run cannot be read or written.
-    #[error("{0} cannot be used: {1}")]
-    File(String, std::io::Error),
-    /// No checkpoint in the folder is usable, for these reasons.
-    #[error("no checkpoint in {0} can be used to resume: {1}")]
-    Checkpoints(String, String),
+    #[error("{path} cannot be used: {reason}")]
+    File {
+        /// Path of the file.
+        path: String,
+        /// Error of the operating system.
+        reason: std::io::Error,
+    },
+    /// No checkpoint is usable.
+    #[error(
+        "no checkpoint in {folder} can be used to resume: {current}{}",
+        previous.as_ref().map_or_else(String::new, |previous| format!("; {previous}"))
+    )]
+    Checkpoints {
+        /// The run's folder.
+        folder: String,
+        /// Damage of the current checkpoint.
+        current: Box<Damage>,
+        /// Damage of the previous checkpoint, if it exists.
+        previous: Option<Box<Damage>>,
+    },
     /// The agent is unknown.
     #[error(transparent)]
     Agent(#[from] UnknownAgent),
     /// The agent refuses its settings.
     #[error(transparent)]
     Start(#[from] StartError),
-    /// The weights of this file or run do not fit the run that shall start from them, for this reason.
-    #[error("{0} has no weights for this run: {1}")]
-    Origin(String, String),
+    /// The weights to start from do not fit the run.
+    #[error("{path} has no weights for this run: {reason}")]
+    Origin {
+        /// The file or the run.
+        path: String,
+        /// Reason.
+        reason: String,
+    },
     /// The policy to start from cannot be used.
     #[error(transparent)]
     Policy(#[from] PolicyError),
@@ -59,18 +84,53 @@ pub enum RunError {
     /// The loss is no longer finite, after this number of shots.
     #[error("training stopped after {0} shots: the loss is not a finite number any more; try a lower learning rate")]
     NotFinite(u64),
-    /// The progress since the last checkpoint could not be saved: the shots played, the reason, and the run's folder.
+    /// The progress since the last checkpoint could not be saved.
     #[error(
-        "the run could not be saved after {0} shots: {1}; the last checkpoint is intact: free some disk space, \
+        "the run could not be saved after {shots} shots: {reason}; the last checkpoint is intact: free some disk space, \
          then resume with: carom train --resume {call}",
-        call = shell_word(.2)
+        call = shell_word(folder)
     )]
-    Unsaved(u64, Box<Self>, String),
+    Unsaved {
+        /// Shots played.
+        shots: u64,
+        /// Reason.
+        reason: Box<Self>,
+        /// The run's folder.
+        folder: String,
+    },
+}
+
+/// Version of the checkpoint format.
+pub const FORMAT: u32 = 2;
+
+/// A checkpoint cannot be used to resume.
+#[derive(Debug, thiserror::Error)]
+#[error("{path}: {reason}")]
+pub struct Damage {
+    pub(super) path: String,
+    pub(super) reason: DamageReason,
+}
+
+/// Reason why the bytes of a checkpoint cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum DamageReason {
+    #[error("{0}")]
+    File(#[from] std::io::Error),
+    #[error("it is damaged: its content does not fit its checksum")]
+    Checksum,
+    #[error("it has no checksum: it is damaged, or not a checkpoint of this version of carom")]
+    NoChecksum,
+    #[error("it has format {0}, and this version of carom reads format {FORMAT}")]
+    Format(u32),
+    #[error("its agent \"{0}\" is not known to this version of carom")]
+    Agent(String),
+    #[error("{0}")]
+    Content(#[from] WeightsError),
 }
 
 /// Returns a converter of a file's error to a [`RunError`], for `map_err`.
 pub fn file(path: &Path) -> impl FnOnce(std::io::Error) -> RunError {
-    move |reason| RunError::File(path.display().to_string(), reason)
+    move |reason| RunError::File { path: path.display().to_string(), reason }
 }
 
 #[cfg(test)]
@@ -85,7 +145,7 @@ mod tests {
             "{message}"
         );
         let reason = Box::new(RunError::NotFinite(1));
-        let message = RunError::Unsaved(1, reason, "r $x".to_owned()).to_string();
+        let message = RunError::Unsaved { shots: 1, reason, folder: "r $x".to_owned() }.to_string();
         assert!(message.ends_with("carom train --resume 'r $x'"), "{message}");
     }
 }

@@ -116,7 +116,7 @@ impl Run {
         let mut run = Self { folder: folder.to_owned(), config, learner, state, checkpoints, _lock: lock };
         // The checkpoint comes first, so that the run can be resumed however early it is killed.
         run.write_checkpoint()?;
-        json::write(&folder.join(config::FILE), &run.config)?;
+        run.config.write(folder)?;
         Ok(run)
     }
 
@@ -138,7 +138,7 @@ impl Run {
             let config = Config::of(learner.as_ref(), state.schedule, state.from.clone());
             if error.kind() == ErrorKind::NotFound {
                 // The run was killed before it was written, or the file was removed.
-                json::write(&folder.join(config::FILE), &config)?;
+                config.write(folder)?;
             } else {
                 // The file is kept, because a user may still find in it when and by which version the run was started.
                 let unreadable = config::unreadable_message(folder, &error);
@@ -204,7 +204,8 @@ impl Run {
     }
 
     fn unsaved(&self, reason: RunError) -> RunError {
-        RunError::Unsaved(self.learner.shots(), Box::new(reason), self.folder.display().to_string())
+        let folder = self.folder.display().to_string();
+        RunError::Unsaved { shots: self.learner.shots(), reason: Box::new(reason), folder }
     }
 }
 
@@ -248,7 +249,7 @@ fn check_unoccupied(folder: &Path, own: Option<&str>) -> Result<(), RunError> {
     for entry in std::fs::read_dir(folder).map_err(file(folder))? {
         let entry = entry.map_err(file(folder))?.file_name();
         if entry != Lock::FILE && own.is_none_or(|own| entry != *own) {
-            return Err(RunError::Foreign(name(), entry.to_string_lossy().into_owned()));
+            return Err(RunError::Foreign { folder: name(), entry: entry.to_string_lossy().into_owned() });
         }
     }
     Ok(())

@@ -1,7 +1,10 @@
 //! Numbers in JSON files, with names for those that are not finite: JSON has no notation for them, and the metrics of a diverging run
 //! must show its divergence.
 
-use serde::{Deserialize, Deserializer, Serializer};
+use serde::{
+    Deserialize, Deserializer, Serializer,
+    de::{Error as _, Unexpected},
+};
 
 /// Writes a number; one that is not finite as its name in protobuf's JSON.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it with a reference")]
@@ -15,41 +18,45 @@ pub fn serialize<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S:
 
 /// Reads a number or its name. `null`, which many programs write instead of NaN, is read as NaN.
 pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Ok(option::deserialize(deserializer)?.unwrap_or(f64::NAN))
+    match Number::deserialize(deserializer)? {
+        Number::Finite(number) => Ok(number),
+        Number::None(()) => Ok(f64::NAN),
+        // Rust's parser also accepts other texts, such as ordinary numbers, which the filter rejects.
+        Number::Name(name) => (name.parse().ok())
+            .filter(|number: &f64| !number.is_finite())
+            .ok_or_else(|| D::Error::invalid_value(Unexpected::Str(&name), &EXPECTED)),
+    }
 }
+
+/// Accepted values, for error messages.
+const EXPECTED: &str = "a number, \"NaN\", \"Infinity\" or \"-Infinity\"";
 
 #[derive(Deserialize)]
 #[serde(untagged, expecting = "expected a number, \"NaN\", \"Infinity\" or \"-Infinity\"")]
 enum Number {
     Finite(f64),
     Name(String),
+    None(()),
 }
 
 /// The same for optional numbers, which the file leaves out if they are missing.
 pub mod option {
-    use serde::de::{Error as _, Unexpected};
+    use serde::Serialize;
 
-    use super::{Deserialize, Deserializer, Number, Serializer};
+    use super::{Deserialize, Deserializer, Serializer};
+
+    #[derive(Serialize, Deserialize)]
+    struct Present(#[serde(with = "super")] f64);
 
     /// Writes the number.
     #[expect(clippy::ref_option, reason = "serde calls it with a reference")]
     pub fn serialize<S: Serializer>(number: &Option<f64>, serializer: S) -> Result<S::Ok, S::Error> {
-        match number {
-            Some(number) => super::serialize(number, serializer),
-            None => serializer.serialize_none(),
-        }
+        number.map(Present).serialize(serializer)
     }
 
     /// Reads a number, its name, or nothing.
     pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
-        let number = |read| match read {
-            Number::Finite(number) => Ok(number),
-            // Rust's parser also accepts other texts, such as ordinary numbers, which the filter rejects.
-            Number::Name(name) => (name.parse().ok())
-                .filter(|number: &f64| !number.is_finite())
-                .ok_or_else(|| D::Error::invalid_value(Unexpected::Str(&name), &"a number, NaN or Infinity")),
-        };
-        Option::<Number>::deserialize(deserializer)?.map(number).transpose()
+        Ok(Option::<Present>::deserialize(deserializer)?.map(|Present(number)| number))
     }
 }
 
@@ -68,13 +75,17 @@ mod tests {
     }
 
     #[test]
-    fn every_number_survives_a_file_and_other_words_are_refused() {
+    fn every_number_survives_a_file() {
         for number in [0.1, -3.0, 1e300, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let text = serde_json::to_string(&Pair { one: number, other: Some(number) }).unwrap();
             let again: Pair = serde_json::from_str(&text).unwrap();
             assert_eq!(again.one.to_bits(), number.to_bits(), "{text}");
             assert_eq!(again.other.unwrap().to_bits(), number.to_bits(), "{text}");
         }
+    }
+
+    #[test]
+    fn integers_and_null_are_read_and_other_words_refused() {
         let read = |text: &str| serde_json::from_str::<Pair>(text);
         assert_eq!(read("{\"one\": -2}").unwrap().one, -2.0);
         let none = read("{\"one\": null, \"other\": null}").unwrap();

@@ -67,7 +67,8 @@ impl Weights {
             seed: origin.seed,
             shots: origin.shots,
         };
-        let settings = note_of(&origin.hyperparameters).map_err(|error| RunError::Origin(path, error.to_string()))?;
+        let settings =
+            note_of(&origin.hyperparameters).map_err(|error| RunError::Origin { path, reason: error.to_string() })?;
         Ok(Self { start, settings, table: None, notice: None, bytes })
     }
 
@@ -86,9 +87,12 @@ impl Weights {
         Self { start, settings: learner.settings(), table: Some(learner.table().clone()), notice, bytes }
     }
 
-    /// Loads the weights into an untrained agent. Fails if the agents, the meaning of the networks' inputs and outputs, or the sizes differ.
+    /// Loads the weights into an untrained agent.
+    ///
+    /// # Errors
+    /// [`RunError::Origin`] if the agents, the meaning of the networks' inputs and outputs, or the sizes differ.
     pub fn load_into(&self, learner: &mut dyn Learner) -> Result<(), RunError> {
-        let refuse = |reason| RunError::Origin(self.start.path.clone(), reason);
+        let refuse = |reason| RunError::Origin { path: self.start.path.clone(), reason };
         let (found, expected) = (&self.start.agent, learner.agent());
         if found != expected {
             return Err(refuse(format!(

@@ -90,7 +90,10 @@ pub struct Group {
 }
 
 impl Group {
-    /// Creates a group with `seeds` seeds in `folder`, and the folder if it is missing. Fails if it already contains runs.
+    /// Creates a group with `seeds` seeds in `folder`, and the folder if it is missing.
+    ///
+    /// # Errors
+    /// [`RunError::Occupied`] if the folder already contains runs, and the errors of [`TrainingSpec::start`].
     pub fn create(folder: &Path, spec: TrainingSpec, seeds: u64, weights: Option<&Weights>) -> Result<Self, RunError> {
         // Fails before anything is written if the specification is not valid.
         spec.untrained(spec.plan.seed, weights)?;
@@ -155,13 +158,12 @@ impl Group {
         let mut last = None;
         let mut text = "shots,seeds,mean,sd,min,max\n".to_owned();
         for (shots, rewards) in rewards {
-            let (seeds, (mean, sd)) = (rewards.len(), mean_and_deviation(&rewards));
-            let min = rewards.iter().copied().fold(f64::INFINITY, f64::min);
-            let max = rewards.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            let shown = sd.map(|sd| sd.to_string()).unwrap_or_default();
+            let spread = Spread::of(shots, &rewards);
+            let Spread { seeds, mean, sd, min, max, .. } = spread;
+            let sd = sd.map(|sd| sd.to_string()).unwrap_or_default();
             // Writing to a string cannot fail.
-            let _ = writeln!(text, "{shots},{seeds},{mean},{shown},{min},{max}");
-            last = Some(Spread { shots, seeds, mean, sd, min, max });
+            let _ = writeln!(text, "{shots},{seeds},{mean},{sd},{min},{max}");
+            last = Some(spread);
         }
         let path = self.folder.join(SPREAD);
         write_atomic(&path, text.as_bytes()).map_err(file(&path))?;
@@ -185,4 +187,26 @@ pub struct Spread {
     pub sd: Option<f64>,
     pub min: f64,
     pub max: f64,
+}
+
+impl Spread {
+    fn of(shots: u64, rewards: &[f64]) -> Self {
+        let min = rewards.iter().copied().fold(f64::INFINITY, f64::min);
+        let max = rewards.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let (mean, sd) = mean_and_deviation(rewards);
+        Self { shots, seeds: rewards.len(), mean, sd, min, max }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_spread_uses_the_sample_formula() {
+        let spread = Spread::of(10, &[0.1, 0.2, 0.6]);
+        assert!((spread.mean - 0.3).abs() < 1e-15 && (spread.sd.unwrap() - 0.07f64.sqrt()).abs() < 1e-15);
+        assert_eq!((spread.seeds, spread.min, spread.max), (3, 0.1, 0.6));
+        assert_eq!(Spread::of(10, &[0.5]).sd, None);
+    }
 }

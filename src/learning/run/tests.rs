@@ -45,6 +45,18 @@ fn finish(run: &mut Run) -> (Ending, Vec<Record>, Vec<String>) {
     (ending.unwrap(), lines, warnings)
 }
 
+#[test]
+fn a_run_leaves_metrics_a_policy_and_a_checkpoint() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut run = small_run(folder.path());
+    let (ending, lines, warnings) = finish(&mut run);
+    assert!(is_finished(ending) && warnings.is_empty());
+    let shots: Vec<_> = lines.iter().map(|line| (line.shots, line.held_out_reward.is_some())).collect();
+    assert_eq!(shots, [(32, false), (64, true), (96, false), (128, true), (160, true)]);
+    let policy = Policy::load(&run.policy_path()).unwrap();
+    assert!(matches!(ending, Ending::Finished(score) if score.mean_reward == policy.origin().held_out_reward));
+}
+
 /// Trains a run whose `stop` function returns `true` at its call number `times`, counted from 0.
 fn stopped_after(run: &mut Run, times: u32) -> Result<Ending, RunError> {
     let calls = Cell::new(0);
@@ -245,8 +257,8 @@ fn requests_do_not_change_the_result_of_a_run() {
     assert_eq!(Request::receive(folder.path()), None);
     let other = tempfile::tempdir().unwrap();
     finish(&mut small_run(other.path()));
-    let checkpoint = |folder: &tempfile::TempDir| fs::read(folder.path().join(checkpoint::CURRENT)).unwrap();
-    assert!(checkpoint(&folder) == checkpoint(&other));
+    let [own, whole] = [&folder, &other].map(|folder| fs::read(folder.path().join(checkpoint::CURRENT)).unwrap());
+    assert!(own == whole);
 }
 
 #[test]
@@ -278,7 +290,7 @@ fn a_run_abandoned_during_its_last_evaluation_is_unfinished() {
 }
 
 #[test]
-fn a_run_leaves_its_files_and_a_follower_sees_it_start_and_end() {
+fn a_follower_sees_a_run_start_report_and_end() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("run");
     let (mut follower, mut followed) = (Follower::new(&path), Followed::new(&path));
@@ -286,11 +298,7 @@ fn a_run_leaves_its_files_and_a_follower_sees_it_start_and_end() {
     assert_eq!(followed.condition, Condition::Missing);
     assert!(follower.poll().is_none(), "nothing has changed");
     let mut run = small_run(&path);
-    let (ending, lines, warnings) = finish(&mut run);
-    let shots: Vec<_> = lines.iter().map(|line| (line.shots, line.held_out_reward.is_some())).collect();
-    assert_eq!(shots, [(32, false), (64, true), (96, false), (128, true), (160, true)]);
-    let reward = Policy::load(&run.policy_path()).unwrap().origin().held_out_reward;
-    assert!(warnings.is_empty() && matches!(ending, Ending::Finished(score) if score.mean_reward == reward));
+    finish(&mut run);
     let status = RunStatus::read(&path).unwrap();
     assert_eq!((status.phase, status.shots, status.process), (Phase::Finished, 160, std::process::id()));
     assert!(status.updates > 0 && status.replay_fill == Some(1.0) && status.exploration > 0.0, "{status:?}");

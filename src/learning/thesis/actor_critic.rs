@@ -147,7 +147,10 @@ impl ActorCritic {
         }
     }
 
-    /// Makes one update: the critic's step, the actor's step and both soft updates. Fails if the networks no longer return finite numbers.
+    /// Makes one update: the critic's step, the actor's step and both soft updates.
+    ///
+    /// # Errors
+    /// Fails if the networks no longer return finite numbers.
     pub fn update(&mut self, batch: &Batch, guidance: &Guidance) -> Result<UpdateStats> {
         let [[actor, critic], [target_actor, target_critic]] = [&self.online, &self.target];
         let [actor_optimiser, critic_optimiser] = &mut self.optimisers;

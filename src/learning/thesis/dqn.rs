@@ -178,8 +178,8 @@ impl Agent for Dqn {
     }
 
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError> {
-        writer.add_network("online", &self.online, false)?;
-        writer.add_network("target", &self.target, false)?;
+        writer.add_network("online", &self.online)?;
+        writer.add_network("target", &self.target)?;
         writer.add_optimiser("", &self.optimiser)?;
         let next = replay::save(&self.replay, MEMORY, writer);
         note_of(&DqnState { shots: self.shots, updates: self.optimiser.steps(), next })

@@ -38,7 +38,7 @@ fn from_numbers(numbers: &[f32; NUMBERS]) -> Transition {
 /// Adds a replay buffer to a file under `name`; returns the index of the slot that the next transition overwrites.
 pub fn save(buffer: &ReplayBuffer<Transition>, name: &str, writer: &mut Writer) -> usize {
     let numbers: Vec<f32> = buffer.stored().iter().flat_map(numbers).collect();
-    writer.add(name, &[buffer.stored().len(), NUMBERS], &numbers);
+    writer.add(name, &[buffer.len(), NUMBERS], &numbers);
     buffer.next()
 }
 
@@ -53,7 +53,7 @@ pub fn restore(
     let (shape, numbers) = reader.array(name)?;
     if shape.len() != 2 || shape[1] != NUMBERS || shape[0] > capacity {
         let expected = format!("at most {capacity} rows of {NUMBERS} values");
-        return Err(WeightsError::Array(name.to_owned(), expected));
+        return Err(WeightsError::Array { name: name.to_owned(), expected });
     }
     let stored = numbers.as_chunks::<NUMBERS>().0.iter().map(from_numbers).collect();
     Ok(ReplayBuffer::restore(capacity, stored, next))

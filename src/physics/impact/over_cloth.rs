@@ -13,7 +13,8 @@ use glam::DVec3;
 use super::{super::SpatialState, BallImpact, direction, separation_speed};
 use crate::physics::Cloth;
 
-/// Largest number of corrections of the normal impulse. On cloths up to a friction of one, each reduces the error to less than half.
+/// Largest number of corrections of the normal impulse. If they do not converge, as with a friction far above one, the impact takes place
+/// without them.
 const MAX_CORRECTIONS: u32 = 100;
 
 /// Share of the separation speed that may be missing after the corrections.
@@ -70,7 +71,7 @@ impl BallImpact {
         // Restitution of the balls and then of the cloth; a slow impact loses nothing.
         let restitution = self.restitution_at(approach) * cloth.restitution;
         let opening = separation_speed(approach, restitution, slowest);
-        let parts = 1.0 + along_table.length_squared();
+        let inverse_mass = 1.0 + along_table.length_squared();
         let before = [*upper, *lower];
         let pushed = |push: f64| {
             let [mut upper, mut lower] = before;
@@ -91,15 +92,15 @@ impl BallImpact {
         let missing = |[upper, lower]: &[SpatialState; 2]| opening - (upper.velocity - lower.velocity).dot(n);
         let energy =
             |balls: &[SpatialState; 2]| balls.iter().map(|ball| ball.specific_energy(radius, 0.0)).sum::<f64>();
-        let first = (approach + opening) / parts;
-        let alone = pushed(first);
-        let (mut push, mut after) = (first, alone);
+        let single = (approach + opening) / inverse_mass;
+        let alone = pushed(single);
+        let (mut push, mut after) = (single, alone);
         for _ in 0..MAX_CORRECTIONS {
             let short = missing(&after);
             if short <= f64::EPSILON * opening {
                 break;
             }
-            push += short / parts;
+            push += short / inverse_mass;
             after = pushed(push);
         }
         let is_solved = missing(&after) <= CORRECTED * opening && energy(&after) <= energy(&before);

@@ -54,7 +54,7 @@ pub struct Figures {
     /// Gap between two balls, or between ball and cushion, at a reported collision, m.
     #[serde(rename = "apart")]
     pub contact_gap: Worst,
-    /// Time by which the course runs backwards, s.
+    /// Time by which the course runs backwards or has a gap, s.
     pub backwards: Worst,
     /// Number of shots with a number that is not finite.
     pub not_finite: u64,
@@ -96,8 +96,8 @@ pub enum Violation {
     #[error("a collision over a gap of {value:.3e} m at {time} s", value = .0.value, time = .0.time)]
     #[serde(rename = "apart")]
     ContactGap(Worst),
-    /// Events out of order.
-    #[error("time runs backwards by {value:.3e} s at {time} s", value = .0.value, time = .0.time)]
+    /// Events out of order, or pieces of a course that do not cover the shot.
+    #[error("time runs backwards, or a course has a gap, by {value:.3e} s at {time} s", value = .0.value, time = .0.time)]
     Backwards(Worst),
     /// The shot was aborted, or balls still moved at its end.
     #[error("the shot does not end")]

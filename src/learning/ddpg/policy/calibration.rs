@@ -137,6 +137,10 @@ mod tests {
                 assert!((calibration.probability(1.5, errors) - logistic(1.5)).abs() < 1e-15);
             }
         }
+    }
+
+    #[test]
+    fn a_fit_to_successes_alone_gives_a_probability() {
         let certain = Calibration::of(&trials(0.0, |_| 1.0).collect::<Vec<_>>());
         assert!((0.9..=1.0).contains(&certain.probability(2.0, 0.0)), "{certain:?}");
     }

@@ -191,7 +191,7 @@ impl Policy {
     pub(in crate::learning) fn to_bytes(&self) -> Result<Vec<u8>, WeightsError> {
         let mut writer = Writer::default();
         for (name, network) in [("actor", &self.networks.actor), ("critic", &self.networks.critic)] {
-            writer.add_network(name, network, true)?;
+            writer.add_network_half(name, network)?;
         }
         let mut bytes = writer.finish(&Note { policy_checksum: CHECKSUM_PLACEHOLDER, origin: &self.origin })?;
         if write_checksum(POLICY_FIELD, &mut bytes) { Ok(bytes) } else { Err(WeightsError::Metadata) }
@@ -250,8 +250,17 @@ mod tests {
         let mut another = bundled();
         another.origin.seed += 1;
         assert_eq!(another.bundled_name(), None);
+        let [erring, flawless] =
+            [true, false].map(|errs| Policy::bundled_for(&own, Rule::ThreeCushion, errs).unwrap().unwrap());
+        assert_ne!(erring.origin().seed, flawless.origin().seed);
         let size: usize = BUNDLED.iter().map(|(.., bytes)| bytes.len()).sum();
         assert!(size <= 7_200_000, "{size} bytes of weights");
+    }
+
+    #[test]
+    fn a_missing_policy_is_reported() {
+        let missing = Policy::load(Path::new("none")).unwrap_err().to_string();
+        assert!(missing.contains("none") && missing.contains("cannot be read"), "{missing}");
     }
 
     #[test]
@@ -260,8 +269,18 @@ mod tests {
         let bytes = policy.to_bytes().unwrap();
         let read = |bytes: &[u8]| Policy::of_file(bytes, "it");
         assert_eq!(read(&bytes).unwrap().origin, policy.origin);
-        // The test of the checksum changes and cuts everywhere.
-        assert!(read(&bytes[..bytes.len() / 2]).is_err());
+        let header = 8 + usize::from(bytes[0]) + 256 * usize::from(bytes[1]);
+        // Changes bytes of the header and some of the weights.
+        for index in (0..header).step_by(5).chain((header..bytes.len()).step_by(bytes.len() / 50)) {
+            let mut damaged = bytes.clone();
+            damaged[index] ^= 1;
+            // A change in the checksum's field name removes the checksum and leaves the rest intact.
+            assert!(
+                read(&damaged).is_err() || index < header && read(&damaged).unwrap().origin == policy.origin,
+                "{index}"
+            );
+            assert!(read(&bytes[..index]).is_err(), "cut at {index}");
+        }
         let mut damaged = bytes;
         *damaged.last_mut().unwrap() ^= 1;
         let message = read(&damaged).unwrap_err().to_string();

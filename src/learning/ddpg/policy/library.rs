@@ -30,8 +30,13 @@ pub enum SavePolicyError {
     #[error(transparent)]
     Policy(#[from] PolicyError),
     /// The file cannot be written.
-    #[error("{0}: {1}")]
-    File(String, io::Error),
+    #[error("{path}: {reason}")]
+    File {
+        /// Path of the file.
+        path: String,
+        /// Error of the operating system.
+        reason: io::Error,
+    },
 }
 
 /// Returns the path of the policy `name` in `folder`, if it exists.
@@ -53,7 +58,7 @@ pub fn save(folder: &Path, policy: &Path, name: &str, replaces: bool) -> Result<
         return Err(SavePolicyError::Exists(name.to_owned()));
     }
     let (_, bytes) = Policy::load_with_bytes(policy)?;
-    write_atomic(&kept, &bytes).map_err(|reason| SavePolicyError::File(kept.display().to_string(), reason))?;
+    write_atomic(&kept, &bytes).map_err(|reason| SavePolicyError::File { path: kept.display().to_string(), reason })?;
     Ok(kept)
 }
 

@@ -170,7 +170,11 @@ mod tests {
         assert_eq!(at(Phase::Measuring, locked, 40), Condition::InPhase(Phase::Measuring));
         assert_eq!(at(Phase::Measuring, locked, 700), Condition::Stalled(Duration::from_secs(700)));
         assert_eq!(at(Phase::Stopped, free, 9999), Condition::InPhase(Phase::Stopped));
-        assert_eq!(at(Phase::Stopped, locked, 0), Condition::InPhase(Phase::Stopped), "it will release the lock");
+        assert_eq!(
+            at(Phase::Stopped, locked, 0),
+            Condition::InPhase(Phase::Stopped),
+            "it is about to release the lock"
+        );
         assert_eq!(at(Phase::Stopped, locked, 9), Condition::InPhase(Phase::Training), "it has been resumed");
     }
 

@@ -209,8 +209,10 @@ mod tests {
         };
         // No notice if shots were played since the last line, or if an earlier version has not stored the number of logged shots.
         assert_eq!((notices(2880, 2880), notices(960, 0)), (vec![], vec![]));
-        let cut_off = "metrics.jsonl has been emptied or cut off: it ends after 960 of the 3072 shots played";
-        assert_eq!(notices(960, 2880), [cut_off]);
+        assert_eq!(
+            notices(960, 2880),
+            ["metrics.jsonl has been emptied or cut off: it ends after 960 of the 3072 shots played"]
+        );
         // No notice while a resumed run has removed lines but has not written its status yet.
         let (mut follower, mut followed) = (Follower::new(folder.path()), Followed::new(folder.path()));
         followed.apply(follower.poll().unwrap());

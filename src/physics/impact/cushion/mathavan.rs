@@ -169,7 +169,7 @@ fn integrate(law: &Constants, restitution: f64, motion: &mut Velocities, steps: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::MAX_CLOTH_FRICTION;
+    use crate::table::{RailModel, max_sliding_friction};
     use rand::{RngExt, SeedableRng};
     use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -266,7 +266,7 @@ mod tests {
             let sine = (0.3 + number(0.35)).clamp(0.0, 0.6);
             let held = Constants {
                 nose: (0.5 + number(0.6)).clamp(0.0, 0.999),
-                cloth: (0.45 + number(0.45)).clamp(0.0, MAX_CLOTH_FRICTION),
+                cloth: (0.45 + number(0.45)).clamp(0.0, max_sliding_friction(RailModel::Mathavan)),
                 sine,
                 cosine: (1.0 - sine * sine).sqrt(),
             };

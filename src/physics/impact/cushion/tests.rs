@@ -101,7 +101,10 @@ proptest! {
     }
 
     #[test]
-    fn smooth_friction_never_exceeds_coulomb(ball in moving()) {
+    fn smooth_friction_never_exceeds_coulomb_or_its_limit(ball in moving()) {
+        let [smooth, sharp] = [RailModel::Smooth, RailModel::Nose].map(|model| hit(&cushion(model, 0.0365), &ball));
+        let taken = |after: BallState| (after.spin - ball.spin).length();
+        prop_assert!(taken(smooth) <= 1.146 * taken(sharp) * (1.0 + 1e-12));
         // With so little friction every impact slips. The spin changes by 5/(2R) times the friction impulse per mass.
         let rail = Rails { model: RailModel::Smooth, height: Some(0.0365), kappa: Some(1.146), ..Rails::default() };
         let table = Table { rail, radius: RADIUS, rail_restitution: 0.87, rail_friction: 0.02, ..Table::default() };

@@ -6,7 +6,7 @@ use ratatui::{
 };
 
 use crate::terminal::{
-    Settings, SettingsPage,
+    Settings, SettingsPage, Terms,
     config::{ENTRIES, Entry},
     pages::settings::view::write_words,
     ui::{Ui, columns, draw_title, list::Grouped, shorten, stepper},
@@ -14,9 +14,6 @@ use crate::terminal::{
 
 /// Width of the names, columns.
 const NAME: u16 = 13;
-
-/// Settings that the coach's page keeps from session to session, until they are changed in the file.
-const KEPT: [&str; 3] = ["rule", "skill", "plan"];
 
 /// The list, grouped.
 pub fn list(settings: &SettingsPage) -> Grouped<&'static Entry> {
@@ -54,7 +51,7 @@ fn draw_entry(settings: &SettingsPage, entry: &Entry, is_marked: bool, area: Rec
     let mut spans = stepper(Span::styled(text, value), is_marked, ui).to_vec();
     if let Some(other) = settings.different_value_in_file(entry) {
         let room = usize::from(area.right().saturating_sub(x)).saturating_sub(Line::from(spans.clone()).width());
-        let whole = if KEPT.contains(&entry.key) {
+        let whole = if Terms::KEPT.contains(&entry.key) {
             " now and at the next start".to_owned()
         } else {
             format!(" now; the next start uses {}", settings.display_value(&other))
@@ -83,7 +80,7 @@ fn draw_description(settings: &SettingsPage, area: Rect, ui: &mut Ui) {
     if let Some(other) = settings.different_value_in_file(entry) {
         let now = (entry.get)(&settings.settings);
         let keep = if settings.is_writable { format!(" Enter twice saves {now}.") } else { String::new() };
-        let words = if KEPT.contains(&entry.key) {
+        let words = if Terms::KEPT.contains(&entry.key) {
             format!("Now {now}, also at the next start. The file says {other}.{keep}")
         } else {
             format!("Now {now}; the next start uses {other}.{keep}")
