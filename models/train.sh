@@ -87,21 +87,21 @@ slower="--set critic_learning_rate=0.001 --set actor_learning_rate=0.0003 --set 
 perfect match-three-cushion-twelfth --from "$folder/match-three-cushion-eleventh" --seed 503 --steps 24000000 $slower
 perfect match-three-cushion-thirteenth --from "$folder/match-three-cushion-twelfth" --seed 504 --steps 16000000 $slower
 # Then only the critic learns.
-critic_only="--set ranking=0.7 --set actor_learning_rate=0.000000001 --set actor_batch=1"
+critic_only="--set ranking=0.7 --set actor_learning_rate=0.000000001 --set actor_batch_size=1"
 perfect match-three-cushion-fourteenth --from "$folder/match-three-cushion-thirteenth" --seed 505 --steps 14000000 $critic_only --set critic_learning_rate=0.0013
 perfect match-three-cushion --from "$folder/match-three-cushion-fourteenth" --seed 506 --steps 6000000 $critic_only --set critic_learning_rate=0.0003
 # First heads with separate speed ranges. Then expert iteration: a search finds the strokes that players with errors make most often. Then stages
 # without a search, in which the critic learns to choose; at three cushions only the critic learns, because there the actor went back to harder
 # strokes. Up to the 26th stage at three cushions, the searches compared 96 strokes of their own and the proposals, as in versions before
 # 2026-11-26.
-heads="$rate --set heads=9 --set actor_batch=64"
+heads="$rate --set heads=9 --set actor_batch_size=64"
 expert_iteration="--set ranking=0.4 --set searched=2 --set imitation=0.3"
 # The same with an actor that does not learn: its learning rate of 1e-9 was inherited with the weights, which was noticed only after the 22nd
 # stage at three cushions. In those stages the searches trained only the critic. They were run with imitation, which has no effect on such an
 # actor and is refused today.
 frozen_actor="--set ranking=0.4 --set searched=2 --set imitation=0"
 choice="--set new_actor=false --set searched=0 --set imitation=0"
-critic="--set ranking=0.7 --set critic_learning_rate=0.0013 --set actor_learning_rate=0.000000001 --set actor_batch=1"
+critic="--set ranking=0.7 --set critic_learning_rate=0.0013 --set actor_learning_rate=0.000000001 --set actor_batch_size=1"
 both="--set ranking=0.6 --set critic_learning_rate=0.0011 --set actor_learning_rate=0.0003"
 # Stopped by hand after 6,573,888 shots.
 context context-three-cushion-third --from "$folder/context-three-cushion-second" --seed 101 --steps 12000000 $heads --set ranking=0.5 \
@@ -129,7 +129,7 @@ context context-three-cushion-sixth --from "$folder/context-three-cushion-fifth"
 context context-three-cushion-seventh --from "$folder/context-three-cushion-sixth" --seed 241 --steps 4200000 $heads $choice $critic --set "$speeds"
 # More of both at three cushions, where the choice caused most of the loss. In the last stages only the critic learns, at a quarter of its
 # learning rate.
-fine="--set ranking=0.7 --set critic_learning_rate=0.0003 --set actor_learning_rate=0.000000001 --set actor_batch=1"
+fine="--set ranking=0.7 --set critic_learning_rate=0.0003 --set actor_learning_rate=0.000000001 --set actor_batch_size=1"
 context context-three-cushion-eighth --from "$folder/context-three-cushion-seventh" --seed 311 --steps 5000000 $heads $frozen_actor $keep_actor --set "$speeds"
 context context-three-cushion-ninth --from "$folder/context-three-cushion-eighth" --seed 321 --steps 6000000 $heads $frozen_actor $keep_actor --set "$speeds"
 context context-three-cushion-tenth --from "$folder/context-three-cushion-ninth" --seed 351 --steps 5000000 $heads $choice $critic --set "$speeds"

@@ -32,6 +32,9 @@ pub struct AgentKind {
     pub title: &'static str,
     /// Returns all settings, from an object of those that differ from the agent's defaults.
     pub settings: fn(&Value) -> Result<Value, StartError>,
+    /// Returns an object of settings with their current names in place of those of earlier versions. Fails if it contains both names of
+    /// one setting.
+    pub current_names: fn(&Value) -> Result<Value, StartError>,
     /// Creates an untrained agent for a plan on a table. The value is an object of the settings that differ from the agent's defaults.
     pub start: fn(TrainingPlan, Table, &Value) -> Created<StartError>,
     /// Restores the learner whose [`Learner::save`] filled the file and returned the note.
@@ -77,13 +80,35 @@ pub fn merge_settings(settings: &mut Value, changes: &Value, defaults: &Value) {
     }
 }
 
+/// Returns an object of settings with their current names in place of those of earlier versions, which are the serde aliases of `S`. Fails
+/// if it contains both names of one setting.
+pub(crate) fn current_names<S: Default + Serialize + DeserializeOwned>(object: &Value) -> Result<Value, StartError> {
+    let Value::Object(given) = object else { return Ok(object.clone()) };
+    let Value::Object(defaults) = settings_as_object(&S::default()) else { return Ok(object.clone()) };
+    let mut settings = serde_json::Map::new();
+    for (name, value) in given {
+        // With an alias next to its current name, serde reports the same field twice.
+        let is_alias = |(current, default): &(&String, &Value)| {
+            let both = S::deserialize(json!({ current.as_str(): default, name: default }));
+            both.is_err_and(|error| error.to_string() == format!("duplicate field `{current}`"))
+        };
+        let current = defaults.iter().find(is_alias).map_or(name, |(current, _)| current);
+        if current != name && given.contains_key(current) {
+            let reason = format!("{name} is the earlier name of {current}, and both are given; leave out one of them");
+            return Err(StartError::Settings(reason));
+        }
+        settings.insert(current.clone(), value.clone());
+    }
+    Ok(settings.into())
+}
+
 /// Returns an agent's settings, from an object of the settings (or parts of settings) that differ from its defaults. Fails if a setting is
 /// unknown or of another type, or if `validate` refuses the settings.
 pub(crate) fn settings_from<S: Default + Serialize + DeserializeOwned>(
     object: &Value,
     validate: impl Fn(&S) -> Result<(), SettingError>,
 ) -> Result<S, StartError> {
-    let defaults = settings_as_object(&S::default());
+    let (object, defaults) = (&current_names::<S>(object)?, settings_as_object(&S::default()));
     let read = |changes: &Value| {
         let mut settings = defaults.clone();
         merge_settings(&mut settings, changes, &defaults);

@@ -26,7 +26,7 @@ use crate::{
         },
         nn::{adam::AdamConfig, mlp::Operations},
         thesis::{
-            actor_critic::{ActorCritic, Guidance, Rates, sizes},
+            actor_critic::{ActorCritic, ActorLoss, Rates, sizes},
             replay::Batch,
         },
     },
@@ -195,10 +195,10 @@ fn thesis_updates(
 ) -> candle_core::Result<f64> {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
     // A small learning rate keeps the networks finite: training on one batch over and over cannot converge to anything useful.
-    let rates = Rates { adam: AdamConfig { learning_rate: 1e-6, gradient_clip: 1.0 }, target_retention: 0.999 };
+    let rates = Rates { adam: AdamConfig { learning_rate: 1e-6, max_grad_norm: 1.0 }, polyak: 0.999 };
     let mut agent = ActorCritic::random(&sizes(actor, critic), rates, &mut rng)?.with_operations(operations);
     let batch = Batch::random(rows, goes_on, &mut rng)?;
-    updates_a_second(time, || agent.update(&batch, &Guidance::NONE))
+    updates_a_second(time, || agent.update(&batch, &ActorLoss::POLICY_GRADIENT))
 }
 
 /// Measures updates of the coach's networks on a fixed batch, with the default settings except for the learning rates.
@@ -206,7 +206,7 @@ fn coach_updates(time: Duration, table: &Table, operations: Operations) -> candl
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(SEED);
     let settings =
         Hyperparameters { critic_learning_rate: 1e-6, actor_learning_rate: 1e-6, ..Hyperparameters::default() };
-    let (rows, space) = (settings.batch, settings.actions);
+    let (rows, space) = (settings.batch_size, settings.actions);
     let observations = (0..rows).map(|row| Observation::new(&Layout::random(table, &mut rng), row % 4)).collect();
     let observed = ObservationBatch::on(&Arc::new(table.clone()), space, observations)?;
     let actions: Vec<Action> = (0..rows).map(|_| std::array::from_fn(|_| rng.random_range(-1.0..1.0))).collect();

@@ -9,6 +9,7 @@ mod physics_properties;
 mod reference;
 mod rules;
 mod screens;
+mod setting_names;
 mod source_rules;
 mod stability;
 mod thesis_agents;

@@ -84,7 +84,7 @@ fn q_learning_finds_the_optimum() {
 #[test]
 fn deep_q_learning_finds_the_optimum() {
     let epsilon = Epsilon { first: 1.0, last: 0.1, over: 3_000 };
-    let settings = DqnSettings { target_every: 200, memory: 5_000, epsilon, ..DqnSettings::default() };
+    let settings = DqnSettings { target_update_interval: 200, buffer_size: 5_000, epsilon, ..DqnSettings::default() };
     assert!(trained_reward::<Dqn>(settings.clone(), 0, 1) < 0.9, "chance alone must not pass");
     let earned = trained_reward::<Dqn>(settings, 5_000, 1);
     assert!(earned > 0.9, "{earned}");
@@ -95,7 +95,7 @@ fn the_deterministic_policy_gradient_finds_the_optimum() {
     // Strong noise that continues from game to game, and fast target updates: the defaults are for far more shots. With some seeds the
     // plain algorithm fails even so: of 16 seeds two do, and rounding decides which ones and may cost a third.
     let noise = OrnsteinUhlenbeck { theta: 0.15, sigma: 0.3, dt: 1.0 };
-    let settings = PlainDdpgSettings { keep: 0.99, noise, noise_restarts: false, ..PlainDdpgSettings::default() };
+    let settings = PlainDdpgSettings { polyak: 0.99, noise, noise_restarts: false, ..PlainDdpgSettings::default() };
     let all = |shots: u32| {
         (1..=16).map(|seed| trained_reward::<PlainDdpg>(settings.clone(), shots, seed)).collect::<Vec<_>>()
     };
@@ -126,8 +126,9 @@ const AGENTS: [&str; 3] = ["q-learning", "dqn", "thesis-ddpg"];
 fn a_resumed_agent_with_lessons_equals_an_uninterrupted_one() {
     // When the agent is saved, layouts are left to search, and more lessons were found than fit into memory.
     let settings = json!({
-        "hindsight": 0.4, "demonstrations": 0.3, "demonstration_layouts": 330, "demonstration_tries": 60, "memory": 50,
-        "noise_falls_to": 0.5, "learning_rate_falls_to": 0.5, "falls_over": 400, "symmetric": true, "range_pull": 0.3,
+        "hindsight": 0.4, "demonstrations": 0.3, "demonstration_layouts": 330, "demonstration_tries": 60, "buffer_size": 50,
+        "noise_end_factor": 0.5, "learning_rate_end_factor": 0.5, "decay_steps": 400, "symmetry_augmentation": true,
+        "bounds_penalty": 0.3,
     });
     let plan = TrainingPlan { reward: Reward::R3, seed: 5, shots: 650 };
     let start =
@@ -187,12 +188,12 @@ fn checkpoints_older_than_lessons_resume_identically() {
         "actor_layers",
         "critic_layers",
         "learning_rate",
-        "keep",
-        "gradient_clip",
-        "memory",
-        "discount",
-        "batch",
-        "warm_up",
+        "polyak",
+        "max_grad_norm",
+        "buffer_size",
+        "gamma",
+        "batch_size",
+        "learning_starts",
         "noise",
         "noise_restarts",
     ];
@@ -210,7 +211,7 @@ fn a_resumed_agent_equals_an_uninterrupted_one() {
         for episode in [json!("one-shot"), json!({ "shots": 7 })] {
             let mut settings = json!({ "episode": episode });
             if agent != "q-learning" {
-                settings["memory"] = json!(300);
+                settings["buffer_size"] = json!(300);
             }
             let mut whole = start(agent, &settings);
             let mut parts = start(agent, &settings);

@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::{Args, failure};
 use crate::{
@@ -126,10 +126,7 @@ fn build_spec(args: &Args, base: Option<Base>) -> Result<TrainingSpec, Failure> 
     };
     // Settings of another agent are meaningless here. That its weights cannot be used either is reported when they are loaded.
     let known = base.filter(|base| base.agent == agent).map(|base| base.settings);
-    // An unknown agent is refused by name when the run starts.
-    let of_kind = |kind: AgentKind| (kind.settings)(&serde_json::json!({})).ok();
-    let defaults = AgentKind::named(&agent).ok().and_then(of_kind).unwrap_or_default();
-    let settings = settings(args.config.as_deref(), &args.set, known, &defaults)?;
+    let settings = settings(args, known.unwrap_or_else(|| json!({})), &agent)?;
     let layouts = args.evaluation_layouts as usize;
     let every = args.evaluate_every.unwrap_or(Schedule::for_shots(args.steps).evaluate_every);
     let plan = TrainingPlan { reward, seed: args.seed, shots: args.steps };
@@ -236,24 +233,32 @@ fn stored_spec(folder: &Path) -> Option<(TrainingSpec, Option<Provenance>, Optio
     Some((TrainingSpec { agent, plan, settings, schedule, table }, from, None))
 }
 
-/// Returns the settings `known`, overridden by the TOML file at `path` and then by the pairs in `set`. If the agent's `defaults` are
-/// nested, a part can be set alone.
-fn settings(path: Option<&Path>, set: &[String], known: Option<Value>, defaults: &Value) -> Result<Value, Failure> {
-    let mut settings = known.unwrap_or_else(|| serde_json::json!({}));
-    if let Some(path) = path {
+/// Returns the settings `known`, overridden by the file of --config and then by the pairs of --set, under their current names. If a default
+/// of the agent is nested, a part can be set alone.
+fn settings(args: &Args, known: Value, agent: &str) -> Result<Value, Failure> {
+    // An unknown agent is refused by name when the run starts.
+    let Ok(kind) = AgentKind::named(agent) else { return Ok(known) };
+    let [mut settings, mut from_file, mut from_pairs] = [known, json!({}), json!({})];
+    let defaults = (kind.settings)(&json!({})).unwrap_or_default();
+    if let Some(path) = &args.config {
         let shown = format!("the settings in {}", path.display());
         let text = storage::read_text(path, storage::MAX_SMALL_FILE)
             .map_err(|error| Failure::failed(format_args!("{shown} cannot be read: {error}")))?;
-        replace(&mut settings, &text, &shown, defaults)?;
+        replace(&mut from_file, &text, &shown, &defaults)?;
     }
-    for pair in set {
+    for pair in &args.set {
         let shown = format!("--set {pair}");
         let Some((name, value)) = pair.split_once('=').filter(|(name, _)| !name.trim().is_empty()) else {
             return Err(Failure::wrong_input(format_args!("{shown}: write NAME=VALUE, like heads=8")));
         };
         // A word needs no quotes here.
         let value: toml::Value = value.parse().unwrap_or_else(|_| toml::Value::String(value.to_owned()));
-        replace(&mut settings, &format!("{name} = {value}"), &shown, defaults)?;
+        replace(&mut from_pairs, &format!("{name} = {value}"), &shown, &defaults)?;
+    }
+    let current = |settings: &Value| (kind.current_names)(settings).map_err(|error| failure(error.into()));
+    settings = current(&settings)?;
+    for changes in [from_file, from_pairs] {
+        merge_settings(&mut settings, &current(&changes)?, &defaults);
     }
     Ok(settings)
 }
@@ -275,7 +280,7 @@ fn replace(settings: &mut Value, text: &str, origin: &str, defaults: &Value) -> 
         if value.is_null() {
             return Err(refuse(&format!("{name} is not a finite number")));
         }
-        merge_settings(settings, &serde_json::json!({ name: value }), defaults);
+        merge_settings(settings, &json!({ name: value }), defaults);
     }
     Ok(())
 }

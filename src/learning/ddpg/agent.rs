@@ -87,15 +87,16 @@ impl Ddpg {
         self.critic_optimiser.set_learning_rate(lr_factor * self.hyper.critic_learning_rate);
         self.critic_optimiser.backward_step(&loss)?;
 
-        let (mut goal, probability) = self.actor_objective(&played.observed.first(self.hyper.actor_batch)?)?;
+        let (mut objective, probability) =
+            self.actor_objective(&played.observed.first(self.hyper.actor_batch_size)?)?;
         if let Some(searched) = searched {
-            goal = (goal - (self.imitation_loss(searched)? * self.hyper.imitation)?)?;
+            objective = (objective - (self.imitation_loss(searched)? * self.hyper.imitation)?)?;
         }
         self.actor_optimiser.set_learning_rate(lr_factor * self.hyper.actor_learning_rate);
-        self.actor_optimiser.backward_step(&goal.neg()?)?;
+        self.actor_optimiser.backward_step(&objective.neg()?)?;
 
-        soft_update(self.target.critic.parameters(), self.online.critic.parameters(), self.hyper.target_rate)?;
-        soft_update(self.target.actor.parameters(), self.online.actor.parameters(), self.hyper.target_rate)?;
+        soft_update(self.target.critic.parameters(), self.online.critic.parameters(), self.hyper.tau)?;
+        soft_update(self.target.actor.parameters(), self.online.actor.parameters(), self.hyper.tau)?;
         let number = |tensor: &Tensor| tensor.to_scalar::<f32>().map(f64::from);
         Ok(UpdateStats { loss: number(&loss)?, value: number(&probability)? })
     }
@@ -136,12 +137,12 @@ impl Ddpg {
         let actions = self.online.squash(&outputs)?;
         let logits = self.online.critic.forward_frozen(&observed.with_actions(&actions)?)?;
         let probability = sigmoid(&logits)?.mean_all()?;
-        let goal = (&probability + (logits.mean_all()? * self.hyper.logit_weight)?)?;
+        let objective = (&probability + (logits.mean_all()? * self.hyper.logit_weight)?)?;
         if self.hyper.saturation_penalty == 0.0 {
-            return Ok((goal, probability));
+            return Ok((objective, probability));
         }
         let excess = (outputs.abs()? - SATURATED)?.relu()?.sqr()?.mean_all()?;
-        Ok(((goal - (excess * self.hyper.saturation_penalty)?)?, probability))
+        Ok(((objective - (excess * self.hyper.saturation_penalty)?)?, probability))
     }
 }
 
@@ -220,9 +221,9 @@ mod tests {
         (agent, ShotBatch { observed, actions, successes })
     }
 
-    /// Relative difference between the finite-difference slope of `goal` along its own gradient and the gradient's length.
-    fn error_of_gradient(network: &Mlp, goal: impl Fn() -> Tensor) -> f64 {
-        let gradients = goal().backward().unwrap();
+    /// Relative difference between the finite-difference slope of `objective` along its own gradient and the gradient's length.
+    fn error_of_gradient(network: &Mlp, objective: impl Fn() -> Tensor) -> f64 {
+        let gradients = objective().backward().unwrap();
         let gradient = gradients.get(network.parameters()).unwrap();
         let length = gradient.sqr().unwrap().sum_all().unwrap().to_scalar::<f32>().unwrap().sqrt();
         assert!(length > 1e-3);
@@ -230,7 +231,7 @@ mod tests {
         let at = |step: f32| {
             let moved = (&start + (gradient * f64::from(step / length)).unwrap()).unwrap();
             network.parameters().set(&moved).unwrap();
-            f64::from(goal().to_scalar::<f32>().unwrap())
+            f64::from(objective().to_scalar::<f32>().unwrap())
         };
         let slope = (at(1e-3) - at(-1e-3)) / 2e-3;
         network.parameters().set(&start).unwrap();
@@ -261,8 +262,8 @@ mod tests {
     #[test]
     fn actor_objectives_leave_the_critic_unchanged() {
         let (agent, batch) = agent_and_batch(ActionSpace::Full, 21);
-        for goal in [agent.actor_objective(&batch.observed).unwrap().0, agent.imitation_loss(&batch).unwrap()] {
-            let gradients = goal.backward().unwrap();
+        for objective in [agent.actor_objective(&batch.observed).unwrap().0, agent.imitation_loss(&batch).unwrap()] {
+            let gradients = objective.backward().unwrap();
             assert!(gradients.get(agent.online.critic.parameters()).is_none());
             assert!(gradients.get(agent.online.actor.parameters()).is_some());
         }
@@ -284,7 +285,7 @@ mod tests {
         let hyper = Hyperparameters {
             actor_layers: layers.clone(),
             critic_layers: layers,
-            target_rate: 0.02,
+            tau: 0.02,
             critic_learning_rate: 3e-3,
             actor_learning_rate: 3e-3,
             actions: ActionSpace::PhiV,

@@ -16,7 +16,8 @@ use crate::learning::{
 /// make 24 proposals for straight paths.)
 pub const RANKED: usize = 8;
 
-/// The hyperparameters. The bundled policies were trained with the defaults, except for the differences listed in the model card.
+/// The hyperparameters. The bundled policies were trained with the defaults, except for the differences listed in the model card. A
+/// serde `alias` is the name of a setting in earlier versions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[expect(clippy::struct_excessive_bools, reason = "each is an independent setting")]
@@ -48,13 +49,17 @@ pub struct Hyperparameters {
     /// Learning rate of the actor at the start, with the same schedule: lower, so that the actor follows a critic that has settled.
     pub actor_learning_rate: f64,
     /// Largest norm of a gradient; longer ones are scaled down to it.
-    pub gradient_clip: f64,
-    /// Rate of the target networks' soft update. The thesis' 0.001.
-    pub target_rate: f64,
+    #[serde(alias = "gradient_clip")]
+    pub max_grad_norm: f64,
+    /// Rate of the target networks' soft update: `target = tau * online + (1 - tau) * target`. The thesis' 0.001.
+    #[serde(alias = "target_rate")]
+    pub tau: f64,
     /// Shots in the minibatch of a critic update.
-    pub batch: usize,
+    #[serde(alias = "batch")]
+    pub batch_size: usize,
     /// Observations of the minibatch that update the actor; each costs one row of the critic per head.
-    pub actor_batch: usize,
+    #[serde(alias = "actor_batch")]
+    pub actor_batch_size: usize,
     /// New shots before every update.
     pub shots_per_update: usize,
     /// Share of the unranked shots (see `ranking`) that are played near the critic's favourite among all heads in all observations
@@ -67,7 +72,8 @@ pub struct Hyperparameters {
     pub attempts: usize,
     /// Capacity of the replay buffer, in shots. A shot's outcome never changes, but old shots are about actions that the actor no longer
     /// proposes.
-    pub replay: usize,
+    #[serde(alias = "replay")]
+    pub buffer_size: usize,
     /// Layouts before every update on which a search finds strokes that a player with errors makes often (expert iteration). Each takes
     /// about as long as an update and its shots (1.2 times on one core).
     pub searched: usize,
@@ -110,15 +116,15 @@ impl Default for Hyperparameters {
             critic_layers: vec![320, 320, 320],
             critic_learning_rate: 1.5e-3,
             actor_learning_rate: 4e-4,
-            gradient_clip: 1.0,
-            target_rate: 1e-3,
-            batch: 512,
-            actor_batch: 96,
+            max_grad_norm: 1.0,
+            tau: 1e-3,
+            batch_size: 512,
+            actor_batch_size: 96,
             shots_per_update: 192,
             critic_chooses: 0.3,
             ranking: 0.0,
             attempts: 1,
-            replay: 1 << 17,
+            buffer_size: 1 << 17,
             searched: 0,
             imitation: 0.0,
             logit_weight: 0.02,
@@ -151,7 +157,7 @@ impl Hyperparameters {
     /// Returns the optimiser settings of the actor and of the critic at the start of a run.
     pub fn adam(&self) -> [AdamConfig; 2] {
         [self.actor_learning_rate, self.critic_learning_rate]
-            .map(|learning_rate| AdamConfig { learning_rate, gradient_clip: self.gradient_clip })
+            .map(|learning_rate| AdamConfig { learning_rate, max_grad_norm: self.max_grad_norm })
     }
 
     pub fn validate(&self) -> Result<(), SettingError> {
@@ -163,16 +169,15 @@ impl Hyperparameters {
             let accept = least <= *low && low < high && *high <= most;
             check("head_speeds", shown, accept, "[low, high] with 0.3 <= low < high <= 6 m/s")?;
         }
-        check_batch("batch", self.batch)?;
-        check_batch("actor_batch", self.actor_batch)?;
+        check_batch("batch_size", self.batch_size)?;
+        check_batch("actor_batch_size", self.actor_batch_size)?;
         check_batch("shots_per_update", self.shots_per_update)?;
         check_batch("attempts", self.attempts)?;
-        check_count("replay", self.replay)?;
+        check_count("buffer_size", self.buffer_size)?;
         check_positive("critic_learning_rate", self.critic_learning_rate)?;
         check_positive("actor_learning_rate", self.actor_learning_rate)?;
-        check_positive("gradient_clip", self.gradient_clip)?;
-        let rate = self.target_rate;
-        check("target_rate", rate, 0.0 < rate && rate <= 1.0, "more than 0, up to 1")?;
+        check_positive("max_grad_norm", self.max_grad_norm)?;
+        check("tau", self.tau, 0.0 < self.tau && self.tau <= 1.0, "more than 0, up to 1")?;
         check_share("critic_chooses", self.critic_chooses)?;
         check_share("perfect", self.perfect)?;
         check_share("ranking", self.ranking)?;

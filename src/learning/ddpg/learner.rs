@@ -16,8 +16,8 @@ use crate::{
     learning::{
         evaluation::Score,
         learner::{
-            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, UpdateStats, settings_as_object,
-            settings_from,
+            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, UpdateStats, current_names,
+            settings_as_object, settings_from,
         },
         nn::weights::{Reader, WeightsError, Writer},
     },
@@ -38,6 +38,7 @@ pub const AGENT: AgentKind = AgentKind {
     name: "ddpg",
     title: "deep deterministic policy gradient with several actor heads",
     settings: |settings| hyperparameters(settings).map(|hyperparameters| settings_as_object(&hyperparameters)),
+    current_names: current_names::<Hyperparameters>,
     start: |plan, table, settings| {
         Ok(Box::new(Trainer::new(Task { plan, hyperparameters: hyperparameters(settings)? }, table)?))
     },
@@ -99,7 +100,8 @@ impl Learner for Trainer {
         let lr_factor = self.lr_factor();
         let mean_reward = self.play()?;
         let hyper = &self.task.hyperparameters;
-        let (batch, imitation_batch) = (hyper.batch, if hyper.imitation > 0.0 { hyper.actor_batch } else { 0 });
+        let (batch, imitation_batch) =
+            (hyper.batch_size, if hyper.imitation > 0.0 { hyper.actor_batch_size } else { 0 });
         let played = self.replay.sample(batch, &mut self.rng);
         let searched = self.searched.sample(imitation_batch, &mut self.rng);
         let (played, searched) =

@@ -99,9 +99,9 @@ pub fn read(reader: &Reader<'_>, note: Value) -> Result<Trainer, WeightsError> {
         online,
         target,
     };
-    let replay = ReplayBuffer::restore(hyper.replay, transitions(reader, "replay", inputs)?, note.replay_next);
+    let replay = ReplayBuffer::restore(hyper.buffer_size, transitions(reader, "replay", inputs)?, note.replay_next);
     let searched = if hyper.searched > 0 { transitions(reader, "searched", inputs)? } else { Vec::new() };
-    let searched = ReplayBuffer::restore(hyper.replay, searched, note.searched_next);
+    let searched = ReplayBuffer::restore(hyper.buffer_size, searched, note.searched_next);
     let TrainerState { task, table, rng, shots, updates, .. } = note;
     let table = Arc::new(table);
     let tables = RandomizedTables::new(&table, inputs, task.plan.seed);

@@ -48,7 +48,7 @@ impl Trainer {
     pub fn new(task: Task, table: Table) -> Result<Self> {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(task.plan.seed);
         let agent = Ddpg::new(task.hyperparameters.clone(), &mut rng)?;
-        let [replay, searched] = [(); 2].map(|()| ReplayBuffer::new(task.hyperparameters.replay));
+        let [replay, searched] = [(); 2].map(|()| ReplayBuffer::new(task.hyperparameters.buffer_size));
         let table = Arc::new(table);
         let tables = RandomizedTables::new(&table, task.hyperparameters.inputs(), task.plan.seed);
         Ok(Self { task, table, tables, agent, replay, searched, rng, shots: 0, updates: 0 })
@@ -105,10 +105,10 @@ pub(in crate::learning) mod tests {
         let hyperparameters = Hyperparameters {
             actor_layers: vec![16],
             critic_layers: vec![16, 16],
-            batch: 32,
-            actor_batch: 8,
+            batch_size: 32,
+            actor_batch_size: 8,
             shots_per_update: 16,
-            replay: 100,
+            buffer_size: 100,
             calibrated: 200,
             ..Hyperparameters::default()
         };
@@ -155,10 +155,10 @@ pub(in crate::learning) mod tests {
         let hyperparameters = Hyperparameters {
             actor_layers: vec![64, 64],
             critic_layers: vec![64, 64],
-            batch: 128,
-            actor_batch: 32,
+            batch_size: 128,
+            actor_batch_size: 32,
             shots_per_update: 64,
-            target_rate: 0.01,
+            tau: 0.01,
             ..Hyperparameters::default()
         };
         let task = Task { plan: TrainingPlan { reward: Reward::R3, seed: 1, shots: 64 * 1_000 }, hyperparameters };

@@ -10,7 +10,7 @@ use super::tensors::{stored_values, values};
 pub struct AdamConfig {
     pub learning_rate: f64,
     /// Largest norm of the gradient over all variables; a longer gradient is scaled down to it.
-    pub gradient_clip: f64,
+    pub max_grad_norm: f64,
 }
 
 /// Adam (Kingma and Ba 2015).
@@ -64,20 +64,20 @@ impl Optimizer for Adam {
             .collect();
         let squares: Vec<f64> = found.iter().map(|(.., gradient)| squares(gradient)).collect::<Result<_>>()?;
         let length = squares.iter().sum::<f64>().sqrt();
-        let AdamConfig { learning_rate, gradient_clip } = self.config;
+        let AdamConfig { learning_rate, max_grad_norm } = self.config;
         // A step with such a gradient would destroy the network.
         if !length.is_finite() {
             bail!(
                 "the gradient is not finite: the learning rate {learning_rate} may be too high; start a new run with a lower one"
             );
         }
-        let scale = (gradient_clip / length).min(1.0) as f32;
+        let scale = (max_grad_norm / length).min(1.0) as f32;
         self.steps += 1;
         let correction = BETA.map(|beta| 1.0 - f64::from(beta).powi(self.steps.cast_signed()));
         let descend = Descend { rate: (learning_rate / correction[0]) as f32, unbias: (1.0 / correction[1]) as f32 };
         for (variable, [first, second], gradient) in found {
-            first.inplace_op2(gradient, &Blend { keep: BETA[0], scale, squared: false })?;
-            second.inplace_op2(gradient, &Blend { keep: BETA[1], scale, squared: true })?;
+            first.inplace_op2(gradient, &Blend { decay: BETA[0], scale, squared: false })?;
+            second.inplace_op2(gradient, &Blend { decay: BETA[1], scale, squared: true })?;
             variable.inplace_op3(first, second, &descend)?;
         }
         Ok(())
@@ -92,9 +92,9 @@ impl Optimizer for Adam {
     }
 }
 
-/// Moves the target network's parameters the fraction `rate` of the way to the online network's (Polyak averaging).
-pub fn soft_update(target: &Var, online: &Var, rate: f64) -> Result<()> {
-    target.inplace_op2(online.as_tensor(), &Blend { keep: (1.0 - rate) as f32, scale: 1.0, squared: false })
+/// Moves the target network's parameters the fraction `tau` of the way to the online network's (Polyak averaging).
+pub fn soft_update(target: &Var, online: &Var, tau: f64) -> Result<()> {
+    target.inplace_op2(online.as_tensor(), &Blend { decay: (1.0 - tau) as f32, scale: 1.0, squared: false })
 }
 
 /// Sum of the squares of a tensor's values.
@@ -113,9 +113,9 @@ fn squares(tensor: &Tensor) -> Result<f64> {
     Ok(sums.into_iter().chain(rest.iter().map(|x| x * x)).map(f64::from).sum())
 }
 
-/// `x <- keep x + (1 - keep) y`, where y is `scale` times the other tensor, or the square of that.
+/// `x <- decay x + (1 - decay) y`, where y is `scale` times the other tensor, or the square of that.
 struct Blend {
-    keep: f32,
+    decay: f32,
     scale: f32,
     squared: bool,
 }
@@ -128,17 +128,17 @@ impl InplaceOp2 for Blend {
     fn cpu_fwd(&self, s1: &mut CpuStorage, l1: &Layout, s2: &CpuStorage, l2: &Layout) -> Result<()> {
         let (to, from) = (values_mut(s1, l1)?, values(s2, l2)?);
         same_length(to, from)?;
-        let Self { keep, scale, squared } = *self;
+        let Self { decay, scale, squared } = *self;
         // Dispatched so that the loops are compiled for the wide registers of the processor in use.
         Arch::new().dispatch(|| {
             if squared {
                 for (x, y) in to.iter_mut().zip(from) {
                     let y = scale * y;
-                    *x = keep * *x + (1.0 - keep) * y * y;
+                    *x = decay * *x + (1.0 - decay) * y * y;
                 }
             } else {
                 for (x, y) in to.iter_mut().zip(from) {
-                    *x = keep * *x + (1.0 - keep) * scale * y;
+                    *x = decay * *x + (1.0 - decay) * scale * y;
                 }
             }
         });
@@ -199,7 +199,7 @@ mod tests {
         Var::new(values, &Device::Cpu).unwrap()
     }
 
-    const CONFIG: AdamConfig = AdamConfig { learning_rate: 0.01, gradient_clip: f64::INFINITY };
+    const CONFIG: AdamConfig = AdamConfig { learning_rate: 0.01, max_grad_norm: f64::INFINITY };
 
     #[test]
     fn a_hundred_steps_agree_with_candles_optimiser() {
@@ -222,7 +222,7 @@ mod tests {
     #[test]
     fn the_gradient_norm_is_clipped_over_all_variables() {
         let (x, y) = (variable(&[3.0]), variable(&[4.0]));
-        let mut adam = Adam::new(vec![x.clone(), y.clone()], AdamConfig { gradient_clip: 1.0, ..CONFIG }).unwrap();
+        let mut adam = Adam::new(vec![x.clone(), y.clone()], AdamConfig { max_grad_norm: 1.0, ..CONFIG }).unwrap();
         let loss = ((x.sqr().unwrap() + y.sqr().unwrap()).unwrap() * 0.5).unwrap().sum_all().unwrap();
         adam.backward_step(&loss).unwrap();
         // After one step the averages are a tenth of the gradient, whose length was five.

@@ -27,14 +27,14 @@ pub fn sizes(actor: &[usize], critic: &[usize]) -> [Vec<usize>; 2] {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates {
     pub adam: AdamConfig,
-    /// The part k of the target networks that a soft update keeps (equation 59).
-    pub target_retention: f64,
+    /// Soft update: `target = polyak * target + (1 - polyak) * online` (equation 59, with k in place of polyak).
+    pub polyak: f64,
 }
 
-/// Terms of the actor's loss in addition to the deterministic policy gradient.
+/// The actor's loss: the deterministic policy gradient and further terms.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Guidance {
-    /// Weight of the policy gradient, the ascent on the critic.
+pub struct ActorLoss {
+    /// Weight of the deterministic policy gradient, the ascent on the critic.
     pub policy_gradient: f64,
     /// Number of lessons, which are the first rows of a batch: the actor moves towards the actions in these rows.
     pub lessons: usize,
@@ -43,16 +43,17 @@ pub struct Guidance {
     /// Standard deviations, in direction and speed, of the Gaussian by which a lesson counts less the farther it is from the actor's own
     /// action. If several different shots make the point, the actor follows the nearest one and not their mean, which makes none.
     pub width: [f64; 2],
-    /// Weight of the pull that brings actions outside the range back into it.
-    pub pull: f64,
+    /// Weight of the penalty on actions out of range.
+    pub bounds_penalty: f64,
 }
 
-impl Guidance {
+impl ActorLoss {
     /// The policy gradient alone.
-    pub const NONE: Self = Self { policy_gradient: 1.0, lessons: 0, cloning: 0.0, width: [1.0; 2], pull: 0.0 };
+    pub const POLICY_GRADIENT: Self =
+        Self { policy_gradient: 1.0, lessons: 0, cloning: 0.0, width: [1.0; 2], bounds_penalty: 0.0 };
 
-    /// Returns the actor's loss, from the sum of the critic's values of its `actions`.
-    fn loss(&self, values: &Tensor, actions: &Tensor, batch: &Batch) -> Result<Tensor> {
+    /// Returns the loss, from the sum of the critic's values of its `actions`.
+    fn of(&self, values: &Tensor, actions: &Tensor, batch: &Batch) -> Result<Tensor> {
         let rows = actions.dim(0)? as f64;
         let mut loss = (values * (-self.policy_gradient / rows))?;
         if self.lessons > 0 {
@@ -63,9 +64,9 @@ impl Guidance {
             let gaussians = (squared_distance * -0.5)?.exp()?.sum_all()?;
             loss = (loss - (gaussians * (self.cloning * self.width[0] / rows))?)?;
         }
-        if self.pull > 0.0 {
+        if self.bounds_penalty > 0.0 {
             let excess = (actions - actions.detach().clamp(-1f32, 1f32)?)?;
-            loss = (loss + (excess.sqr()?.sum_all()? * (0.5 * self.pull / rows))?)?;
+            loss = (loss + (excess.sqr()?.sum_all()? * (0.5 * self.bounds_penalty / rows))?)?;
         }
         Ok(loss)
     }
@@ -151,7 +152,7 @@ impl ActorCritic {
     ///
     /// # Errors
     /// Fails if the networks no longer return finite numbers.
-    pub fn update(&mut self, batch: &Batch, guidance: &Guidance) -> Result<UpdateStats> {
+    pub fn update(&mut self, batch: &Batch, actor_loss: &ActorLoss) -> Result<UpdateStats> {
         let [[actor, critic], [target_actor, target_critic]] = [&self.online, &self.target];
         let [actor_optimiser, critic_optimiser] = &mut self.optimisers;
         // The critic moves towards its targets: the reward plus, if the episode continued, the discounted value that the target critic
@@ -163,13 +164,13 @@ impl ActorCritic {
         let loss = squared_error(&critic.forward(&Tensor::cat(&[&batch.states, &batch.actions], 1)?)?, &targets)?;
         critic_optimiser.backward_step(&loss)?;
 
-        // The actor ascends the critic (the deterministic policy gradient) and follows the guidance.
+        // The actor ascends the critic (the deterministic policy gradient) and follows the lessons.
         let actions = actor.forward(&batch.states)?;
         let values = critic.forward_frozen(&Tensor::cat(&[&batch.states, &actions], 1)?)?.sum_all()?;
-        actor_optimiser.backward_step(&guidance.loss(&values, &actions, batch)?)?;
+        actor_optimiser.backward_step(&actor_loss.of(&values, &actions, batch)?)?;
 
         for (target, online) in self.target.iter().zip(&self.online) {
-            soft_update(target.parameters(), online.parameters(), 1.0 - self.rates.target_retention)?;
+            soft_update(target.parameters(), online.parameters(), 1.0 - self.rates.polyak)?;
         }
         Ok(UpdateStats { loss: number(&loss)?, value: number(&values)? / actions.dim(0)? as f64 })
     }
@@ -203,13 +204,12 @@ mod tests {
     use rand::SeedableRng;
     use rand_xoshiro::Xoshiro256PlusPlus;
 
-    const RATES: Rates =
-        Rates { adam: AdamConfig { learning_rate: 1e-3, gradient_clip: 1.0 }, target_retention: 0.999 };
+    const RATES: Rates = Rates { adam: AdamConfig { learning_rate: 1e-3, max_grad_norm: 1.0 }, polyak: 0.999 };
 
     #[test]
     fn the_first_step_descends_both_losses() {
         // After one step Adam's average of the gradient is 0.1 times the gradient, so the test can read it.
-        let adam = AdamConfig { learning_rate: 1e-12, gradient_clip: f64::INFINITY };
+        let adam = AdamConfig { learning_rate: 1e-12, max_grad_norm: f64::INFINITY };
         let (sizes, rates) = (sizes(&[5, 4], &[6, 5]), Rates { adam, ..RATES });
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(4);
         let batch = Batch::random(8, true, &mut Xoshiro256PlusPlus::seed_from_u64(9)).unwrap();
@@ -218,7 +218,7 @@ mod tests {
         start[..2 * count].iter_mut().for_each(|value| *value *= 1.5);
         let run = |values: &[f32]| {
             let mut agent = ActorCritic::from_values(&sizes, rates, values, 0).unwrap();
-            let seen = agent.update(&batch, &Guidance::NONE).unwrap();
+            let seen = agent.update(&batch, &ActorLoss::POLICY_GRADIENT).unwrap();
             (seen, agent.values().unwrap())
         };
         let (_, after) = run(&start);
@@ -257,22 +257,23 @@ mod tests {
         let act = |agent: &ActorCritic| agent.act(&states).unwrap().flatten_all().unwrap().to_vec1::<f32>().unwrap();
         let own = act(&agent)[0];
         let (near, far) = (own + 0.25, own - 0.6);
-        let guidance = Guidance { policy_gradient: 0.0, lessons: 4, cloning: 1.0, width: [0.2, 0.5], pull: 0.0 };
+        let actor_loss =
+            ActorLoss { policy_gradient: 0.0, lessons: 4, cloning: 1.0, width: [0.2, 0.5], bounds_penalty: 0.0 };
         // The mean of the lessons is on the other side of the actor's own action.
         let batch = Batch::new(&[lesson(near), lesson(far), lesson(near), lesson(far)], 0.0).unwrap();
         for _ in 0..400 {
-            agent.update(&batch, &guidance).unwrap();
+            agent.update(&batch, &actor_loss).unwrap();
         }
         assert!((act(&agent)[0] - near).abs() < 0.03 && (act(&agent)[1] - 0.5).abs() < 0.03, "{:?}", act(&agent));
         let outside = Batch::new(&[lesson(1.8)], 0.0).unwrap();
-        let far = Guidance { width: [9.0; 2], lessons: 1, ..guidance };
-        let back = Guidance { lessons: 0, pull: 1.0, ..guidance };
+        let far = ActorLoss { width: [9.0; 2], lessons: 1, ..actor_loss };
+        let back = ActorLoss { lessons: 0, bounds_penalty: 1.0, ..actor_loss };
         // Adam's remaining momentum carries the action on into the range.
-        for (guidance, within) in [(far, 1.2..2.0), (back, -1.05..1.05)] {
+        for (actor_loss, within) in [(far, 1.2..2.0), (back, -1.05..1.05)] {
             for _ in 0..1000 {
-                agent.update(&outside, &guidance).unwrap();
+                agent.update(&outside, &actor_loss).unwrap();
             }
-            assert!(within.contains(&act(&agent)[0]), "{guidance:?}: {:?}", act(&agent));
+            assert!(within.contains(&act(&agent)[0]), "{actor_loss:?}: {:?}", act(&agent));
         }
     }
 
@@ -284,7 +285,7 @@ mod tests {
         let mut batch = Batch::random(8, false, &mut Xoshiro256PlusPlus::seed_from_u64(1)).unwrap();
         batch.rewards = (batch.rewards * f64::NAN).unwrap();
         let before = agent.values().unwrap();
-        assert!(agent.update(&batch, &Guidance::NONE).unwrap_err().to_string().contains("finite"));
+        assert!(agent.update(&batch, &ActorLoss::POLICY_GRADIENT).unwrap_err().to_string().contains("finite"));
         assert_eq!((agent.values().unwrap(), agent.updates()), (before.clone(), 0));
         assert!(ActorCritic::from_values(&sizes, RATES, &before[1..], 0).is_err());
     }

@@ -14,7 +14,7 @@ use crate::{
     learning::{
         evaluation::Score,
         learner::{
-            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, UpdateStats, note_of,
+            AgentKind, Iteration, Learner, Progress, StartError, TrainingPlan, UpdateStats, current_names, note_of,
             settings_as_object, settings_from,
         },
         nn::weights::{Reader, WeightsError, Writer},
@@ -55,7 +55,7 @@ pub struct Transition {
     pub after: Observation,
 }
 
-/// An agent's settings.
+/// An agent's settings. A serde `alias` is the name of a setting in earlier versions.
 pub trait Settings: Clone + std::fmt::Debug + Default + Serialize + DeserializeOwned + Send {
     /// When an episode ends.
     fn episode(&self) -> Episode;
@@ -155,6 +155,7 @@ pub(crate) const fn kind_of<A: Agent + 'static>() -> AgentKind {
         settings: |settings| {
             settings_from(settings, A::Settings::validate).map(|settings: A::Settings| settings_as_object(&settings))
         },
+        current_names: current_names::<A::Settings>,
         start: |plan, table, settings| {
             let settings = settings_from(settings, A::Settings::validate)?;
             if settings.needs_point_rewards() && plan.reward.rule().is_none() {

@@ -8,14 +8,14 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{
-    actor_critic::{ActorCritic, Guidance, Rates, sizes},
+    actor_critic::{ActorCritic, ActorLoss, Rates, sizes},
     agent::{Agent, Choice, Settings, Transition},
     carom::Episode,
     environment::{Action, Environment, Observation, STATES, State},
     exploration::OrnsteinUhlenbeck,
     lessons::{Lessons, LessonsState},
     q_learning::check_episode,
-    replay::{self, Batch, MEMORY},
+    replay::{self, Batch, REPLAY_BUFFER},
     symmetry::{SYMMETRIES, View},
 };
 use crate::learning::{
@@ -41,29 +41,38 @@ pub struct PlainDdpgSettings {
     pub critic_layers: Vec<usize>,
     /// Adam's learning rate.
     pub learning_rate: f64,
-    /// Share k of the target networks that a soft update keeps (equation 59).
-    pub keep: f64,
+    /// Soft update: `target = polyak * target + (1 - polyak) * online` (equation 59, with k in place of polyak).
+    #[serde(alias = "keep")]
+    pub polyak: f64,
     /// Norm at which gradients are clipped.
-    pub gradient_clip: f64,
+    #[serde(alias = "gradient_clip")]
+    pub max_grad_norm: f64,
     /// Capacity of the replay buffer, in transitions.
-    pub memory: usize,
+    #[serde(alias = "memory")]
+    pub buffer_size: usize,
     /// Discount factor.
-    pub discount: f64,
+    #[serde(alias = "discount")]
+    pub gamma: f64,
     /// Minibatch size, in transitions.
-    pub batch: usize,
+    #[serde(alias = "batch")]
+    pub batch_size: usize,
     /// Shots before the first update.
-    pub warm_up: usize,
+    #[serde(alias = "warm_up")]
+    pub learning_starts: usize,
     /// Exploration noise.
     pub noise: OrnsteinUhlenbeck,
     /// Whether the noise restarts at zero with every episode, as in keras-rl. With one shot an episode the result is
     /// white noise with a standard deviation of `sigma sqrt(dt)`.
     pub noise_restarts: bool,
     /// Final noise as a share of the first.
-    pub noise_falls_to: f64,
+    #[serde(alias = "noise_falls_to")]
+    pub noise_end_factor: f64,
     /// Final learning rate as a share of the first.
-    pub learning_rate_falls_to: f64,
+    #[serde(alias = "learning_rate_falls_to")]
+    pub learning_rate_end_factor: f64,
     /// Shots over which these two and `cloning_width` decay exponentially.
-    pub falls_over: u64,
+    #[serde(alias = "falls_over")]
+    pub decay_steps: u64,
     /// Share of hindsight transitions in a minibatch (thesis 6.1.1). For rewards of points only, as the next setting.
     pub hindsight: f64,
     /// Share of demonstrations in a minibatch (thesis 6.1.2): shots that make the point, found by random search.
@@ -74,15 +83,18 @@ pub struct PlainDdpgSettings {
     pub demonstration_tries: u32,
     /// Weight of behaviour cloning in the actor's loss.
     pub cloning: f64,
-    /// Width of the Gaussian around a lesson that the actor climbs, at first and in the end: a standard deviation of the direction,
+    /// Width of the Gaussian around a lesson that the actor ascends, at first and in the end: a standard deviation of the direction,
     /// in half turns.
     pub cloning_width: [f64; 2],
     /// Weight of the critic's value (the deterministic policy gradient) in the actor's loss.
-    pub climbing: f64,
+    #[serde(alias = "climbing")]
+    pub policy_gradient: f64,
     /// Weight of the penalty on actions out of range.
-    pub range_pull: f64,
+    #[serde(alias = "range_pull")]
+    pub bounds_penalty: f64,
     /// Whether each transition of a minibatch is transformed by a random one of the table's symmetries (data augmentation).
-    pub symmetric: bool,
+    #[serde(alias = "symmetric")]
+    pub symmetry_augmentation: bool,
     /// Whether the agent acts and learns in the canonical view instead: the symmetric view that all eight share.
     pub canonical: bool,
     /// Whether the agent acts and learns in coordinates relative to the nearer object ball, instead of both.
@@ -96,26 +108,26 @@ impl Default for PlainDdpgSettings {
             actor_layers: vec![16; 3],
             critic_layers: vec![32; 3],
             learning_rate: 1e-3,
-            keep: 0.999,
-            gradient_clip: 1.0,
-            memory: 50_000,
-            discount: 0.99,
-            batch: 32,
-            warm_up: 100,
+            polyak: 0.999,
+            max_grad_norm: 1.0,
+            buffer_size: 50_000,
+            gamma: 0.99,
+            batch_size: 32,
+            learning_starts: 100,
             noise: OrnsteinUhlenbeck { theta: 0.15, sigma: 0.3, dt: 0.01 },
             noise_restarts: true,
-            noise_falls_to: 1.0,
-            learning_rate_falls_to: 1.0,
-            falls_over: 400_000,
+            noise_end_factor: 1.0,
+            learning_rate_end_factor: 1.0,
+            decay_steps: 400_000,
             hindsight: 0.0,
             demonstrations: 0.0,
             demonstration_layouts: 10_000,
             demonstration_tries: 300,
             cloning: 1.0,
             cloning_width: [0.2, 0.015],
-            climbing: 1.0,
-            range_pull: 0.0,
-            symmetric: false,
+            policy_gradient: 1.0,
+            bounds_penalty: 0.0,
+            symmetry_augmentation: false,
             canonical: false,
             relative: false,
         }
@@ -136,22 +148,22 @@ impl Settings for PlainDdpgSettings {
         check_layers("actor_layers", &self.actor_layers)?;
         check_layers("critic_layers", &self.critic_layers)?;
         check_positive("learning_rate", self.learning_rate)?;
-        check_share("keep", self.keep)?;
-        check_positive("gradient_clip", self.gradient_clip)?;
-        check_count("memory", self.memory)?;
-        check_share("discount", self.discount)?;
-        check_batch("batch", self.batch)?;
+        check_share("polyak", self.polyak)?;
+        check_positive("max_grad_norm", self.max_grad_norm)?;
+        check_count("buffer_size", self.buffer_size)?;
+        check_share("gamma", self.gamma)?;
+        check_batch("batch_size", self.batch_size)?;
         check_share("noise.dt", self.noise.dt)?;
         let kept = self.noise.theta * self.noise.dt;
         check("noise.theta", self.noise.theta, (0.0..2.0).contains(&kept), "0 to 2 / dt")?;
         check("noise.sigma", self.noise.sigma, (0.0..=1e3).contains(&self.noise.sigma), "0 to 1000")?;
         for (name, share) in
-            [("noise_falls_to", self.noise_falls_to), ("learning_rate_falls_to", self.learning_rate_falls_to)]
+            [("noise_end_factor", self.noise_end_factor), ("learning_rate_end_factor", self.learning_rate_end_factor)]
         {
             check_positive(name, share)?;
             check_share(name, share)?;
         }
-        check("falls_over", self.falls_over as f64, self.falls_over > 0, "at least 1")?;
+        check("decay_steps", self.decay_steps as f64, self.decay_steps > 0, "at least 1")?;
         check_share("hindsight", self.hindsight)?;
         check_share("demonstrations", self.demonstrations)?;
         check_share("hindsight + demonstrations", self.hindsight + self.demonstrations)?;
@@ -159,8 +171,11 @@ impl Settings for PlainDdpgSettings {
         for width in self.cloning_width {
             check_positive("cloning_width", width)?;
         }
-        for (name, weight) in [("cloning", self.cloning), ("climbing", self.climbing), ("range_pull", self.range_pull)]
-        {
+        for (name, weight) in [
+            ("policy_gradient", self.policy_gradient),
+            ("cloning", self.cloning),
+            ("bounds_penalty", self.bounds_penalty),
+        ] {
             check(name, weight, (0.0..=1e3).contains(&weight), "0 to 1000")?;
         }
         Ok(())
@@ -173,8 +188,8 @@ impl PlainDdpgSettings {
     }
 
     const fn rates(&self) -> Rates {
-        let Self { learning_rate, keep, gradient_clip, .. } = *self;
-        Rates { adam: AdamConfig { learning_rate, gradient_clip }, target_retention: keep }
+        let Self { learning_rate, polyak, max_grad_norm, .. } = *self;
+        Rates { adam: AdamConfig { learning_rate, max_grad_norm }, polyak }
     }
 
     /// Reads the networks of an agent with these settings after `updates` updates.
@@ -184,15 +199,15 @@ impl PlainDdpgSettings {
 
     /// Returns the factor of an exponential decay after `shots`; its final value is `last`.
     fn decayed(&self, last: f64, shots: u64) -> f64 {
-        last.powf((shots as f64 / self.falls_over as f64).min(1.0))
+        last.powf((shots as f64 / self.decay_steps as f64).min(1.0))
     }
 
-    fn guidance(&self, lessons: usize, shots: u64) -> Guidance {
+    fn actor_loss(&self, lessons: usize, shots: u64) -> ActorLoss {
         let [first, last] = self.cloning_width;
         let width = first * self.decayed(last / first, shots);
         let speed = (SPEED_WIDTH * width).min(WIDEST);
-        let Self { climbing, cloning, range_pull: pull, .. } = *self;
-        Guidance { policy_gradient: climbing, lessons, cloning, width: [width, speed], pull }
+        let Self { policy_gradient, cloning, bounds_penalty, .. } = *self;
+        ActorLoss { policy_gradient, lessons, cloning, width: [width, speed], bounds_penalty }
     }
 
     /// Returns the view in which the agent sees states; `None` for table coordinates.
@@ -205,7 +220,7 @@ impl PlainDdpgSettings {
         // A positive share gets at least one row, so that the lessons that are searched for are also learnt from.
         [self.hindsight, self.demonstrations].map(|share| {
             let least = usize::from(share > 0.0);
-            ((share * self.batch as f64) as usize).max(least)
+            ((share * self.batch_size as f64) as usize).max(least)
         })
     }
 }
@@ -241,20 +256,20 @@ struct PlainDdpgState {
 impl PlainDdpg {
     fn update(&mut self, rng: &mut Xoshiro256PlusPlus) -> Result<UpdateStats, Error> {
         let settings = &self.settings;
-        self.networks.scale_learning_rates(settings.decayed(settings.learning_rate_falls_to, self.shots));
+        self.networks.scale_learning_rates(settings.decayed(settings.learning_rate_end_factor, self.shots));
         let mut drawn = self.lessons.sample(settings.lesson_rows(), rng);
         let lessons = drawn.len();
-        drawn.extend(self.replay.sample(settings.batch.saturating_sub(lessons), rng));
+        drawn.extend(self.replay.sample(settings.batch_size.saturating_sub(lessons), rng));
         for shot in &mut drawn {
             let [view, next] = match settings.fixed_view() {
                 Some(view) => [view(shot.before.state), view(shot.after.state)],
-                None if settings.symmetric => [View::symmetric(rng.random_range(0..SYMMETRIES)); 2],
+                None if settings.symmetry_augmentation => [View::symmetric(rng.random_range(0..SYMMETRIES)); 2],
                 None => continue,
             };
             *shot = view.shot(shot, next);
         }
-        let batch = Batch::new(&drawn, settings.discount)?;
-        self.networks.update(&batch, &settings.guidance(lessons, self.shots))
+        let batch = Batch::new(&drawn, settings.gamma)?;
+        self.networks.update(&batch, &settings.actor_loss(lessons, self.shots))
     }
 
     /// Returns the actor's action with this noise, which is added in the agent's own view: a direction beyond half a turn means the same
@@ -275,7 +290,7 @@ impl Agent for PlainDdpg {
 
     fn new(settings: PlainDdpgSettings, rng: &mut Xoshiro256PlusPlus) -> Result<Self, Error> {
         let networks = ActorCritic::random(&settings.sizes(), settings.rates(), rng)?;
-        let (replay, lessons) = (ReplayBuffer::new(settings.memory), Lessons::new(settings.memory));
+        let (replay, lessons) = (ReplayBuffer::new(settings.buffer_size), Lessons::new(settings.buffer_size));
         Ok(Self { settings, networks, replay, lessons, noise: Action::default(), shots: 0 })
     }
 
@@ -285,8 +300,8 @@ impl Agent for PlainDdpg {
 
     fn progress(&self) -> Progress {
         let settings = &self.settings;
-        let [rate, noise] =
-            [settings.learning_rate_falls_to, settings.noise_falls_to].map(|last| settings.decayed(last, self.shots));
+        let [rate, noise] = [settings.learning_rate_end_factor, settings.noise_end_factor]
+            .map(|last| settings.decayed(last, self.shots));
         Progress {
             updates: u64::from(self.networks.updates()),
             learning_rate: rate * settings.learning_rate,
@@ -298,7 +313,7 @@ impl Agent for PlainDdpg {
     fn explore(&mut self, game: &impl Environment, rng: &mut Xoshiro256PlusPlus) -> Result<Choice, Error> {
         let seen = game.observe();
         self.noise = self.settings.noise.step(self.noise, rng);
-        let left = self.settings.decayed(self.settings.noise_falls_to, self.shots) as f32;
+        let left = self.settings.decayed(self.settings.noise_end_factor, self.shots) as f32;
         let choice = self.act(&seen, self.noise.map(|noise| left * noise))?;
         self.lessons.collect(&self.settings, game, &seen, choice.action, rng);
         Ok(choice)
@@ -314,7 +329,7 @@ impl Agent for PlainDdpg {
             self.noise = Action::default();
         }
         self.shots += 1;
-        if self.shots <= self.settings.warm_up as u64 { Ok(None) } else { self.update(rng).map(Some) }
+        if self.shots <= self.settings.learning_starts as u64 { Ok(None) } else { self.update(rng).map(Some) }
     }
 
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError> {
@@ -322,7 +337,7 @@ impl Agent for PlainDdpg {
         writer.add("networks", &[values.len()], &values);
         let Self { shots, noise, .. } = *self;
         let lessons = self.settings.needs_point_rewards().then(|| self.lessons.save(writer));
-        let (updates, next) = (self.networks.updates(), replay::save(&self.replay, MEMORY, writer));
+        let (updates, next) = (self.networks.updates(), replay::save(&self.replay, REPLAY_BUFFER, writer));
         note_of(&PlainDdpgState { shots, updates, next, noise, lessons })
     }
 
@@ -330,10 +345,10 @@ impl Agent for PlainDdpg {
         let PlainDdpgState { shots, updates, next, noise, lessons } =
             serde_json::from_value(note).map_err(|_| WeightsError::Metadata)?;
         let networks = settings.networks(reader, updates)?;
-        let replay = replay::restore(settings.memory, reader, MEMORY, next)?;
-        let memory = settings.memory;
+        let capacity = settings.buffer_size;
+        let replay = replay::restore(capacity, reader, REPLAY_BUFFER, next)?;
         let lessons =
-            lessons.map_or_else(|| Ok(Lessons::new(memory)), |state| Lessons::restore(memory, reader, state))?;
+            lessons.map_or_else(|| Ok(Lessons::new(capacity)), |state| Lessons::restore(capacity, reader, state))?;
         Ok(Self { settings, networks, replay, lessons, noise, shots })
     }
 

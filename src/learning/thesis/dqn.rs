@@ -13,7 +13,7 @@ use super::{
     environment::{DISCRETE_ACTIONS, Environment, Observation, STATES},
     exploration::Epsilon,
     q_learning::{check_episode, check_epsilon},
-    replay::{self, Batch, MEMORY, number},
+    replay::{self, Batch, REPLAY_BUFFER, number},
 };
 use crate::learning::{
     learner::{Progress, UpdateStats, note_of},
@@ -38,15 +38,20 @@ pub struct DqnSettings {
     /// Adam's learning rate.
     pub learning_rate: f64,
     /// Updates between two copies to the target network.
-    pub target_every: u32,
+    #[serde(alias = "target_every")]
+    pub target_update_interval: u32,
     /// Capacity of the replay buffer, in transitions.
-    pub memory: usize,
+    #[serde(alias = "memory")]
+    pub buffer_size: usize,
     /// Discount factor of a reward one shot later.
-    pub discount: f64,
+    #[serde(alias = "discount")]
+    pub gamma: f64,
     /// Transitions in the minibatch of an update.
-    pub batch: usize,
+    #[serde(alias = "batch")]
+    pub batch_size: usize,
     /// Shots before the first update.
-    pub warm_up: usize,
+    #[serde(alias = "warm_up")]
+    pub learning_starts: usize,
     /// Schedule of the probability of a random action.
     pub epsilon: Epsilon,
 }
@@ -57,11 +62,11 @@ impl Default for DqnSettings {
             episode: Episode::default(),
             layers: vec![16; 3],
             learning_rate: 1e-3,
-            target_every: 10_000,
-            memory: 50_000,
-            discount: 0.99,
-            batch: 32,
-            warm_up: 100,
+            target_update_interval: 10_000,
+            buffer_size: 50_000,
+            gamma: 0.99,
+            batch_size: 32,
+            learning_starts: 100,
             epsilon: Epsilon { first: 1.0, last: 0.1, over: 100_000 },
         }
     }
@@ -76,10 +81,10 @@ impl Settings for DqnSettings {
         check_episode(self.episode)?;
         check_layers("layers", &self.layers)?;
         check_positive("learning_rate", self.learning_rate)?;
-        check_count("target_every", self.target_every as usize)?;
-        check_count("memory", self.memory)?;
-        check_share("discount", self.discount)?;
-        check_batch("batch", self.batch)?;
+        check_count("target_update_interval", self.target_update_interval as usize)?;
+        check_count("buffer_size", self.buffer_size)?;
+        check_share("gamma", self.gamma)?;
+        check_batch("batch_size", self.batch_size)?;
         check_epsilon(&self.epsilon)
     }
 }
@@ -104,7 +109,7 @@ struct DqnState {
 
 impl DqnSettings {
     const fn adam(&self) -> AdamConfig {
-        AdamConfig { learning_rate: self.learning_rate, gradient_clip: f64::INFINITY }
+        AdamConfig { learning_rate: self.learning_rate, max_grad_norm: f64::INFINITY }
     }
 
     fn sizes(&self) -> Vec<usize> {
@@ -115,13 +120,13 @@ impl DqnSettings {
 impl Dqn {
     /// Makes one update with a minibatch from the replay buffer.
     fn update(&mut self, rng: &mut Xoshiro256PlusPlus) -> Result<UpdateStats, Error> {
-        let batch = Batch::new(&self.replay.sample(self.settings.batch, rng), self.settings.discount)?;
+        let batch = Batch::new(&self.replay.sample(self.settings.batch_size, rng), self.settings.gamma)?;
         let targets = batch.targets(|states| self.target.forward_frozen(states)?.max_keepdim(1))?;
         let values = self.online.forward(&batch.states)?;
         let loss = squared_error(&values.gather(&batch.indices, 1)?, &targets)?;
         self.optimiser.backward_step(&loss)?;
         let value = values.detach().max(1)?.mean_all()?;
-        if self.optimiser.steps().is_multiple_of(self.settings.target_every) {
+        if self.optimiser.steps().is_multiple_of(self.settings.target_update_interval) {
             self.target = self.online.duplicate()?;
         }
         Ok(UpdateStats { loss: number(&loss)?, value: number(&value)? })
@@ -139,7 +144,7 @@ impl Agent for Dqn {
         Ok(Self {
             target: online.duplicate()?,
             optimiser: Adam::new(vec![online.parameters().clone()], settings.adam())?,
-            replay: ReplayBuffer::new(settings.memory),
+            replay: ReplayBuffer::new(settings.buffer_size),
             online,
             settings,
             shots: 0,
@@ -174,14 +179,14 @@ impl Agent for Dqn {
     fn learn(&mut self, transition: &Transition, rng: &mut Xoshiro256PlusPlus) -> Result<Option<UpdateStats>, Error> {
         self.replay.push(*transition);
         self.shots += 1;
-        if self.shots <= self.settings.warm_up as u64 { Ok(None) } else { self.update(rng).map(Some) }
+        if self.shots <= self.settings.learning_starts as u64 { Ok(None) } else { self.update(rng).map(Some) }
     }
 
     fn save(&self, writer: &mut Writer) -> Result<Value, WeightsError> {
         writer.add_network("online", &self.online)?;
         writer.add_network("target", &self.target)?;
         writer.add_optimiser("", &self.optimiser)?;
-        let next = replay::save(&self.replay, MEMORY, writer);
+        let next = replay::save(&self.replay, REPLAY_BUFFER, writer);
         note_of(&DqnState { shots: self.shots, updates: self.optimiser.steps(), next })
     }
 
@@ -191,7 +196,7 @@ impl Agent for Dqn {
         Ok(Self {
             target: reader.network("target", &settings.sizes())?,
             optimiser: reader.optimiser("", &online, settings.adam(), updates)?,
-            replay: replay::restore(settings.memory, reader, MEMORY, next)?,
+            replay: replay::restore(settings.buffer_size, reader, REPLAY_BUFFER, next)?,
             online,
             settings,
             shots,

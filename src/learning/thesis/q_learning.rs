@@ -29,7 +29,8 @@ pub struct QLearningSettings {
     /// Fraction by which a value moves towards its target (alpha in equation 54).
     pub learning_rate: f64,
     /// Discount factor of a reward one shot later.
-    pub discount: f64,
+    #[serde(alias = "discount")]
+    pub gamma: f64,
     /// Schedule of the probability of a random action.
     pub epsilon: Epsilon,
 }
@@ -39,7 +40,7 @@ impl Default for QLearningSettings {
         Self {
             episode: Episode::default(),
             learning_rate: 0.1,
-            discount: 0.99,
+            gamma: 0.99,
             epsilon: Epsilon { first: 1.0, last: 0.05, over: 25_000 },
         }
     }
@@ -54,7 +55,7 @@ impl Settings for QLearningSettings {
         check_episode(self.episode)?;
         check_positive("learning_rate", self.learning_rate)?;
         check_share("learning_rate", self.learning_rate)?;
-        check_share("discount", self.discount)?;
+        check_share("gamma", self.gamma)?;
         check_epsilon(&self.epsilon)
     }
 }
@@ -137,7 +138,7 @@ impl Agent for QLearning {
         let highest = |cell| self.best_known(cell).map_or(0.0, |(_, value)| f64::from(value));
         let value = highest(transition.before.cell);
         let next = if transition.continues { highest(transition.after.cell) } else { 0.0 };
-        let target = transition.reward + self.settings.discount * next;
+        let target = transition.reward + self.settings.gamma * next;
         let rate = self.settings.learning_rate;
         let known = self.value_mut(transition.before.cell, transition.choice.index);
         let error = target - f64::from(*known);

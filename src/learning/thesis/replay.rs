@@ -12,8 +12,8 @@ use crate::learning::{
     replay::ReplayBuffer,
 };
 
-/// Name, in a file, of the replay buffer with the agent's own shots.
-pub const MEMORY: &str = "memory";
+/// Name, in a file, of the replay buffer with the agent's own shots: that of all earlier checkpoints.
+pub const REPLAY_BUFFER: &str = "memory";
 
 /// Numbers per transition in a file.
 const NUMBERS: usize = 2 * STATES + ACTIONS + 3;
@@ -70,7 +70,7 @@ pub struct Batch {
     pub indices: Tensor,
     /// Rewards (rows x 1).
     pub rewards: Tensor,
-    /// Factor of the next state's value: `discount` if the episode continued, zero if it ended (rows x 1).
+    /// Factor of the next state's value: `gamma` if the episode continued, zero if it ended (rows x 1).
     pub discounts: Tensor,
     /// Whether any episode continued. If none did, the values of the next states are not needed.
     pub any_continues: bool,
@@ -79,10 +79,10 @@ pub struct Batch {
 }
 
 impl Batch {
-    pub fn new(drawn: &[Transition], discount: f64) -> Result<Self, Error> {
+    pub fn new(drawn: &[Transition], gamma: f64) -> Result<Self, Error> {
         let rows = drawn.len();
         let matrix = |values: Vec<f32>, columns: usize| Tensor::from_vec(values, (rows, columns), &Device::Cpu);
-        let discounts = drawn.iter().map(|drawn| if drawn.continues { discount as f32 } else { 0.0 });
+        let discounts = drawn.iter().map(|drawn| if drawn.continues { gamma as f32 } else { 0.0 });
         let indices = drawn.iter().map(|drawn| drawn.choice.index).collect();
         Ok(Self {
             states: matrix(drawn.iter().flat_map(|drawn| drawn.before.state).collect(), STATES)?,
@@ -95,7 +95,7 @@ impl Batch {
         })
     }
 
-    /// Draws a minibatch of numbers uniform between -1 and 1 with a discount of 0.99, for benchmarks and tests.
+    /// Draws a minibatch of numbers uniform between -1 and 1 with a gamma of 0.99, for benchmarks and tests.
     pub fn random(rows: usize, continues: bool, rng: &mut impl Rng) -> Result<Self, Error> {
         let mut number = || rng.random_range(-1.0f32..1.0);
         let draw = |_| Transition {
@@ -132,9 +132,9 @@ mod tests {
         let mut replay = ReplayBuffer::new(3);
         (0..3).for_each(|_| replay.push(Transition::default()));
         let mut writer = Writer::default();
-        let next = save(&replay, MEMORY, &mut writer);
+        let next = save(&replay, REPLAY_BUFFER, &mut writer);
         let bytes = writer.finish(&"").unwrap();
         let reader = Reader::new(&bytes).unwrap();
-        assert!(restore(3, &reader, MEMORY, next).is_ok() && restore(2, &reader, MEMORY, 0).is_err());
+        assert!(restore(3, &reader, REPLAY_BUFFER, next).is_ok() && restore(2, &reader, REPLAY_BUFFER, 0).is_err());
     }
 }

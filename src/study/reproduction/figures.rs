@@ -162,24 +162,24 @@ impl Change {
         match self {
             Self::None => json!({}),
             Self::StrongNoise => json!({ "noise": noise }),
-            Self::FallingNoise => json!({ "noise": noise, "noise_falls_to": 0.05, "falls_over": shots }),
+            Self::FallingNoise => json!({ "noise": noise, "noise_end_factor": 0.05, "decay_steps": shots }),
             Self::Canonical => json!({ "canonical": true }),
             Self::Relative => json!({ "relative": true }),
             Self::Control => json!({
-                "range_pull": 0.3,
+                "bounds_penalty": 0.3,
                 "relative": true,
-                "batch": 64,
+                "batch_size": 64,
                 "noise": noise,
-                "noise_falls_to": 0.2,
+                "noise_end_factor": 0.2,
                 "learning_rate": 2e-3,
-                "learning_rate_falls_to": 0.05,
-                "falls_over": shots,
+                "learning_rate_end_factor": 0.05,
+                "decay_steps": shots,
             }),
             Self::Lessons { hindsight, demonstrations } => {
                 let mut settings = Self::Control.settings(shots);
                 settings["hindsight"] = json!(hindsight);
                 settings["demonstrations"] = json!(demonstrations);
-                settings["climbing"] = json!(0.0);
+                settings["policy_gradient"] = json!(0.0);
                 settings["cloning_width"] = json!([0.2, 0.004]);
                 settings
             }

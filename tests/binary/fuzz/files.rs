@@ -30,7 +30,7 @@ fn fewer_cases() -> ProptestConfig {
 /// A valid run and a valid session, written by the program.
 static VALID: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
-    let small = "actor_layers = [4]\ncritic_layers = [4]\nbatch = 8\nactor_batch = 4\nreplay = 1000\n";
+    let small = "actor_layers = [4]\ncritic_layers = [4]\nbatch_size = 8\nactor_batch_size = 4\nbuffer_size = 1000\n";
     fs::write(folder.path().join("small.toml"), small).unwrap();
     let carom = |args: &[&str]| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_carom"));

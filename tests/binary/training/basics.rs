@@ -24,7 +24,7 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
     assert_eq!(file, first.out, "the file and the output have the same lines");
     let config: Value = serde_json::from_slice(&fs::read(here.join("one/config.json")).unwrap()).unwrap();
     assert_eq!(
-        (&config["agent"], &config["seed"], &config["settings"]["batch"]),
+        (&config["agent"], &config["seed"], &config["settings"]["batch_size"]),
         (&"ddpg".into(), &3.into(), &32.into())
     );
     assert_eq!((&config["table"]["name"], &config["version"]), (&"match".into(), &env!("CARGO_PKG_VERSION").into()));
@@ -143,7 +143,7 @@ fn invalid_input_is_named_in_one_sentence_and_writes_nothing() {
     let here = folder.path();
     fs::write(here.join("broken.safetensors"), b"not weights").unwrap();
     fs::write(here.join("wrong.toml"), "heads = 0").unwrap();
-    fs::write(here.join("nan.toml"), "target_rate = nan").unwrap();
+    fs::write(here.join("nan.toml"), "tau = nan").unwrap();
     let table = include_str!("../../../src/table/thesis.toml").replace("name = \"thesis\"", "name = \"cellar\"");
     fs::write(here.join("cellar.toml"), table).unwrap();
     for (line, code, named) in [
@@ -168,7 +168,7 @@ fn invalid_input_is_named_in_one_sentence_and_writes_nothing() {
         ("train --run new --agent sarsa", 2, "no agent \"sarsa\"; use ddpg, q-learning, dqn, thesis-ddpg"),
         ("train --run new --agent sarsa --seeds 2", 2, "sarsa"),
         ("train --run new --config wrong.toml", 2, "heads = 0"),
-        ("train --run new --config nan.toml", 2, "target_rate"),
+        ("train --run new --config nan.toml", 2, "tau is not a finite number"),
         ("train --run new --config none.toml", 1, "none.toml"),
         ("train --run new --set heads", 2, "heads"),
         ("train --run new --set heads=0", 2, "heads = 0"),

@@ -12,8 +12,14 @@ use serde_json::Value;
 use crate::program::{self, KillOnDrop, Outcome, outcome};
 
 /// An agent with thousands of updates per second.
-pub const SMALL: &str =
-    "actor_layers = [16]\ncritic_layers = [16]\nbatch = 32\nactor_batch = 8\nshots_per_update = 16\nreplay = 5000\n";
+pub const SMALL: &str = "\
+actor_layers = [16]
+critic_layers = [16]
+batch_size = 32
+actor_batch_size = 8
+shots_per_update = 16
+buffer_size = 5000
+";
 
 /// A run of 40 iterations with ten measurements.
 pub const SHORT: &str = "train --config small.toml --steps 640 --evaluate-every 64 --evaluation-layouts 20 --seed 3";

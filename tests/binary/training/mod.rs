@@ -5,4 +5,5 @@ pub mod common;
 mod failures;
 mod kills;
 mod seeds;
+mod setting_names;
 mod watching;

@@ -113,7 +113,7 @@ fn a_run_resumes_after_its_source_weights_are_gone() {
     for (run, seeds) in [("single", ""), ("group", " --seeds 2")] {
         let line = |from: &str| {
             format!(
-                "train --from {from} --steps 320 --evaluate-every 64 --evaluation-layouts 5 --set replay=4000 --run {run} --continue{seeds}"
+                "train --from {from} --steps 320 --evaluate-every 64 --evaluation-layouts 5 --set buffer_size=4000 --run {run} --continue{seeds}"
             )
         };
         run_unfinished(here, &format!("{} --minutes 0.00001", line("one")));
@@ -121,13 +121,13 @@ fn a_run_resumes_after_its_source_weights_are_gone() {
         run_unfinished(here, &format!("{} --minutes 0.00001", line(&absolute)));
         let other = carom(here, &line("two"));
         assert!(other.code == Some(1) && other.err.contains("was started from one, not from two"), "{}", other.err);
-        let left_out = carom(here, &line("one").replace(" --set replay=4000", ""));
-        assert!(left_out.err.contains("was started with replay = 4000, not "), "{}", left_out.err);
+        let left_out = carom(here, &line("one").replace(" --set buffer_size=4000", ""));
+        assert!(left_out.err.contains("was started with buffer_size = 4000, not "), "{}", left_out.err);
         fs::rename(here.join("one"), here.join("away")).unwrap();
         let other = carom(here, &line("two"));
         assert!(other.code == Some(1) && other.err.contains("was started from one, not from two"), "{}", other.err);
-        let other = carom(here, &line("one").replace("replay=4000", "replay=3000"));
-        assert!(other.err.contains("was started with replay = 4000, not 3000:"), "{}", other.err);
+        let other = carom(here, &line("one").replace("buffer_size=4000", "buffer_size=3000"));
+        assert!(other.err.contains("was started with buffer_size = 4000, not 3000:"), "{}", other.err);
         run_ok(here, &line("one"));
         fs::rename(here.join("away"), here.join("one")).unwrap();
     }
@@ -214,7 +214,7 @@ fn a_run_can_start_from_the_weights_of_another() {
         let (config, origin) = (config(run), &config(run)["from"]);
         assert_eq!((&origin["path"], &origin["seed"], &origin["shots"]), (&from.into(), &3.into(), &640.into()));
         assert_eq!((&origin["reward"], &config["reward"]), (&"r3".into(), &"r1".into()));
-        assert_eq!((&config["table"]["name"], &config["settings"]["batch"]), (&"thesis".into(), &32.into()));
+        assert_eq!((&config["table"]["name"], &config["settings"]["batch_size"]), (&"thesis".into(), &32.into()));
     }
     // Seed, table and settings are the same for all runs, and so are the final weights; only those from a policy file start with half of
     // the digits.
