@@ -68,7 +68,7 @@ fn earlier_names_give_the_same_settings() {
     for (agent, names) in NAMES {
         let kind = AgentKind::named(agent).unwrap();
         let defaults = (kind.settings)(&json!({})).unwrap();
-        for [earlier, current] in names {
+        for &[earlier, current] in names {
             let value = other(&defaults[current]);
             let settings = (kind.settings)(&json!({ earlier: value })).unwrap();
             assert_eq!(settings, (kind.settings)(&json!({ current: value })).unwrap(), "{agent} {earlier}");
@@ -86,15 +86,15 @@ fn checkpoints_with_earlier_names_are_restored() {
         let plan = TrainingPlan { reward: Reward::R1, seed: 4, shots: 650 };
         let defaults = (kind.settings)(&json!({})).unwrap();
         let changes: Value =
-            names.iter().map(|[_, current]| ((*current).to_owned(), other(&defaults[current]))).collect();
+            names.iter().map(|&[_, current]| (current.to_owned(), other(&defaults[current]))).collect();
         let learner = (kind.start)(plan, Table::preset("thesis").unwrap(), &changes).unwrap();
         let mut writer = Writer::default();
         let mut note = learner.save(&mut writer).unwrap();
         let settings = if agent == "ddpg" { &mut note["task"]["hyperparameters"] } else { &mut note["settings"] };
         let settings = settings.as_object_mut().unwrap();
-        for [earlier, current] in names {
-            let value = settings.remove(*current).unwrap();
-            settings.insert((*earlier).to_owned(), value);
+        for &[earlier, current] in names {
+            let value = settings.remove(current).unwrap();
+            settings.insert(earlier.to_owned(), value);
         }
         let bytes = writer.finish(&note).unwrap();
         let restored = (kind.restore)(&Reader::new(&bytes).unwrap(), note).unwrap();
