@@ -49,6 +49,19 @@ fn a_left_match_can_be_resumed_at_the_next_start() {
 }
 
 #[test]
+fn a_goal_belongs_to_the_exercise_for_which_it_was_chosen() {
+    let positions = [exercise("first", "The first"), exercise("second", "The second")];
+    let goal = |player: &Player| player.app.drills.turn.as_ref().unwrap().session.goal;
+    let chosen = Player::at_library(TRUE_COLOUR, &positions, &[]).press("Left Home Enter o o >");
+    assert_eq!(goal(&chosen), Goal::Game { innings: 11 });
+    let other = chosen.press("Esc Down Enter");
+    assert_eq!(goal(&other), Goal::Free);
+    let back = other.press("o Esc Up Enter");
+    assert_eq!(goal(&back), Goal::Game { innings: 11 });
+    assert_eq!(goal(&back.press("Esc Down Enter")), Goal::Run(5));
+}
+
+#[test]
 fn real_table_and_simulator_results_are_listed_separately() {
     let here = Session { venue: Venue::Program, ..session(6, "opening", Goal::Free, "x---") };
     let sessions: Vec<Session> = three_sessions().into_iter().chain([here]).collect();

@@ -8,8 +8,7 @@ use crate::{
         pages::{
             Page,
             drills::{
-                DrillsPage, Question, RepetitionOptions, TransferredPosition, Turn, question::MAX_TEXT_LENGTH,
-                turn_actions::tasks_effect,
+                DrillsPage, Question, TransferredPosition, Turn, question::MAX_TEXT_LENGTH, turn_actions::tasks_effect,
             },
         },
         ui::{Message, TextField},
@@ -135,7 +134,8 @@ impl DrillsPage {
     fn open_marked(&mut self) -> Option<Effect> {
         let exercises = vec![self.catalogue.marked()?.clone()];
         let Some(place) = self.unfinished_sessions.iter().position(|left| left.exercises == exercises) else {
-            return Some(self.begin(self.options.goal, exercises));
+            let goal = self.options.goals.get(&exercises[0].name).copied().unwrap_or(Goal::Free);
+            return Some(self.begin(goal, exercises));
         };
         let left = self.unfinished_sessions.remove(place);
         let inning = left.inning_words().map(|inning| format!(", {inning}"));
@@ -161,8 +161,9 @@ impl DrillsPage {
     /// Opens the page of the next exercise of a session. Returns the background tasks for it.
     pub(super) fn practise(&mut self, session: Session) -> Vec<DrillTask> {
         if !session.is_exam() {
-            // The next exercise uses the same options, even if this session is resumed from an earlier run of the program.
-            self.options = RepetitionOptions { goal: session.goal, shifted: session.shifted, ..self.options };
+            // The options hold on, even if this session is resumed from an earlier run of the program.
+            self.options.shifted = session.shifted;
+            self.options.goals.extend(session.exercise().map(|exercise| (exercise.name.clone(), session.goal)));
         }
         match Turn::new(session) {
             Ok(Some(mut turn)) => {

@@ -20,7 +20,7 @@ mod view;
 mod watched;
 mod what_if;
 
-use std::path::Path;
+use std::{collections::HashMap, path::Path};
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -78,7 +78,9 @@ impl Player {
 /// Options for repeating an exercise. They are kept from exercise to exercise.
 #[derive(Clone, Copy, Debug)]
 struct RepetitionOptions {
-    goal: Goal,
+    /// The goal that was chosen for an exercise, by its name.
+    goals: HashMap<String, Goal>,
+    /// Whether the balls are shifted. Unlike the goal this is kept from exercise to exercise.
     shifted: bool,
     lengths: Lengths,
 }
@@ -161,7 +163,7 @@ impl DrillsPage {
             is_in_numbers: false,
             settings_table: String::new(),
             own_table: None,
-            options: RepetitionOptions { goal: Goal::Free, shifted: false, lengths: Lengths::default() },
+            options: RepetitionOptions::default(),
             position_for_coach: None,
             opened_for: None,
             exam_level: 0,
