@@ -233,11 +233,6 @@ impl DrillsPage {
         Some(&turn.session).filter(|session| has_begun && !session.is_over())
     }
 
-    /// Whether an exam has begun and is not over.
-    pub fn has_open_exam(&self) -> bool {
-        self.unfinished().is_some_and(Session::is_exam)
-    }
-
     /// Shows the open session, and closes any question or screen over it.
     pub fn show_session(&mut self) {
         self.question = None;
