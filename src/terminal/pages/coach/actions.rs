@@ -135,7 +135,8 @@ impl CoachPage {
             Action::UndoStroke => return self.step_stroke_history(OwnStroke::undo),
             Action::RedoStroke => return self.step_stroke_history(OwnStroke::redo),
             Action::UseBundledPolicies => {
-                self.set_query(&self.table().clone(), CoachQuery { policy: None, ..self.query.clone() });
+                let rule = self.rule_without_policy();
+                self.set_query(&self.table().clone(), CoachQuery { policy: None, rule, ..self.query.clone() });
             }
             Action::Playback(key) => self.apply_playback_key(key),
             // The app opens the other page, or resumes the session.

@@ -135,6 +135,8 @@ pub struct CoachPage {
     history: History<Snapshot>,
     /// The mouse drag in progress; it moves the selected ball.
     drag: Option<Drag>,
+    /// The rule that was in force before a policy of the user's own was taken, and the rule that came with it.
+    rules_of_policy: Option<[Rule; 2]>,
     /// The query terms from the settings, without later changes by keys.
     settings_terms: Terms,
     /// The query terms at the start of this session.
@@ -189,15 +191,16 @@ impl CoachPage {
             own_stroke: None,
             history: History::new(Snapshot::new(Arc::new(table), layout)),
             drag: None,
+            rules_of_policy: None,
             settings_terms: CoachQuery::default().terms(),
             start_terms: CoachQuery::default().terms(),
             earlier_sessions: Vec::new(),
             has_resumed: false,
             unfinished_exams: Vec::new(),
+            resumed_exams: HashMap::new(),
             question: None,
             saving_name: None,
             lesson: None,
-            resumed_exams: HashMap::new(),
             step: DEFAULT_STEP,
             quarters: false,
             budget: Duration::from_millis(Settings::default().think_ms),
@@ -285,9 +288,20 @@ impl CoachPage {
         let rule =
             if query.rule == self.query.rule { String::new() } else { format!("; the rule is now {}", query.rule) };
         let news = format!("the coach plays with {}{rule}; Enter asks it", query.name());
+        if query.policy.is_some() {
+            self.rules_of_policy = Some([self.rule_without_policy(), query.rule]);
+        }
         let CoachQuery { skill, doubt, plan, jumps, first, .. } = self.query;
         self.replace_position(table, layout, self.cue_ball(), CoachQuery { skill, doubt, plan, jumps, first, ..query });
         self.message = Some(Message::good(news));
+    }
+
+    /// The rule without the user's own policy: the one before it was taken, unless another rule was chosen since.
+    fn rule_without_policy(&self) -> Rule {
+        match self.rules_of_policy.filter(|_| self.query.policy.is_some()) {
+            Some([before, own]) if self.query.rule == own => before,
+            _ => self.query.rule,
+        }
     }
 
     /// Switches to another player skill. A shot for the former skill is no longer displayed.
