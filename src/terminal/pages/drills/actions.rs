@@ -46,7 +46,10 @@ impl DrillsPage {
     /// Performs the action of an enabled key binding.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
-            Action::Back => self.back(),
+            Action::Back => {
+                self.back();
+                return self.retry();
+            }
             Action::MoveMark(lines) if self.page() == DrillContext::Record => {
                 let all = self.book.sessions_of(self.records.scope()).len();
                 self.records.scroll(lines, all);
@@ -120,6 +123,11 @@ impl DrillsPage {
                 self.message = Some(Message::plain(format!("the {} is kept; {how}", goal.name())));
             }
         }
+    }
+
+    /// Tries again to save what the disk has refused, if there is anything.
+    fn retry(&self) -> Option<Effect> {
+        self.has_unsaved().then(|| Effect::Drill(vec![DrillTask::SaveUnsaved]))
     }
 
     /// Returns to the library, or to the coach page if the library is left too.
@@ -284,7 +292,7 @@ impl DrillsPage {
                     .as_ref()
                     .map(|_| "the exam is kept; c on the coach's page (F2) goes on with it");
                 self.message = kept.map(Message::plain);
-                return None;
+                return self.retry();
             }
             Question::GiveUp(action, ..) => return self.act(*action),
         };

@@ -75,8 +75,8 @@ impl Player {
     }
 }
 
-/// Options for repeating an exercise. They are kept from exercise to exercise.
-#[derive(Clone, Copy, Debug)]
+/// Options for repeating exercises.
+#[derive(Clone, Debug, Default)]
 struct RepetitionOptions {
     /// The goal that was chosen for an exercise, by its name.
     goals: HashMap<String, Goal>,
@@ -140,6 +140,8 @@ pub struct DrillsPage {
     pages: Vec<DrillContext>,
     /// An unfinished exam that was left, until the app takes it.
     pub unfinished_exam: Option<Session>,
+    /// What the disk has refused, as the player was last told; `None` if everything is saved.
+    unsaved: Option<String>,
     /// Unfinished runs, games and matches that were left, one for each exercise. Opening the exercise resumes it.
     unfinished_sessions: Vec<Session>,
     rng: Xoshiro256PlusPlus,
@@ -169,6 +171,7 @@ impl DrillsPage {
             exam_level: 0,
             pages: Vec::new(),
             unfinished_exam: None,
+            unsaved: None,
             unfinished_sessions: Vec::new(),
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         }
@@ -205,6 +208,11 @@ impl DrillsPage {
     /// Returns the task that reads the record from the disk.
     pub fn load(&self) -> DrillTask {
         DrillTask::Load(Box::new(self.places.clone()))
+    }
+
+    /// Whether the disk has refused something that is still not saved.
+    pub const fn has_unsaved(&self) -> bool {
+        self.unsaved.is_some()
     }
 
     /// Resumes a session that was left in an earlier run of the program.
