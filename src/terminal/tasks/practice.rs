@@ -161,16 +161,20 @@ impl PracticeWorker {
         if self.unsaved.is_empty() {
             return Ok(());
         }
-        let mut refusal = String::new();
+        let (mut refusal, mut changed) = (String::new(), Vec::new());
         for (session, before) in self.unsaved.clone() {
             match self.save(&session, &before) {
                 Ok(Ok(())) => {}
                 Ok(Err(error)) => refusal = error,
-                Err(stored) => reply(DrillReport::Changed(stored)),
+                Err(stored) => changed.push(DrillReport::Changed(stored)),
             }
         }
-        if self.unsaved.is_empty() {
+        let is_saved = self.unsaved.is_empty();
+        if is_saved && changed.is_empty() {
             reply(DrillReport::Retried(Ok(())));
+        }
+        changed.into_iter().for_each(reply);
+        if is_saved {
             return Ok(());
         }
         let what = self.unsaved.iter().map(|(session, _)| self.unsaved_words(session)).collect::<Vec<_>>().join(", ");

@@ -69,3 +69,19 @@ fn a_refused_undo_is_not_taken_for_another_program() {
     assert_eq!(results(&saved), [true, true, false]);
     assert!(!saved.has_toast("another program"), "{}", saved.text(120, 40));
 }
+
+#[test]
+fn a_refused_attempt_never_overwrites_what_another_program_has_noted() {
+    let player = Player::practising(TRUE_COLOUR).press("m");
+    block(&player);
+    let refused = player.press("n");
+    unblock(&refused);
+    let mut session = refused.store().sessions().items.remove(0);
+    let before = session.attempts.clone();
+    session.log(true).unwrap();
+    refused.store().save(&session, &before, 0).unwrap();
+    let left = refused.press("Esc");
+    left.warns("another program has changed this session");
+    left.does_not_show("on the disk now");
+    assert_eq!(results(&left), [true, true]);
+}
