@@ -85,6 +85,13 @@ fn an_empty_search_offers_other_categories() {
     );
     assert!(elsewhere > 1, "{elsewhere}");
     found.shows(&[": \"natural\"", "Esc end search"]);
+#[test]
+fn keys_for_a_marked_exercise_say_that_none_is_listed() {
+    for key in ["x", "Enter", "y", "c"] {
+        Player::at_library(TRUE_COLOUR, &[], &[]).press("Left").press(key).warns("no exercise is listed; 0 lists all");
+    }
+}
+
     let all = found.press("Esc");
     assert_eq!(all.app.key_context(), KeyContext::Drill(DrillContext::Library));
     all.says("All ").does_not_show("\"natural\"");

@@ -23,9 +23,9 @@ impl DrillsPage {
         match when {
             DrillCondition::Always => None,
             DrillCondition::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; 0 lists all"),
-            DrillCondition::MarkedOwn => {
-                refuse(!self.catalogue.is_own_marked(), "bundled exercises cannot be removed, only my positions")
-            }
+            DrillCondition::MarkedOwn => self
+                .disabled_reason(DrillCondition::Marked)
+                .or(refuse(!self.catalogue.is_own_marked(), "bundled exercises cannot be removed, only my positions")),
             DrillCondition::Filtered => refuse(!self.catalogue.is_filtered(), "everything is listed"),
             DrillCondition::Searching => refuse(!self.catalogue.is_searching(), "no words are looked for"),
             DrillCondition::NotSearching => refuse(self.catalogue.is_searching(), "Esc ends the search first"),
