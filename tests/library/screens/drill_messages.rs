@@ -6,7 +6,8 @@ use super::{
 };
 use carom::{
     drills::{Goal, Session, Venue},
-    terminal::{DrillContext, KeyContext},
+    storage::save_json,
+    terminal::{DrillContext, KeyContext, SavedSession},
 };
 use crossterm::event::{KeyModifiers, MouseEvent, MouseEventKind};
 
@@ -49,6 +50,18 @@ fn a_left_match_can_be_resumed_at_the_next_start() {
 }
 
 #[test]
+fn a_game_of_an_earlier_start_goes_on_when_its_exercise_is_opened() {
+    let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("Home Enter o o Left Enter Enter F2");
+    let mut next = Player::new();
+    let path = next.path("last.json");
+    save_json(&path, &left.app.saved_session().unwrap()).unwrap();
+    next.app = next.app.with_saved_session(SavedSession::load(&path).unwrap());
+    let again = next.press("c Esc Enter");
+    again.says("game, 10 innings: it goes on here");
+    assert_eq!(again.app.drills.turn.as_ref().unwrap().session.attempts.len(), 1);
+}
+
+#[test]
 fn a_goal_belongs_to_the_exercise_for_which_it_was_chosen() {
     let positions = [exercise("first", "The first"), exercise("second", "The second")];
     let goal = |player: &Player| player.app.drills.turn.as_ref().unwrap().session.goal;
@@ -73,6 +86,13 @@ fn real_table_and_simulator_results_are_listed_separately() {
 }
 
 #[test]
+fn keys_for_a_marked_exercise_say_that_none_is_listed() {
+    for key in ["x", "Enter", "y", "c"] {
+        Player::at_library(TRUE_COLOUR, &[], &[]).press("Left").press(key).warns("no exercise is listed; 0 lists all");
+    }
+}
+
+#[test]
 fn an_empty_search_offers_other_categories() {
     let none = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left /").type_in("natural");
     none.says("None in My positions; ").says(" elsewhere: Enter lists them.");
@@ -85,13 +105,6 @@ fn an_empty_search_offers_other_categories() {
     );
     assert!(elsewhere > 1, "{elsewhere}");
     found.shows(&[": \"natural\"", "Esc end search"]);
-#[test]
-fn keys_for_a_marked_exercise_say_that_none_is_listed() {
-    for key in ["x", "Enter", "y", "c"] {
-        Player::at_library(TRUE_COLOUR, &[], &[]).press("Left").press(key).warns("no exercise is listed; 0 lists all");
-    }
-}
-
     let all = found.press("Esc");
     assert_eq!(all.app.key_context(), KeyContext::Drill(DrillContext::Library));
     all.says("All ").does_not_show("\"natural\"");

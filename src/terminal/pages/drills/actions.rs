@@ -140,10 +140,10 @@ impl DrillsPage {
     }
 
     fn open_marked(&mut self) -> Option<Effect> {
-        let exercises = vec![self.catalogue.marked()?.clone()];
-        let Some(place) = self.unfinished_sessions.iter().position(|left| left.exercises == exercises) else {
-            let goal = self.options.goals.get(&exercises[0].name).copied().unwrap_or(Goal::Free);
-            return Some(self.begin(goal, exercises));
+        let exercise = self.catalogue.marked()?.clone();
+        let Some(place) = self.unfinished_sessions.iter().position(|left| left.repeats(&exercise)) else {
+            let goal = self.options.goals.get(&exercise.name).copied().unwrap_or(Goal::Free);
+            return Some(self.begin(goal, vec![exercise]));
         };
         let left = self.unfinished_sessions.remove(place);
         let inning = left.inning_words().map(|inning| format!(", {inning}"));

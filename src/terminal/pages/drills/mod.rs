@@ -289,7 +289,7 @@ impl DrillsPage {
         if let Some(mut turn) = self.turn.take() {
             turn.cancel_request();
             if turn.is_in_progress() {
-                self.unfinished_sessions.retain(|left| left.exercises != turn.session.exercises);
+                self.unfinished_sessions.retain(|left| !left.repeats(&turn.exercise));
                 self.unfinished_sessions.push(turn.latest_session().clone());
             }
         }
