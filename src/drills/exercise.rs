@@ -234,6 +234,13 @@ impl Exercise {
         Ok(own.filter(|own| own.has_size_of(&table)).cloned().unwrap_or(table))
     }
 
+    /// Whether the other exercise has the same name, balls and rule. Model shots are not compared: one that was written to a file, in
+    /// degrees, is not read back to the last bit.
+    pub fn has_same_task(&self, other: &Self) -> bool {
+        let task = |exercise: &Self| (exercise.layout, exercise.rule);
+        (&self.name, &self.table) == (&other.name, &other.table) && task(self) == task(other)
+    }
+
     /// Returns the model shot; `None` if there is none, or the cue has no room for it.
     pub fn model_shot(&self) -> Option<CueInputs> {
         let table = self.table().ok()?;

@@ -244,6 +244,11 @@ impl Session {
         self.exercises.get(number).filter(|_| !self.is_over())
     }
 
+    /// Whether the session repeats this exercise alone.
+    pub fn repeats(&self, exercise: &Exercise) -> bool {
+        matches!(&self.exercises[..], [only] if only.has_same_task(exercise))
+    }
+
     /// Whether the session is an exam.
     pub fn is_exam(&self) -> bool {
         self.goal == Goal::Exam

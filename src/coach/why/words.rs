@@ -13,6 +13,9 @@ use crate::{
 /// the difference if half of a thousand and of four hundred attempts make the point.
 const NOTABLE_DIFFERENCE: f64 = 0.03;
 
+/// Aim tolerances that differ by less than this share of the second shot's are reported as alike.
+const NOTABLE_WIDTH_SHARE: f64 = 0.05;
+
 /// Minimum differences that are reported, of fullness and of table lengths.
 const MIN_FULLNESS_DIFFERENCE: f64 = 0.06;
 const MIN_LENGTHS_DIFFERENCE: f64 = 0.3;
@@ -139,15 +142,12 @@ impl Why {
             let Some(its) = second.and_then(|second| second.aim_deg) else {
                 return Reason::new(true, format!("the aim tolerance is {own} wide"));
             };
-            match degrees(its) {
-                its if its == own => {
-                    Reason::new(true, format!("the aim tolerance is {own} wide, like that of {other}"))
-                }
-                there => {
-                    let than = if width > its { "wider" } else { "narrower" };
-                    Reason::new(width > its, format!("the aim tolerance is {than}, {own} ({other}: {there})"))
-                }
+            let there = degrees(its);
+            if own == there || (width - its).abs() < NOTABLE_WIDTH_SHARE * its {
+                return Reason::new(true, format!("the aim tolerance is {own} wide, like that of {other}"));
             }
+            let than = if width > its { "wider" } else { "narrower" };
+            Reason::new(width > its, format!("the aim tolerance is {than}, {own} ({other}: {there})"))
         }));
         reasons.extend(self.kiss.map(|Kiss { share, balls: [one, other], .. }| {
             let words = format!("{} and {} kiss in {}", names[one], names[other], percent(share));
@@ -155,7 +155,7 @@ impl Why {
         }));
         if let Some(plan) = self.plan_words(other) {
             let next = self.next_probability.zip(second.and_then(|second| second.next_probability));
-            let is_for = self.is_by_plan() || next.is_none_or(|(after, after_other)| after >= after_other);
+            let is_for = self.is_by_plan() || next.is_none_or(|(after, other)| after >= other - NOTABLE_DIFFERENCE);
             let place = if self.is_by_plan() { 0 } else { reasons.len() };
             reasons.insert(place, Reason::new(is_for, plan));
         }
@@ -305,6 +305,16 @@ mod tests {
             first,
             "It leaves the next point at 60 % (after shot 2: 30 %); but the aim tolerance is narrower, 1\u{b0} (shot 2: 2\u{b0})."
         );
+        // A difference that nobody notices is none.
+        for (width, is_like) in [(0.97, true), (1.03, true), (0.9, false), (1.1, false)] {
+            let second = both.second.clone().map(|second| Difference { aim_deg: Some(1.0), ..second });
+            let said = Why { aim_deg: Some(width), second, ..both.clone() }.words(CueBall::White, Units::default());
+            assert_eq!(said.contains("wide, like that of the second shot"), is_like, "{said}");
+        }
+        for (after, is_for) in [(0.29, true), (0.2, false)] {
+            let said = Why { next_probability: Some(after), ..both.clone() }.words(CueBall::White, Units::default());
+            assert_eq!(said.contains("the second shot 54 %. It leaves the next point"), is_for, "{said}");
+        }
         let against = Why { next_probability: None, ..both };
         let [first, ..] = &against.facts_beyond_list(CueBall::White).collect::<Vec<_>>()[..] else {
             panic!("no facts")

@@ -143,7 +143,7 @@ impl App {
             _ if self.overlay.is_some() => Some("close this first: Esc"),
             Condition::Always => None,
             Condition::Shell => self.no_shell(),
-            Condition::Coach(CoachCondition::Resumable) if self.resumes_open_exam() => {
+            Condition::Coach(CoachCondition::Resumable) if self.exam_to_show().is_some() => {
                 self.coach.disabled_reason(CoachCondition::Idle)
             }
             Condition::Coach(when) => self.coach.disabled_reason(when),

@@ -41,7 +41,7 @@ use crate::{
             training::TrainingPage,
         },
         shared_table::SharedTable,
-        ui::Theme,
+        ui::{Message, Theme},
     },
 };
 
@@ -287,19 +287,7 @@ impl App {
             Action::ClosePalette => self.command_palette = None,
             Action::ChooseCommand => return self.choose_command(),
             Action::PaletteLine(lines) => self.move_palette_mark(lines),
-            Action::Coach(CoachAction::Resume) if self.resumes_open_exam() => {
-                let effect = self.open(PageId::Drills);
-                self.drills.show_session();
-                return effect;
-            }
-            Action::Coach(CoachAction::Resume) => {
-                let practice = self.coach.resume()?;
-                self.switch_to(PageId::Drills);
-                let effect = self.drills.resume(practice, self.coach.query.skill);
-                // An exam that was open before waits until all others have been continued.
-                self.coach.unfinished_exams.splice(0..0, self.drills.unfinished_exam.take());
-                return Some(effect);
-            }
+            Action::Coach(CoachAction::Resume) => return self.resume(),
             Action::Coach(action) => {
                 return match self.coach.update(action) {
                     // The drills may not know the folder of the positions yet; the first task loads it.
@@ -312,7 +300,12 @@ impl App {
             Action::Drill(action) => {
                 let effect = self.drills.update(action);
                 let balls = self.drills.position_for_coach.take();
-                self.coach.unfinished_exams.extend(self.drills.unfinished_exam.take());
+                if let Some(exam) = self.drills.unfinished_exam.take()
+                    && self.coach.keep_exam(exam)
+                {
+                    let words = "the exam is kept; c on the coach's page (F2) goes on with it after what else was left";
+                    self.drills.message = Some(Message::plain(words));
+                }
                 if balls.is_some() || self.drills.is_closed() {
                     self.open(PageId::Coach);
                 }
@@ -350,9 +343,25 @@ impl App {
         None
     }
 
-    /// Whether the session to continue is an exam that is still open on the drill screens.
-    pub(super) fn resumes_open_exam(&self) -> bool {
-        self.coach.unfinished_exams.is_empty() && self.drills.has_open_exam()
+    /// The exam that is still open on the drill screens, if it is the next to resume.
+    pub(super) fn exam_to_show(&self) -> Option<&Session> {
+        self.drills.unfinished().filter(|open| open.is_exam() && self.coach.resumes_open(open))
+    }
+
+    /// Resumes the exam or the session that was left.
+    fn resume(&mut self) -> Option<Effect> {
+        if let Some(exam) = self.exam_to_show().cloned() {
+            self.coach.note_resumed(&exam);
+            let effect = self.open(PageId::Drills);
+            self.drills.show_session();
+            return effect;
+        }
+        let practice = self.coach.resume()?;
+        self.switch_to(PageId::Drills);
+        let effect = self.drills.resume(practice, self.coach.query.skill);
+        // An exam that was open before waits until all others have been continued.
+        self.coach.keep_interrupted_exam(self.drills.unfinished_exam.take());
+        Some(effect)
     }
 
     /// The action that answers the open page's question.

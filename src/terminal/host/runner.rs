@@ -14,7 +14,7 @@ use crate::{
     printing::{self, FULL_VERSION, OneLine},
     storage::{DataPaths, remove_if_exists, save_json},
     terminal::{
-        App, CoachAnswer, CoachEvent, Effect, SavedSession, TrainingReport,
+        App, CoachAnswer, CoachEvent, DrillReport, DrillTask, Effect, SavedSession, TrainingReport,
         host::{events, guard::TerminalGuard, log, pace::Pace, table_sharing::TableSharing},
         tasks::{Tasks, event::Event},
     },
@@ -25,6 +25,9 @@ const MIN_FRAME_INTERVAL: Duration = Duration::from_millis(15);
 
 /// Smallest interval between two saves of the session.
 const SAVE_INTERVAL: Duration = Duration::from_secs(2);
+
+/// Interval between two attempts to save what the disk has refused.
+const RETRY_INTERVAL: Duration = Duration::from_secs(10);
 
 /// Whether the loop continues.
 enum Flow {
@@ -46,11 +49,22 @@ pub fn run(app: App, paths: DataPaths) -> io::Result<()> {
     let session = TerminalGuard::start(app.mouse)?;
     let tasks = Tasks::new(to_screen)?;
     let saved = (None, Instant::now());
-    let ticked = Instant::now();
+    let (ticked, retried) = (Instant::now(), Instant::now());
     let sharing = TableSharing::new(paths.spectator_folder.clone());
     let (has_resumed, has_save_failed, last_logged) = (false, false, String::new());
-    let mut runner =
-        Runner { app, session, tasks, paths, ticked, has_resumed, saved, has_save_failed, last_logged, sharing };
+    let mut runner = Runner {
+        app,
+        session,
+        tasks,
+        paths,
+        ticked,
+        has_resumed,
+        saved,
+        retried,
+        has_save_failed,
+        last_logged,
+        sharing,
+    };
     let end = runner.event_loop(&events);
     runner.sharing.stop();
     runner.save_session(true);
@@ -59,6 +73,13 @@ pub fn run(app: App, paths: DataPaths) -> io::Result<()> {
     let left = runner.session.leave();
     // The player sees the shell again while the last changes are written.
     runner.tasks.finish();
+    let retried = events.try_iter().filter_map(|event| match event {
+        Event::Drill(DrillReport::Retried(retried)) => Some(retried),
+        _ => None,
+    });
+    if let Some(Err(sentence)) = retried.last() {
+        let _ = writeln!(printing::stderr(), "{sentence}");
+    }
     if let Err(error) = draft_saved {
         // A terminal that is gone shows nothing.
         let _ = writeln!(printing::stderr(), "the stroke that was typed in part is lost: {error}");
@@ -90,6 +111,8 @@ struct Runner {
     has_resumed: bool,
     /// The session saved last, and the time of the save.
     saved: (Option<SavedSession>, Instant),
+    /// Time of the last attempt to save what the disk has refused, or when everything was saved.
+    retried: Instant,
     /// Whether saving the session has failed.
     has_save_failed: bool,
     /// The last message written to the log.
@@ -108,7 +131,8 @@ impl Runner {
             let interval = self.app.frame_interval().map(Duration::from_secs_f64);
             // A toast that disappears needs one more frame.
             let toast = self.app.toasts.time_left().map(|left| self.ticked + Duration::from_secs_f64(left));
-            let writing = self.next_save().into_iter().chain(self.sharing.due(&self.app));
+            let retry = self.app.drills.has_unsaved().then(|| self.retried + RETRY_INTERVAL);
+            let writing = self.next_save().into_iter().chain(retry).chain(self.sharing.due(&self.app));
             let first = match pace.next_wake(interval).into_iter().chain(toast).chain(writing).min() {
                 // Nothing moves: no timer, no processor time, no bytes.
                 None => events.recv().map_err(|_| RecvTimeoutError::Disconnected),
@@ -125,6 +149,9 @@ impl Runner {
             // Time that passed while nothing moved does not count.
             let passed = self.ticked.elapsed();
             self.ticked = Instant::now();
+            if !self.app.drills.has_unsaved() {
+                self.retried = self.ticked;
+            }
             if interval.is_some() || toast.is_some() {
                 self.app.tick(passed.as_secs_f64());
             }
@@ -137,6 +164,7 @@ impl Runner {
                     Flow::EndBySignal(signal) => return Ok(Some(signal)),
                 }
             }
+            self.retry_saving()?;
             if can_wait && !pace.on_report(Instant::now(), self.app.frame_interval().is_some()) {
                 continue;
             }
@@ -149,6 +177,15 @@ impl Runner {
             self.draw()?;
             pace.on_drawn(Instant::now());
         }
+    }
+
+    /// Tries again at intervals to save what the disk has refused.
+    fn retry_saving(&mut self) -> io::Result<()> {
+        if self.app.drills.has_unsaved() && self.retried.elapsed() >= RETRY_INTERVAL {
+            self.retried = Instant::now();
+            self.tasks.practise(vec![DrillTask::SaveUnsaved])?;
+        }
+        Ok(())
     }
 
     /// Time of the next save of the session; `None` if nothing has changed.

@@ -27,6 +27,8 @@ pub enum DrillTask {
     RateStroke(Box<RateStrokeTask>),
     /// Save a session in which something was noted or undone, together with its attempts before the change.
     Save(Box<Session>, Vec<Attempt>),
+    /// Save what the disk has refused so far.
+    SaveUnsaved,
     /// Save a position; the flag allows replacing one of the same name.
     SavePosition(Box<Exercise>, bool),
     /// Remove the position with this name.
@@ -158,6 +160,8 @@ pub enum DrillReport {
     /// Result of [`DrillTask::Play`] or [`DrillTask::Save`] if another program has changed the session: its present state, without the
     /// stroke or the change.
     Changed(Box<Session>),
+    /// Whether everything that the disk had refused is saved now; if not, what is missing and why.
+    Retried(Result<(), String>),
     /// Result of [`DrillTask::SavePosition`]: `true` if saved, `false` if the name is taken.
     PositionSaved(Box<Exercise>, Result<bool, String>),
     /// Result of [`DrillTask::RemovePosition`].

@@ -174,9 +174,11 @@ impl Tasks {
         }
     }
 
-    /// Waits until everything that the player has noted, set or requested of a run is on the disk. The screen may close before.
+    /// Waits until everything that the player has noted, set or requested of a run is on the disk. The screen may close before. The last
+    /// [`DrillReport::Retried`](super::DrillReport::Retried) tells what the disk still refuses.
     pub fn finish(self) {
         self.is_closing.store(true, Ordering::Relaxed);
+        self.practice.submit(DrillTask::SaveUnsaved);
         self.practice.finish();
         self.calibration_writer.finish();
         self.settings.finish();
@@ -336,7 +338,13 @@ fn recorder(folder: PathBuf, to_screen: Sender<Event>) -> io::Result<Worker<(Exa
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{storage::DataPaths, study::filmed::bundled};
+    use crate::{
+        coach::Skill,
+        drills::{Goal, Library, Session, Venue, store::Store},
+        storage::DataPaths,
+        study::filmed::bundled,
+        terminal::DrillReport,
+    };
 
     #[test]
     fn writing_tasks_are_done_before_the_program_ends() {
@@ -349,6 +357,34 @@ mod tests {
     }
 
     #[test]
+    fn what_the_disk_has_refused_is_saved_or_named_at_the_end() {
+        for is_mended in [true, false] {
+            let (to_screen, events) = channel();
+            let tasks = Tasks::new(to_screen).unwrap();
+            let home = tempfile::tempdir().unwrap();
+            let paths = DataPaths::under(home.path());
+            std::fs::create_dir_all(paths.sessions.parent().unwrap()).unwrap();
+            std::fs::write(&paths.sessions, "in the way").unwrap();
+            let exercise = Library::bundled().exercises()[0].clone();
+            let title = exercise.title.clone();
+            let mut session = Session::new(Goal::Free, Venue::Table, vec![exercise], Skill::CLUB, 1);
+            session.log(true).unwrap();
+            tasks.practise(vec![DrillTask::Load(Box::new(paths.clone()))]).unwrap();
+            tasks.practise(vec![DrillTask::Save(Box::new(session.clone()), Vec::new())]).unwrap();
+            while !matches!(events.recv(), Ok(Event::Drill(DrillReport::Saved(_, Err(_))))) {}
+            if is_mended {
+                std::fs::remove_file(&paths.sessions).unwrap();
+            }
+            tasks.finish();
+            let Some(Event::Drill(DrillReport::Retried(retried))) = events.try_iter().last() else { panic!("no end") };
+            match retried {
+                Ok(()) => assert_eq!(Store::new(&paths).sessions().items[0].attempts, session.attempts),
+                Err(words) => assert!(words.starts_with(&format!("not saved: 1 attempt at {title}; ")), "{words}"),
+            }
+        }
+    }
+
+    #[test]
     fn tasks_without_writes_do_not_delay_the_end() {
         let (to_screen, events) = channel();
         let tasks = Tasks::new(to_screen).unwrap();
@@ -356,10 +392,10 @@ mod tests {
         let home = tempfile::tempdir().unwrap();
         tasks.practise(vec![DrillTask::Load(Box::new(DataPaths::under(home.path())))]).unwrap();
         tasks.practise((0..40).map(|_| film()).collect()).unwrap();
-        tasks.practise(vec![DrillTask::SaveSkill(crate::coach::Skill::CLUB)]).unwrap();
+        tasks.practise(vec![DrillTask::SaveSkill(Skill::CLUB)]).unwrap();
         tasks.finish();
         let reports: Vec<_> = events.try_iter().collect();
         assert!(reports.len() < 40, "{} of 42 tasks were done", reports.len());
-        assert!(matches!(reports.last(), Some(Event::Drill(drills::DrillReport::SkillSaved(_, Ok(()))))));
+        assert!(matches!(reports.last(), Some(Event::Drill(DrillReport::SkillSaved(_, Ok(()))))));
     }
 }

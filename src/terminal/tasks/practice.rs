@@ -35,16 +35,29 @@ pub struct PracticeWorker {
     last: Option<Session>,
     /// Number of attempts of each session known to be on the disk.
     saved_attempts: HashMap<String, usize>,
+    /// The latest state of the sessions that the disk has refused, each with its attempts before the first refused change.
+    unsaved: Vec<(Session, Vec<Attempt>)>,
 }
 
 impl PracticeWorker {
     /// Runs `task` on this thread and passes its reports to `reply`. A panic in a simulation becomes an error message.
     pub fn run(&mut self, task: DrillTask, reply: &mut dyn FnMut(DrillReport)) {
         let failed = "the program failed on this position; move a ball a little and try again";
+        let retried = if task.writes() { self.retry(reply) } else { Ok(()) };
         match task {
             DrillTask::Load(places) => {
                 let store = self.store.insert(Store::new(&places));
-                reply(DrillReport::Loaded(Box::new(load(store))));
+                let mut loaded = load(store);
+                for (session, _) in &self.unsaved {
+                    loaded.sessions.retain(|stored| stored.id != session.id);
+                    loaded.sessions.push(session.clone());
+                }
+                reply(DrillReport::Loaded(Box::new(loaded)));
+            }
+            DrillTask::SaveUnsaved => {
+                if retried.is_err() {
+                    reply(DrillReport::Retried(retried));
+                }
             }
             DrillTask::Advise(task) => {
                 if !task.cancel.load(Ordering::Relaxed) {
@@ -121,17 +134,63 @@ impl PracticeWorker {
         let Some(store) = &self.store else { return Ok(Err(NO_STORE.to_owned())) };
         // If a session of an earlier program is continued, the disk may have refused some of it.
         let saved_attempts = self.saved_attempts.entry(session.id.clone()).or_default();
-        match store.save(session, before, *saved_attempts) {
+        // The file is as it was before the first change that the disk has refused.
+        let refused = self.unsaved.iter().position(|(unsaved, _)| unsaved.id == session.id);
+        let before = refused.map_or_else(|| before.to_vec(), |place| self.unsaved.remove(place).1);
+        match store.save(session, &before, *saved_attempts) {
             Err(StoreError::Changed(stored)) => {
                 *saved_attempts = stored.attempts.len();
                 Err(stored)
             }
-            Err(error) => Ok(Err(error.to_string())),
+            Err(error) => {
+                self.unsaved.push((session.clone(), before));
+                Ok(Err(error.to_string()))
+            }
             Ok(()) => {
                 *saved_attempts = session.attempts.len();
                 Ok(Ok(()))
             }
         }
+    }
+
+    /// Saves what the disk has refused so far, and reports it if that succeeds.
+    ///
+    /// # Errors
+    /// What is still not saved, and why.
+    fn retry(&mut self, reply: &mut dyn FnMut(DrillReport)) -> Result<(), String> {
+        if self.unsaved.is_empty() {
+            return Ok(());
+        }
+        let (mut refusal, mut changed) = (String::new(), Vec::new());
+        for (session, before) in self.unsaved.clone() {
+            match self.save(&session, &before) {
+                Ok(Ok(())) => {}
+                Ok(Err(error)) => refusal = error,
+                Err(stored) => changed.push(DrillReport::Changed(stored)),
+            }
+        }
+        let is_saved = self.unsaved.is_empty();
+        if is_saved && changed.is_empty() {
+            reply(DrillReport::Retried(Ok(())));
+        }
+        changed.into_iter().for_each(reply);
+        if is_saved {
+            return Ok(());
+        }
+        let what = self.unsaved.iter().map(|(session, _)| self.unsaved_words(session)).collect::<Vec<_>>().join(", ");
+        Err(format!("not saved: {what}; {refusal}"))
+    }
+
+    /// What of the session is not on the disk.
+    fn unsaved_words(&self, session: &Session) -> String {
+        let saved = self.saved_attempts.get(&session.id).copied().unwrap_or_default();
+        let attempts = match session.attempts.len().saturating_sub(saved) {
+            0 => "the last change".to_owned(),
+            1 => "1 attempt".to_owned(),
+            many => format!("{many} attempts"),
+        };
+        let exercise = session.exercises.first().filter(|_| !session.is_exam());
+        format!("{attempts} at {}", exercise.map_or("the exam", |exercise| exercise.title.as_str()))
     }
 
     fn find_model_shot(&mut self, task: &AdviceTask) -> Result<Option<ModelShot>, String> {
@@ -200,8 +259,12 @@ impl PracticeWorker {
         reply(DrillReport::Played(session.id.clone(), Ok(outcome), saved));
         let share = chance(session.shooter(), rule, &table, &layout, &intended).rate;
         session.attempts[number].chance = Some(share);
+        let was_refused = !self.unsaved.is_empty();
         // A disk error was just reported, and a user who has continued the session may do so without the rate.
         let _ = self.save(&session, &session.attempts);
+        if was_refused && self.unsaved.is_empty() {
+            reply(DrillReport::Retried(Ok(())));
+        }
         reply(DrillReport::AttemptRated(session.id.clone(), number, share));
         self.last = Some(session);
     }

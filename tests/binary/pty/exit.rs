@@ -236,3 +236,26 @@ fn an_unwritable_state_folder_is_reported_once() {
     session.send("q");
     assert!(session.assert_clean_exit().success());
 }
+
+#[test]
+fn attempts_that_the_disk_has_refused_are_saved_or_named_at_the_end() {
+    for is_mended in [true, false] {
+        let home = tempfile::tempdir().unwrap();
+        let sessions = home.path().join("data/carom/sessions");
+        std::fs::create_dir_all(sessions.parent().unwrap()).unwrap();
+        std::fs::write(&sessions, "in the way").unwrap();
+        let mut session = Session::start_at(home.path(), carom(), 80, 24);
+        session.wait_for(START_TEXT);
+        session.send("d");
+        session.wait_for("The half ball");
+        session.send("\rm");
+        session.wait_for("the note counts here");
+        if is_mended {
+            std::fs::remove_file(&sessions).unwrap();
+        }
+        session.send("q");
+        assert!(session.assert_clean_exit().success());
+        let is_told = session.screen().contents().contains("not saved: 1 attempt at ");
+        assert_eq!((sessions.is_dir(), is_told), (is_mended, !is_mended), "{}", session.screen().contents());
+    }
+}

@@ -1,13 +1,21 @@
 //! Requests to the coach and the display of its advice: better shots while it thinks, chances, margins, maps and the plan.
 
-use std::sync::atomic::Ordering;
+use std::{
+    path::Path,
+    sync::{Arc, atomic::Ordering},
+};
 
-use super::player::{NEXT_SHOT, OTHER_SHOTS, Player, SHOT, SIZES, TRUE_COLOUR, advice, check, proposal};
+use super::{
+    player::{NEXT_SHOT, OTHER_SHOTS, Player, SHOT, SIZES, TRUE_COLOUR, advice, check, proposal},
+    runs::{RUN, RUNS, config},
+};
 use carom::{
     coach::{FirstContact, Skill},
     game::Rule,
+    learning::{Policy, run::follow::Update},
     physics::CueInputs,
-    terminal::{CoachAnswer, CoachEvent, CoachWorker, InfoPanel, Settings},
+    table::Table,
+    terminal::{CoachAnswer, CoachEvent, CoachWorker, FollowSlot, InfoPanel, Settings, TrainingReport},
 };
 use ratatui::{buffer::Buffer, style::Color};
 
@@ -292,4 +300,29 @@ fn a_perfect_player_gets_the_first_point_found() {
     assert!(advice.effort.unwrap().simulations < 1000 && advice.proposals[0].shot.solved);
     let player = answers.into_iter().fold(player, |player, CoachAnswer { id, event }| player.tell(id, event));
     assert!(player.text(80, 24).contains("makes the point (networks"), "{}", player.text(80, 24));
+}
+
+#[test]
+fn the_coach_returns_to_the_bundled_weights() {
+    let take = |player: Player, rule: Rule| {
+        let policy = Policy::bundled(&Table::default(), rule).unwrap().unwrap();
+        let update = Update { config: Some(Box::new(config(rule.name()))), ..Update::default() };
+        let player = player.update(FollowSlot::Main, RUN, update);
+        player.report(TrainingReport::Policy(Path::new(RUNS).join(RUN), Ok(Arc::new(policy))))
+    };
+    let bundled = "the bundled networks".to_owned();
+    let asked = |player: &Player| (player.app.coach.query.name().to_owned(), player.app.coach.query.rule);
+    let player = take(Player::watching(TRUE_COLOUR), Rule::ThreeCushion);
+    assert_eq!(asked(&player), (RUN.to_owned(), Rule::ThreeCushion));
+    player.says("b bundled");
+    let player = player.press("b");
+    assert_eq!(asked(&player), (bundled.clone(), Rule::StraightRail), "the rule of before");
+    player.says("the rule is now straight");
+    assert!(!player.text(120, 40).contains("b bundled"));
+    player.press("b").says("the bundled networks are asked already");
+    // Other networks in between change nothing, and a rule that was chosen since stays.
+    let other = take(take(Player::watching(TRUE_COLOUR), Rule::ThreeCushion).press("F4"), Rule::OneCushion);
+    assert_eq!(asked(&other.press("b")), (bundled.clone(), Rule::StraightRail));
+    let chosen = take(Player::watching(TRUE_COLOUR), Rule::ThreeCushion).press("R R b");
+    assert_eq!(asked(&chosen), (bundled, Rule::OneCushion));
 }

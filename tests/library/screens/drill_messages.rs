@@ -6,7 +6,8 @@ use super::{
 };
 use carom::{
     drills::{Goal, Session, Venue},
-    terminal::{DrillContext, KeyContext},
+    storage::save_json,
+    terminal::{DrillContext, KeyContext, SavedSession},
 };
 use crossterm::event::{KeyModifiers, MouseEvent, MouseEventKind};
 
@@ -49,6 +50,31 @@ fn a_left_match_can_be_resumed_at_the_next_start() {
 }
 
 #[test]
+fn a_game_of_an_earlier_start_goes_on_when_its_exercise_is_opened() {
+    let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("Home Enter o o Left Enter Enter F2");
+    let mut next = Player::new();
+    let path = next.path("last.json");
+    save_json(&path, &left.app.saved_session().unwrap()).unwrap();
+    next.app = next.app.with_saved_session(SavedSession::load(&path).unwrap());
+    let again = next.press("c Esc Enter");
+    again.says("game, 10 innings: it goes on here");
+    assert_eq!(again.app.drills.turn.as_ref().unwrap().session.attempts.len(), 1);
+}
+
+#[test]
+fn a_goal_belongs_to_the_exercise_for_which_it_was_chosen() {
+    let positions = [exercise("first", "The first"), exercise("second", "The second")];
+    let goal = |player: &Player| player.app.drills.turn.as_ref().unwrap().session.goal;
+    let chosen = Player::at_library(TRUE_COLOUR, &positions, &[]).press("Left Home Enter o o >");
+    assert_eq!(goal(&chosen), Goal::Game { innings: 11 });
+    let other = chosen.press("Esc Down Enter");
+    assert_eq!(goal(&other), Goal::Free);
+    let back = other.press("o Esc Up Enter");
+    assert_eq!(goal(&back), Goal::Game { innings: 11 });
+    assert_eq!(goal(&back.press("Esc Down Enter")), Goal::Run(5));
+}
+
+#[test]
 fn real_table_and_simulator_results_are_listed_separately() {
     let here = Session { venue: Venue::Program, ..session(6, "opening", Goal::Free, "x---") };
     let sessions: Vec<Session> = three_sessions().into_iter().chain([here]).collect();
@@ -57,6 +83,13 @@ fn real_table_and_simulator_results_are_listed_separately() {
     library.shows(&["table", "here", "27/37", "1/4", "table: 27 of 37", "here: 1 of 4"]);
     let record = library.press("Enter r");
     record.shows(&["27 of 37, 73 %", "1 of 4, 25 %", "here  free repetition", "table free repetition"]);
+}
+
+#[test]
+fn keys_for_a_marked_exercise_say_that_none_is_listed() {
+    for key in ["x", "Enter", "y", "c"] {
+        Player::at_library(TRUE_COLOUR, &[], &[]).press("Left").press(key).warns("no exercise is listed; 0 lists all");
+    }
 }
 
 #[test]

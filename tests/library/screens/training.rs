@@ -331,23 +331,6 @@ fn a_run_with_unreadable_configuration_is_shown() {
 }
 
 #[test]
-fn the_coach_returns_to_the_bundled_weights() {
-    let folder = Path::new(RUNS).join(RUN);
-    let table = Table::default();
-    let policy = Policy::bundled(&table, Rule::ThreeCushion).unwrap().unwrap();
-    let config = Some(Box::new(config("three-cushion")));
-    let player = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, RUN, Update { config, ..Update::default() });
-    let player = player.report(TrainingReport::Policy(folder, Ok(Arc::new(policy))));
-    let asked = |player: &Player| (player.app.coach.query.name().to_owned(), player.app.coach.query.rule);
-    assert_eq!(asked(&player), (RUN.to_owned(), Rule::ThreeCushion));
-    player.says("b bundled");
-    let player = player.press("b");
-    assert_eq!(asked(&player), ("the bundled networks".to_owned(), Rule::ThreeCushion), "the rule stays");
-    assert!(!player.text(120, 40).contains("b bundled"));
-    player.press("b").says("the bundled networks are asked already");
-}
-
-#[test]
 fn only_success_rewards_are_called_success() {
     let config = Some(Box::new(config("r1-difficulty")));
     let player = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, RUN, Update { config, ..Update::default() });

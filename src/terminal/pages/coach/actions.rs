@@ -6,11 +6,10 @@ use glam::DVec2;
 
 use crate::{
     coach::{FirstContact, words::no_jump_words},
-    drills::Session,
     game::{Point, Rule},
     table::{BALLS, CueBall, Layout, Opening, Side},
     terminal::{
-        CoachAction as Action, CoachCondition, CoachQuery, Effect, InfoPanel, Mode, SavedSession, Terms,
+        CoachAction as Action, CoachCondition, CoachQuery, Effect, InfoPanel, Mode, Terms,
         pages::{
             coach::{CoachPage, Snapshot},
             neighbour, next_skill,
@@ -136,19 +135,14 @@ impl CoachPage {
             Action::UndoStroke => return self.step_stroke_history(OwnStroke::undo),
             Action::RedoStroke => return self.step_stroke_history(OwnStroke::redo),
             Action::UseBundledPolicies => {
-                self.set_query(&self.table().clone(), CoachQuery { policy: None, ..self.query.clone() });
+                let rule = self.rule_without_policy();
+                self.set_query(&self.table().clone(), CoachQuery { policy: None, rule, ..self.query.clone() });
             }
             Action::Playback(key) => self.apply_playback_key(key),
             // The app opens the other page, or resumes the session.
             Action::OpenDrills | Action::OpenFilms | Action::OpenTraining | Action::Resume => {}
         }
         None
-    }
-
-    /// Takes the latest unfinished match against the coach out of the earlier sessions.
-    pub fn take_open_match(&mut self) -> Option<Session> {
-        let of = |before: &mut SavedSession| before.practice.take_if(|practice| practice.is_against_coach());
-        self.earlier_sessions.iter_mut().find_map(of)
     }
 
     /// Gives the turn to the opponent: the other ball becomes the cue ball, and all balls keep their positions.

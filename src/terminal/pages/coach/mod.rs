@@ -2,12 +2,14 @@
 //!
 //! [`actions`] implements the key actions, [`request`] the requests to the coach, and [`dragging`] moving balls with the mouse.
 //! [`saving`] saves positions, [`positions`] reads typed ones, and [`question`] holds the questions for both. [`lesson`] shows the
-//! diamond systems, [`own_stroke`] is the player's own stroke, and [`spectators`] shares the table with other people.
+//! diamond systems, [`own_stroke`] is the player's own stroke, and [`spectators`] shares the table with other people. [`last_session`]
+//! continues earlier sessions of the program.
 
 mod actions;
 mod advised;
 mod dragging;
 pub mod keys;
+mod last_session;
 mod lesson;
 mod own_stroke;
 mod page;
@@ -18,7 +20,7 @@ mod saving;
 mod spectators;
 pub mod view;
 
-use std::{sync::Arc, time::Duration};
+use std::{collections::HashMap, sync::Arc, time::Duration};
 
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -133,6 +135,8 @@ pub struct CoachPage {
     history: History<Snapshot>,
     /// The mouse drag in progress; it moves the selected ball.
     drag: Option<Drag>,
+    /// The rule that was in force before a policy of the user's own was taken, and the rule that came with it.
+    rules_of_policy: Option<[Rule; 2]>,
     /// The query terms from the settings, without later changes by keys.
     settings_terms: Terms,
     /// The query terms at the start of this session.
@@ -141,8 +145,10 @@ pub struct CoachPage {
     earlier_sessions: Vec<SavedSession>,
     /// Whether a saved session has been resumed.
     has_resumed: bool,
-    /// Unfinished exams that have not been resumed, the latest last.
-    pub unfinished_exams: Vec<Session>,
+    /// Unfinished exams that were left: first those that were left again without a stroke, at the end the latest.
+    unfinished_exams: Vec<Session>,
+    /// The number of attempts that each exam had when it was last resumed, by the exam's identifier.
+    resumed_exams: HashMap<String, usize>,
     /// The question that is open over the table.
     question: Option<Question>,
     /// The name of the position that is being saved to disk.
@@ -185,11 +191,13 @@ impl CoachPage {
             own_stroke: None,
             history: History::new(Snapshot::new(Arc::new(table), layout)),
             drag: None,
+            rules_of_policy: None,
             settings_terms: CoachQuery::default().terms(),
             start_terms: CoachQuery::default().terms(),
             earlier_sessions: Vec::new(),
             has_resumed: false,
             unfinished_exams: Vec::new(),
+            resumed_exams: HashMap::new(),
             question: None,
             saving_name: None,
             lesson: None,
@@ -202,82 +210,6 @@ impl CoachPage {
             job_count: 0,
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         })
-    }
-
-    /// Restores the query terms of the last session, except those that the settings have changed since then. Offers to resume that
-    /// session and earlier ones that have not been resumed, if they differ from the current state.
-    pub fn restore_last_session(&mut self, last: Option<SavedSession>) {
-        if let Some((last, set)) = last.as_ref().and_then(|last| Some((last, last.settings?))) {
-            self.query = self.query.with(self.settings_terms.with_change([set, last.terms()]));
-        }
-        self.start_terms = self.query.terms();
-        let is_elsewhere = |last: &SavedSession| {
-            last.layout != *self.layout() || last.table != *self.table() || last.practice.is_some()
-        };
-        let mut before = last.map_or_else(Vec::new, SavedSession::into_sessions);
-        before.retain(is_elsewhere);
-        self.earlier_sessions = before;
-        let words = match self.earlier_sessions.first() {
-            None => return,
-            Some(SavedSession { practice: Some(practice), .. }) if practice.is_exam() || practice.is_game() => {
-                format!("c goes on with the {} of the last session", practice.goal.name())
-            }
-            Some(_) => "c goes on from where the last session ended".to_owned(),
-        };
-        self.message = Some(Message::plain(words));
-    }
-
-    /// Returns the state from which the next session can resume. It includes the current practice session, or the unfinished exam or
-    /// `game`. `None` if there is no such session and nothing has changed since the start.
-    pub fn saved_session(&self, practised: Option<&Session>, game: Option<&Session>) -> Option<SavedSession> {
-        let is_begun = self.is_begun() || practised.or(game).is_some() || !self.unfinished_exams.is_empty();
-        if self.followed().is_some() || !is_begun {
-            return None;
-        }
-        let earlier_practice = self.earlier_sessions.first().and_then(|before| before.practice.as_ref());
-        let mut exams = practised.into_iter().chain(self.unfinished_exams.iter().rev()).chain(earlier_practice);
-        let practice = exams.find(|session| session.is_exam()).or(practised).or(game);
-        let ended = |practice: Option<&Session>| {
-            let (table, terms) = (self.table().clone(), self.query.terms());
-            SavedSession::new(table, *self.layout(), self.cue_ball(), terms, practice.cloned())
-                .with_settings(self.settings_terms)
-        };
-        // A saved session holds one practice session. Each further unfinished exam or game is saved as an earlier session of its own.
-        let others = self.unfinished_exams.iter().rev().chain(game);
-        let others = others.filter(|other| practice.is_none_or(|practice| practice.id != other.id));
-        let former = others.map(|other| ended(Some(other))).chain(self.earlier_sessions.iter().cloned());
-        Some(ended(practice).with_former_sessions(former.collect()))
-    }
-
-    /// Returns the earlier sessions that have not been resumed, in the form in which they are saved; `None` if there are none.
-    pub fn earlier_session(&self) -> Option<SavedSession> {
-        SavedSession::of_sessions(&self.earlier_sessions)
-    }
-
-    /// Whether the user has changed anything since the start.
-    fn is_begun(&self) -> bool {
-        self.history.can_undo() || !self.history.present().advised.is_empty() || self.query.terms() != self.start_terms
-    }
-
-    /// Resumes the unfinished exam, or the last saved session. Returns its practice session, if it has one.
-    pub fn resume(&mut self) -> Option<Session> {
-        if let Some(exam) = self.unfinished_exams.pop() {
-            return Some(exam);
-        }
-        if self.earlier_sessions.is_empty() {
-            return None;
-        }
-        let last = self.earlier_sessions.remove(0);
-        // A session that stores its settings had its terms restored at the start; keys may have changed them since then.
-        let terms = if last.settings.is_some() { self.query.terms() } else { last.terms() };
-        let query = CoachQuery { policy: self.policy_on(&last.table), ..self.query.with(terms) };
-        let its_rule = if last.rule == query.rule { String::new() } else { format!(", under the rule {}", last.rule) };
-        self.replace_position(&last.table, last.layout, last.cue_ball, query);
-        let which = if std::mem::replace(&mut self.has_resumed, true) { "that earlier" } else { "the last" };
-        let more = if self.earlier_sessions.is_empty() { "" } else { "; c goes back to the one before" };
-        let text = format!("this is where {which} session ended{its_rule}; Enter asks the coach{more}");
-        self.message = Some(Message::good(text));
-        last.practice
     }
 
     /// Limits the coach's thinking time, whatever the setting is.
@@ -356,9 +288,20 @@ impl CoachPage {
         let rule =
             if query.rule == self.query.rule { String::new() } else { format!("; the rule is now {}", query.rule) };
         let news = format!("the coach plays with {}{rule}; Enter asks it", query.name());
+        if query.policy.is_some() {
+            self.rules_of_policy = Some([self.rule_without_policy(), query.rule]);
+        }
         let CoachQuery { skill, doubt, plan, jumps, first, .. } = self.query;
         self.replace_position(table, layout, self.cue_ball(), CoachQuery { skill, doubt, plan, jumps, first, ..query });
         self.message = Some(Message::good(news));
+    }
+
+    /// The rule without the user's own policy: the one before it was taken, unless another rule was chosen since.
+    fn rule_without_policy(&self) -> Rule {
+        match self.rules_of_policy.filter(|_| self.query.policy.is_some()) {
+            Some([before, own]) if self.query.rule == own => before,
+            _ => self.query.rule,
+        }
     }
 
     /// Switches to another player skill. A shot for the former skill is no longer displayed.

@@ -8,8 +8,7 @@ use crate::{
         pages::{
             Page,
             drills::{
-                DrillsPage, Question, RepetitionOptions, TransferredPosition, Turn, question::MAX_TEXT_LENGTH,
-                turn_actions::tasks_effect,
+                DrillsPage, Question, TransferredPosition, Turn, question::MAX_TEXT_LENGTH, turn_actions::tasks_effect,
             },
         },
         ui::{Message, TextField},
@@ -24,9 +23,9 @@ impl DrillsPage {
         match when {
             DrillCondition::Always => None,
             DrillCondition::Marked => refuse(self.catalogue.marked().is_none(), "no exercise is listed; 0 lists all"),
-            DrillCondition::MarkedOwn => {
-                refuse(!self.catalogue.is_own_marked(), "bundled exercises cannot be removed, only my positions")
-            }
+            DrillCondition::MarkedOwn => self
+                .disabled_reason(DrillCondition::Marked)
+                .or(refuse(!self.catalogue.is_own_marked(), "bundled exercises cannot be removed, only my positions")),
             DrillCondition::Filtered => refuse(!self.catalogue.is_filtered(), "everything is listed"),
             DrillCondition::Searching => refuse(!self.catalogue.is_searching(), "no words are looked for"),
             DrillCondition::NotSearching => refuse(self.catalogue.is_searching(), "Esc ends the search first"),
@@ -47,7 +46,10 @@ impl DrillsPage {
     /// Performs the action of an enabled key binding.
     pub fn update(&mut self, action: Action) -> Option<Effect> {
         match action {
-            Action::Back => self.back(),
+            Action::Back => {
+                self.back();
+                return self.retry();
+            }
             Action::MoveMark(lines) if self.page() == DrillContext::Record => {
                 let all = self.book.sessions_of(self.records.scope()).len();
                 self.records.scroll(lines, all);
@@ -123,6 +125,11 @@ impl DrillsPage {
         }
     }
 
+    /// Tries again to save what the disk has refused, if there is anything.
+    fn retry(&self) -> Option<Effect> {
+        self.has_unsaved().then(|| Effect::Drill(vec![DrillTask::SaveUnsaved]))
+    }
+
     /// Returns to the library, or to the coach page if the library is left too.
     fn leave_page(&mut self) {
         let is_closed = self.is_closed();
@@ -133,9 +140,10 @@ impl DrillsPage {
     }
 
     fn open_marked(&mut self) -> Option<Effect> {
-        let exercises = vec![self.catalogue.marked()?.clone()];
-        let Some(place) = self.unfinished_sessions.iter().position(|left| left.exercises == exercises) else {
-            return Some(self.begin(self.options.goal, exercises));
+        let exercise = self.catalogue.marked()?.clone();
+        let Some(place) = self.unfinished_sessions.iter().position(|left| left.repeats(&exercise)) else {
+            let goal = self.options.goals.get(&exercise.name).copied().unwrap_or(Goal::Free);
+            return Some(self.begin(goal, vec![exercise]));
         };
         let left = self.unfinished_sessions.remove(place);
         let inning = left.inning_words().map(|inning| format!(", {inning}"));
@@ -161,8 +169,9 @@ impl DrillsPage {
     /// Opens the page of the next exercise of a session. Returns the background tasks for it.
     pub(super) fn practise(&mut self, session: Session) -> Vec<DrillTask> {
         if !session.is_exam() {
-            // The next exercise uses the same options, even if this session is resumed from an earlier run of the program.
-            self.options = RepetitionOptions { goal: session.goal, shifted: session.shifted, ..self.options };
+            // The options hold on, even if this session is resumed from an earlier run of the program.
+            self.options.shifted = session.shifted;
+            self.options.goals.extend(session.exercise().map(|exercise| (exercise.name.clone(), session.goal)));
         }
         match Turn::new(session) {
             Ok(Some(mut turn)) => {
@@ -283,7 +292,7 @@ impl DrillsPage {
                     .as_ref()
                     .map(|_| "the exam is kept; c on the coach's page (F2) goes on with it");
                 self.message = kept.map(Message::plain);
-                return None;
+                return self.retry();
             }
             Question::GiveUp(action, ..) => return self.act(*action),
         };

@@ -29,7 +29,7 @@ impl DrillsPage {
         self.question = None;
         self.close_exercise();
         // The match must not change the options of the exercises.
-        let options = self.options;
+        let options = self.options.clone();
         self.options.shifted = false;
         let left = self
             .unfinished_sessions

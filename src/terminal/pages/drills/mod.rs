@@ -20,7 +20,7 @@ mod view;
 mod watched;
 mod what_if;
 
-use std::path::Path;
+use std::{collections::HashMap, path::Path};
 
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -75,10 +75,12 @@ impl Player {
     }
 }
 
-/// Options for repeating an exercise. They are kept from exercise to exercise.
-#[derive(Clone, Copy, Debug)]
+/// Options for repeating exercises.
+#[derive(Clone, Debug, Default)]
 struct RepetitionOptions {
-    goal: Goal,
+    /// The goal that was chosen for an exercise, by its name.
+    goals: HashMap<String, Goal>,
+    /// Whether the balls are shifted. Unlike the goal this is kept from exercise to exercise.
     shifted: bool,
     lengths: Lengths,
 }
@@ -138,6 +140,8 @@ pub struct DrillsPage {
     pages: Vec<DrillContext>,
     /// An unfinished exam that was left, until the app takes it.
     pub unfinished_exam: Option<Session>,
+    /// What the disk has refused, as the player was last told; `None` if everything is saved.
+    unsaved: Option<String>,
     /// Unfinished runs, games and matches that were left, one for each exercise. Opening the exercise resumes it.
     unfinished_sessions: Vec<Session>,
     rng: Xoshiro256PlusPlus,
@@ -161,12 +165,13 @@ impl DrillsPage {
             is_in_numbers: false,
             settings_table: String::new(),
             own_table: None,
-            options: RepetitionOptions { goal: Goal::Free, shifted: false, lengths: Lengths::default() },
+            options: RepetitionOptions::default(),
             position_for_coach: None,
             opened_for: None,
             exam_level: 0,
             pages: Vec::new(),
             unfinished_exam: None,
+            unsaved: None,
             unfinished_sessions: Vec::new(),
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
         }
@@ -205,6 +210,11 @@ impl DrillsPage {
         DrillTask::Load(Box::new(self.places.clone()))
     }
 
+    /// Whether the disk has refused something that is still not saved.
+    pub const fn has_unsaved(&self) -> bool {
+        self.unsaved.is_some()
+    }
+
     /// Resumes a session that was left in an earlier run of the program.
     pub fn resume(&mut self, session: Session, skill: Skill) -> Effect {
         self.unfinished_exam = self.unfinished().filter(|open| open.is_exam() && open.id != session.id).cloned();
@@ -229,11 +239,6 @@ impl DrillsPage {
         let Some(turn) = &self.turn else { return self.unfinished_sessions.last() };
         let has_begun = !turn.session.is_exam() || !turn.session.attempts.is_empty();
         Some(&turn.session).filter(|session| has_begun && !session.is_over())
-    }
-
-    /// Whether an exam has begun and is not over.
-    pub fn has_open_exam(&self) -> bool {
-        self.unfinished().is_some_and(Session::is_exam)
     }
 
     /// Shows the open session, and closes any question or screen over it.
@@ -284,7 +289,7 @@ impl DrillsPage {
         if let Some(mut turn) = self.turn.take() {
             turn.cancel_request();
             if turn.is_in_progress() {
-                self.unfinished_sessions.retain(|left| left.exercises != turn.session.exercises);
+                self.unfinished_sessions.retain(|left| !left.repeats(&turn.exercise));
                 self.unfinished_sessions.push(turn.latest_session().clone());
             }
         }

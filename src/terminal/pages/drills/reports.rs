@@ -55,6 +55,7 @@ impl DrillsPage {
                     // The user has left the session in the meantime.
                     (Err(_), _) => {}
                 }
+                self.note_refusal(&saved);
                 self.warn_unsaved(saved, "the attempt counts here, but it is not saved");
             }
             DrillReport::AttemptRated(id, number, chance) => {
@@ -69,6 +70,8 @@ impl DrillsPage {
             }
             DrillReport::Saved(session, saved) => return self.on_saved(&session, saved),
             DrillReport::Changed(stored) => {
+                // What the disk had refused of it is not tried again.
+                self.unsaved = None;
                 self.book.insert(&stored);
                 let tasks = self.replace_session(*stored);
                 self.message = Some(Message::warning(
@@ -76,6 +79,7 @@ impl DrillsPage {
                 ));
                 return tasks;
             }
+            DrillReport::Retried(retried) => self.on_retried(retried.err()),
             DrillReport::PositionSaved(exercise, outcome) => match outcome {
                 Ok(true) => self.on_position_saved(&exercise),
                 Ok(false) if self.question.is_some() => {
@@ -172,8 +176,27 @@ impl DrillsPage {
         if session.is_over() {
             self.message = Some(Message::good(format!("done: {} of {} made", record.made, record.tried)));
         }
+        self.note_refusal(&saved);
         self.warn_unsaved(saved, "the note counts here, but it is not saved");
         tasks
+    }
+
+    /// Tells that everything is saved now, or what is still not. The same refusal is not told again.
+    fn on_retried(&mut self, refusal: Option<String>) {
+        if self.unsaved != refusal {
+            self.message = Some(match &refusal {
+                None => Message::good("what was not saved is on the disk now"),
+                Some(sentence) => Message::warning(format!("{sentence}; carom tries again")),
+            });
+            self.unsaved = refusal;
+        }
+    }
+
+    /// Notes that the disk has refused something, which is tried again later.
+    fn note_refusal(&mut self, saved: &Result<(), String>) {
+        if saved.is_err() {
+            self.unsaved.get_or_insert_default();
+        }
     }
 
     fn warn_unsaved(&mut self, saved: Result<(), String>, what: &str) {

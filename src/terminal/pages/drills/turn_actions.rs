@@ -189,13 +189,13 @@ impl DrillsPage {
                 return tasks_effect(self.restart(None));
             }
             Action::NextGoal => {
-                self.options.goal = self.options.lengths.next_goal(turn.session.goal);
-                return tasks_effect(self.restart_for(self.options.goal, None));
+                let goal = self.options.lengths.next_goal(turn.session.goal);
+                return tasks_effect(self.choose_goal(goal));
             }
             Action::ChangeGoalLength(step) => {
                 let step = i32::try_from(step).unwrap_or(0);
-                self.options.goal = with_added_length(turn.session.goal, step);
-                return tasks_effect(self.restart_for(self.options.goal, None));
+                let goal = with_added_length(turn.session.goal, step);
+                return tasks_effect(self.choose_goal(goal));
             }
             Action::NextPlayer => {
                 self.player.choose_next();
@@ -225,8 +225,14 @@ impl DrillsPage {
     /// Restarts the session with the current player and shift option.
     fn restart(&mut self, venue: Option<Venue>) -> Vec<DrillTask> {
         // The goal comes from the session, because a match started with F9 is not among the options.
-        let goal = self.turn.as_ref().map_or(self.options.goal, |turn| turn.session.goal);
+        let Some(goal) = self.turn.as_ref().map(|turn| turn.session.goal) else { return Vec::new() };
         self.restart_for(goal, venue)
+    }
+
+    /// Restarts the session with another goal, which stays with the open exercise.
+    fn choose_goal(&mut self, goal: Goal) -> Vec<DrillTask> {
+        self.options.goals.extend(self.turn.as_ref().map(|turn| (turn.exercise.name.clone(), goal)));
+        self.restart_for(goal, None)
     }
 
     /// Restarts the session with another goal.

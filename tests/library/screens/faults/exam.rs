@@ -152,6 +152,58 @@ fn earlier_sessions_stay_available_until_resumed() {
     back.press("c").says("no unfinished exam or earlier session");
 }
 
+/// Returns the next start after `player` has left.
+fn next_start(player: &Player) -> Player {
+    let mut next = Player::new();
+    next.app = next.app.with_saved_session(player.app.saved_session());
+    next
+}
+
+#[test]
+fn an_exam_that_is_left_without_a_stroke_comes_after_everything_else() {
+    let left = Player::new().press("r");
+    let place = *left.app.coach.layout();
+    let exam = next_start(&left).press("F3 e Enter Space Space Enter Enter Esc y F2 c");
+    exam.says("exercise 2 of 20");
+    // With a stroke in it, it is what the player wants.
+    let played = next_start(&left).press("F3 e Enter Space Space Enter Enter Esc y F2 c Space Space Enter Enter Esc y");
+    played.says("c on the coach's page (F2) goes on with it");
+    played.press("F2 c").says("exercise 3 of 20");
+    for leave in ["Esc y F2", "F2"] {
+        let declined = next_start(&left).press("F3 e Enter Space Space Enter Enter Esc y F2 c").press(leave);
+        assert_ne!(*declined.app.coach.layout(), place);
+        let back = declined.press("c");
+        assert_eq!((back.app.key_context(), *back.app.coach.layout()), (KeyContext::Coach, place), "{leave}");
+        back.press("c").says("exercise 2 of 20");
+    }
+    exam.press("Esc y").says("the exam is kept; c on the coach's page (F2) goes on with it after what else was left");
+}
+
+#[test]
+fn exams_that_are_left_without_a_stroke_take_turns() {
+    let exams = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter Esc y");
+    let exams = exams.press("e Enter Space Space Enter Enter Space Space Enter Enter Esc y");
+    let mut player = exams;
+    for exercise in [3, 2, 3, 2] {
+        player = player.press("F2 c");
+        player.says(&format!("exercise {exercise} of 20"));
+        player = player.press("Esc y");
+    }
+}
+
+#[test]
+fn a_declined_exam_does_not_hide_the_last_session_at_the_next_start() {
+    let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter Esc y F2 c");
+    next_start(&exam).press("c").says("exercise 2 of 20");
+    let declined = exam.press("Esc y F2 r");
+    let place = *declined.app.coach.layout();
+    let next = next_start(&declined);
+    next.says("c goes on from where the last session ended");
+    let back = next.press("c");
+    assert_eq!((back.app.key_context(), *back.app.coach.layout()), (KeyContext::Coach, place));
+    back.press("c").says("exercise 2 of 20");
+}
+
 #[test]
 fn leaving_a_run_needs_confirmation_and_it_can_be_resumed() {
     let sessions = |player: &Player| player.store().sessions().items.len();

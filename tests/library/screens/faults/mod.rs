@@ -8,3 +8,4 @@ mod placing;
 mod saving;
 mod session;
 mod typing;
+mod unsaved;
