@@ -27,7 +27,7 @@ pub fn next_collision<S: Savings>(
         return if first.motion == Motion::Flying || second.motion == Motion::Flying {
             next_collision_in_space::<S>(constants, [first, second], now, horizon)
         } else {
-            next_collision_on_curve(constants, first, second, now, horizon)
+            next_collision_on_curve(constants, first, second, now, horizon, may_rest)
         };
     }
     let (t1, t2) = (now - first.start, now - second.start);

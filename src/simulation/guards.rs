@@ -33,7 +33,7 @@ pub const RESTING_BUDGET: u64 = 15_000_000;
 
 /// Budget after resting contacts are disabled, ns (including impacts in the air). When it is spent, the shot is ended, which is not
 /// physics: a ball in another contact stands still from then on, and the energy audit of the stability table shows the missing energy.
-pub const BUDGET_WITHOUT_REST: u64 = 28_000_000;
+pub const BUDGET_WITHOUT_REST: u64 = 32_000_000;
 
 /// Budget of impacts in the air alone, ns, which micro-collisions would not reduce.
 pub const AIR_BUDGET: u64 = 20_000_000;

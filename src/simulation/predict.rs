@@ -55,14 +55,15 @@ pub fn next_cushion_impact_on_curve(
     nearest
 }
 
-/// Returns the next collision of two balls, at least one of which is in a resting contact. Pairs that rest against each other are handled
-/// by the contact itself and are not passed to this function.
+/// Returns the next collision of two balls, at least one of which is in a resting contact, or that they press on each other, if they
+/// `may_rest`. Pairs that rest against each other are handled by the contact itself and are not passed to this function.
 pub fn next_collision_on_curve(
     constants: &Constants,
     first: &Segment,
     second: &Segment,
     now: f64,
     horizon: f64,
+    may_rest: bool,
 ) -> Prediction {
     let (c1, c2) = (shifted(first, now), shifted(second, now));
     let d: [DVec2; 6] = std::array::from_fn(|power| c1[power] - c2[power]);
@@ -79,6 +80,10 @@ pub fn next_collision_on_curve(
         }
     }
     gap[0] -= diameter * diameter;
+    let touch = gap[0] <= 2.0 * diameter * tolerance.touching && gap[1].abs() <= 2.0 * diameter * tolerance.opening;
+    if may_rest && touch && gap[2] < -diameter * tolerance.pressing {
+        return Prediction::Pressed;
+    }
     polynomial_closes(tolerance, &gap, 2.0 * diameter, horizon)
 }
 
@@ -89,11 +94,12 @@ pub fn travel(sizes: &[f64; 6], time: f64) -> f64 {
 
 /// Returns when the gap with these coefficients, in units of `scale` times metres, closes. The gap of touching balls is divided by the
 /// time, because its root at zero is the present contact. If they stay together for now, they collide when the gap has closed by more than
-/// the touching tolerance.
+/// the touching tolerance, or the coupled gap if that is so slow that it is no impact.
 pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], scale: f64, horizon: f64) -> Prediction {
     let mut work = [0.0; MAX_DEGREE + 1];
     let mut count = gap.len();
     work[..count].copy_from_slice(gap);
+    let mut stays = false;
     if gap[0] <= scale * tolerance.touching {
         let opening = gap[1] / scale;
         if opening < -tolerance.opening {
@@ -103,17 +109,22 @@ pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], scale: f64, horizon
             work.copy_within(1.., 0);
             count -= 1;
         } else {
-            work[0] = scale * tolerance.touching;
+            (work[0], stays) = (scale * tolerance.touching, true);
         }
     }
-    let work = &work[..count];
+    let work = &mut work[..count];
     let mut slope = [0.0; MAX_DEGREE];
     for power in 1..count {
         slope[power - 1] = power as f64 * work[power];
     }
-    let rounding = f64::EPSILON * work[0].abs();
-    first_crossing(|t| horner(work, t), &slope[..count - 1], horizon, rounding)
-        .map_or(Prediction::Nothing, Prediction::Impact)
+    let slope = &slope[..count - 1];
+    let closes = |work: &[f64]| first_crossing(|t| horner(work, t), slope, horizon, f64::EPSILON * work[0].abs());
+    let mut time = closes(work);
+    if stays && time.is_some_and(|time| horner(slope, time) > -scale * tolerance.opening) {
+        work[0] = scale * tolerance.coupled_gap;
+        time = closes(work);
+    }
+    time.map_or(Prediction::Nothing, Prediction::Impact)
 }
 
 /// Returns a segment's coefficients about the time `now`.
@@ -134,12 +145,57 @@ pub fn shifted(segment: &Segment, now: f64) -> [DVec2; 6] {
 
 #[cfg(test)]
 mod tests {
-    use super::{super::segment::Course, *};
-    use crate::physics::Motion;
+    use super::{
+        super::segment::{Course, Curve},
+        *,
+    };
+    use crate::{physics::Motion, table::Table};
+
+    /// Two touching balls move at the same speed, the second one ahead; it rolls out while the first one, in a resting contact, does not.
+    #[test]
+    fn balls_that_begin_to_press_without_an_impact_rest_together() {
+        let constants = Constants::of(&Table::preset("thesis").unwrap());
+        let curve = Curve { position: [DVec2::ZERO; 3], spin: [glam::DVec3::ZERO; 3] };
+        let velocity = DVec2::new(0.1, 0.0);
+        let pushes = Segment {
+            velocity,
+            motion: Motion::Resting,
+            course: Some(Box::new(Course::Contact(curve))),
+            ..Segment::at_rest(DVec2::ZERO)
+        };
+        let ahead = |deceleration: f64| Segment {
+            velocity,
+            half_acceleration: DVec2::new(-0.5 * deceleration, 0.0),
+            motion: Motion::Rolling,
+            ..Segment::at_rest(DVec2::new(constants.diameter, 0.0))
+        };
+        let next = |deceleration, may_rest| {
+            next_collision_on_curve(&constants, &pushes, &ahead(deceleration), 0.0, 1.0, may_rest)
+        };
+        assert_eq!(next(0.1, true), Prediction::Pressed);
+        // Nothing holds them: they collide as soon as they overlap.
+        assert!(matches!(next(0.1, false), Prediction::Impact(time) if time < 1e-6));
+        assert_eq!(next(-0.1, true), Prediction::Nothing);
+    }
+
+    /// At 1e-14 m/s² a ball needs seconds to close a gap of the touching tolerance, and is then slower than any impact.
+    #[test]
+    fn gap_that_hardly_closes_may_become_a_coupled_gap() {
+        let tolerance = Tolerance::of(&Table::preset("thesis").unwrap());
+        let gap_at_impact = |acceleration: f64| {
+            let Prediction::Impact(time) = polynomial_closes(&tolerance, &[0.0, 0.0, -0.5 * acceleration], 1.0, 1e3)
+            else {
+                panic!("no impact")
+            };
+            0.5 * acceleration * time * time
+        };
+        assert!((gap_at_impact(1e-14) / tolerance.coupled_gap - 1.0).abs() < 1e-9);
+        assert!((gap_at_impact(1.0) / tolerance.touching - 1.0).abs() < 1e-9);
+    }
 
     #[test]
     fn shifting_a_course_in_time_keeps_its_positions() {
-        let curve = super::super::segment::Curve {
+        let curve = Curve {
             position: [DVec2::new(0.3, -0.2), DVec2::new(-0.1, 0.4), DVec2::new(0.05, 0.01)],
             spin: [glam::DVec3::ZERO; 3],
         };

@@ -170,8 +170,7 @@ impl Layout {
             let mask = |spot: usize| {
                 (0..BALLS).find(|&other| !waiting[other] && layout.balls[other].distance(spots[spot]) < 2.0 * radius)
             };
-            // If the spots are at least four radii apart, as on every real table, two balls cannot block all three. On a smaller table the
-            // ball goes on its own spot, even if that is blocked.
+            // Two balls cannot block all three spots: on every table that is accepted, these are at least four radii apart.
             let places = [ball, mask(ball).unwrap_or(ball), 0, 1, 2];
             let place = places.into_iter().find(|&spot| mask(spot).is_none()).unwrap_or(ball);
             layout.balls[ball] = spots[place];

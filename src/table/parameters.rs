@@ -239,11 +239,13 @@ impl Table {
         if let Some((key, value, accepted)) = flaws::first(&self) {
             return refuse(key, value, accepted);
         }
-        // Three balls must fit side by side, or no layout exists.
-        for (key, side) in [("L", self.length), ("l", self.width)] {
-            if side < 6.0 * self.radius {
-                return refuse(key, side, "at least six ball radii");
-            }
+        // Two balls cannot block all three spots, which are a quarter of the length apart: see `Layout::with_spotted`.
+        if self.length < 16.0 * self.radius {
+            return refuse("L", self.length, "at least sixteen ball radii");
+        }
+        // Three balls fit side by side, with room for `d`.
+        if self.width < 6.0 * self.radius {
+            return refuse("l", self.width, "at least six ball radii");
         }
         if !(self.opening_offset >= 2.0 * self.radius && self.opening_offset <= self.half_width()) {
             return refuse("d", self.opening_offset, "from two ball radii to l/2 - R");
@@ -380,6 +382,18 @@ mod tests {
     fn frictionless_cloth_is_refused() {
         let text = TEXTBOOK.replace("mu_r = 0.010", "mu_r = 0");
         assert!(matches!(Table::from_toml(&text), Err(TableError::Value { key: "mu_r", .. })));
+    }
+
+    /// Of all accepted tables, the shortest has its spots four ball radii apart: two balls cannot block three of them.
+    #[test]
+    fn table_on_which_two_balls_could_block_all_spots_is_refused() {
+        let of_length = |radii: f64| {
+            let table = Table::default();
+            Table { length: radii * table.radius, ..table }.validated()
+        };
+        assert!(of_length(16.0).is_ok());
+        let message = of_length(15.9).unwrap_err().to_string();
+        assert!(message.contains("L = 0.48") && message.contains("at least sixteen ball radii"), "{message}");
     }
 
     #[test]
