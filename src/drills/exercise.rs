@@ -234,11 +234,10 @@ impl Exercise {
         Ok(own.filter(|own| own.has_size_of(&table)).cloned().unwrap_or(table))
     }
 
-    /// Whether the other exercise has the same name, balls and rule. Model shots are not compared: one that was written to a file, in
+    /// Whether the other exercise has the same name, table, layout and rule. Model shots are not compared: one that was written to a file, in
     /// degrees, is not read back to the last bit.
     pub fn has_same_task(&self, other: &Self) -> bool {
-        let task = |exercise: &Self| (exercise.layout, exercise.rule);
-        (&self.name, &self.table) == (&other.name, &other.table) && task(self) == task(other)
+        (&self.name, &self.table, self.layout, self.rule) == (&other.name, &other.table, other.layout, other.rule)
     }
 
     /// Returns the model shot; `None` if there is none, or the cue has no room for it.

@@ -80,8 +80,8 @@ pub fn next_collision_on_curve(
         }
     }
     gap[0] -= diameter * diameter;
-    let touch = gap[0] <= 2.0 * diameter * tolerance.touching && gap[1].abs() <= 2.0 * diameter * tolerance.opening;
-    if may_rest && touch && gap[2] < -diameter * tolerance.pressing {
+    let stays = gap[0] <= 2.0 * diameter * tolerance.touching && gap[1].abs() <= 2.0 * diameter * tolerance.opening;
+    if may_rest && stays && gap[2] < -diameter * tolerance.pressing {
         return Prediction::Pressed;
     }
     polynomial_closes(tolerance, &gap, 2.0 * diameter, horizon)
@@ -94,7 +94,7 @@ pub fn travel(sizes: &[f64; 6], time: f64) -> f64 {
 
 /// Returns when the gap with these coefficients, in units of `scale` times metres, closes. The gap of touching balls is divided by the
 /// time, because its root at zero is the present contact. If they stay together for now, they collide when the gap has closed by more than
-/// the touching tolerance, or the coupled gap if that is so slow that it is no impact.
+/// the touching tolerance, or by more than the coupled gap if it closes too slowly for an impact.
 pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], scale: f64, horizon: f64) -> Prediction {
     let mut work = [0.0; MAX_DEGREE + 1];
     let mut count = gap.len();

@@ -20,8 +20,8 @@ pub struct Tolerance {
     /// missed. Larger: roots are sought needlessly.
     pub certain_gap: f64,
     /// Bounces that are given up together with others are lower than this, m: a ball may be moved by this much at the end of a chatter. A
-    /// moving ball nearer than this touches resting balls. Larger: trajectories jump. Smaller: coupled contacts end their chatters one at a
-    /// time.
+    /// moving ball nearer than this touches resting balls. A gap that closes too slowly for an impact may become this negative. Larger:
+    /// trajectories jump. Smaller: coupled contacts end their chatters one at a time, and weak forces cause many impacts.
     pub coupled_gap: f64,
     /// Speeds along a contact's normal below this count as zero, m/s: in ten seconds they move a ball by some 1e-10 m. Smaller: the
     /// rounding error of an impact counts as a bounce.

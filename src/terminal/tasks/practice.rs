@@ -135,15 +135,15 @@ impl PracticeWorker {
         // If a session of an earlier program is continued, the disk may have refused some of it.
         let saved_attempts = self.saved_attempts.entry(session.id.clone()).or_default();
         // The file is as it was before the first change that the disk has refused.
-        let refused = self.unsaved.iter().position(|(unsaved, _)| unsaved.id == session.id);
-        let before = refused.map_or_else(|| before.to_vec(), |place| self.unsaved.remove(place).1);
-        match store.save(session, &before, *saved_attempts) {
+        let place = self.unsaved.iter().position(|(unsaved, _)| unsaved.id == session.id);
+        let refused = place.map(|place| self.unsaved.remove(place).1);
+        match store.save(session, refused.as_deref().unwrap_or(before), *saved_attempts) {
             Err(StoreError::Changed(stored)) => {
                 *saved_attempts = stored.attempts.len();
                 Err(stored)
             }
             Err(error) => {
-                self.unsaved.push((session.clone(), before));
+                self.unsaved.push((session.clone(), refused.unwrap_or_else(|| before.to_vec())));
                 Ok(Err(error.to_string()))
             }
             Ok(()) => {
