@@ -14,7 +14,7 @@ use super::{
     roots::{MAX_DEGREE, first_crossing},
     savings::Savings,
 };
-use crate::physics::{Cushion, Cushions, Motion};
+use crate::physics::{Cushion, ImpactLaw, Motion};
 
 /// Largest number of landings that are searched: after it, hops are lower than an atom even on the liveliest accepted cloth.
 const MAX_LANDINGS: u32 = 4000;
@@ -31,7 +31,7 @@ pub struct Nose {
 impl Nose {
     /// Returns the nose of a cushion.
     pub fn of(cushion: &Cushion, radius: f64) -> Self {
-        let [sine, cosine] = cushion.nose();
+        let [sine, cosine] = cushion.nose;
         Self { height: radius * sine, beyond: radius * cosine }
     }
 
@@ -101,7 +101,7 @@ fn stays_away(constants: &Constants, nose: &Nose, hops: &Hops, arc: &Arc, rest: 
 }
 
 /// Returns when and at which cushion the ball of a flying `segment` hits the nose or lands behind it, s after the segment's start.
-pub fn next_nose_impact(constants: &Constants, cushions: &Cushions, segment: &Segment) -> Option<(f64, Rail)> {
+pub fn next_nose_impact(constants: &Constants, law: &ImpactLaw, segment: &Segment) -> Option<(f64, Rail)> {
     let hops = segment.hops()?;
     let duration = hops.duration;
     for landings in 0..MAX_LANDINGS {
@@ -113,7 +113,7 @@ pub fn next_nose_impact(constants: &Constants, cushions: &Cushions, segment: &Se
         }
         let (mut first, mut is_away): (Option<(f64, Rail)>, bool) = (None, true);
         for rail in Rail::ALL {
-            let nose = Nose::of(cushions.at(rail), constants.radius);
+            let nose = Nose::of(law.cushion(rail), constants.radius);
             if stays_away(constants, &nose, hops, &arc, rest, rail) {
                 continue;
             }

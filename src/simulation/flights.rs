@@ -129,7 +129,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let mut state = self.balls[index].segment.spatial_after(&c, rail_after);
         self.land_before_impact(now, &mut state);
         self.end_segment(index, now);
-        let cushion = *self.law.cushions.at(rail);
+        let cushion = *self.law.cushion(rail);
         let to_nose = Nose::of(&cushion, c.radius).vector_from(&c, rail, state.position);
         if to_nose.truncate().dot(rail.normal()) >= 0.0 {
             let segment =

@@ -53,7 +53,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let c = &self.constants;
         let before = state;
         let approach = -state.velocity.dot(n);
-        let impulse = self.law_at(approach).cushions.at(rail).resolve(c.radius, n, &mut state);
+        let impulse = self.law_at(approach).cushion(rail).resolve(c.radius, n, &mut state);
         if self.micro_collisions.is_some() {
             state.position += c.tolerance.micro_gap * n;
         }
@@ -65,7 +65,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             let contact = Contact::with_cushion(index, rail);
             // An inelastic nose above the centre that does not throw the ball back has stopped it by its own law. In other cases, a bounce
             // that is too slow to be followed is undone.
-            let [sine, _] = self.law_at(approach).cushions.at(rail).nose();
+            let [sine, _] = self.law_at(approach).cushion(rail).nose;
             let is_stopped = sine > 0.0 && approach > c.tolerance.slow_bounce && state.velocity.dot(n) <= 0.0;
             reported = self.slow_bounce(now, &contact)?;
             if let Some(rests) = self.chatter_end(now, freed.as_ref(), &contact, &[(index, state)]) {

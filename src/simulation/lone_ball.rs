@@ -48,7 +48,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 let n = rail.normal();
                 let mut state = segment.state_after(constants, *rail_after);
                 move_to_cushion(constants, n, &mut state.position);
-                let impulse = self.law.cushions.at(*rail).resolve(constants.radius, n, &mut state);
+                let impulse = self.law.cushion(*rail).resolve(constants.radius, n, &mut state);
                 // Possible part of a chatter, simultaneous contact with two cushions or a ball, or leaving the cloth.
                 if state.velocity.dot(n) <= constants.tolerance.slow_bounce
                     || is_in_corner(constants, state.position)

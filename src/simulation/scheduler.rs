@@ -40,7 +40,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             return false;
         }
         if segment.motion == Motion::Flying || segment.motion == Motion::OffTable {
-            if let Some((after, which)) = next_nose_impact(&self.constants, &self.law.cushions, segment) {
+            if let Some((after, which)) = next_nose_impact(&self.constants, &self.law, segment) {
                 (*rail_after, *rail) = (after, which);
                 self.times[index] = segment.start + after;
             }

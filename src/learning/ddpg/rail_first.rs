@@ -10,7 +10,7 @@ use super::{
     observation::Observation,
 };
 use crate::{
-    physics::{BallState, CueInputs, Cushions, Impulse, Motion, squirt, strike},
+    physics::{BallState, CueInputs, Cushion, Impulse, Motion, squirt, strike},
     simulation::{Constants, Segment},
     table::{Rail, Table},
 };
@@ -53,7 +53,7 @@ pub struct RailFirstPaths<'a> {
     table: &'a Table,
     observation: &'a Observation,
     constants: Constants,
-    cushions: Cushions,
+    cushion: Cushion,
     rail: Rail,
     /// The cue ball and the first ball on the table, m.
     balls: [DVec2; 2],
@@ -68,7 +68,7 @@ impl<'a> RailFirstPaths<'a> {
             table,
             observation,
             constants: Constants::of(table),
-            cushions: Cushions::of(table),
+            cushion: Cushion::of(table, rail),
             rail,
             balls: [observation.mirror * observation.cue, observation.mirror * observation.first],
         })
@@ -170,7 +170,7 @@ impl<'a> RailFirstPaths<'a> {
         if n.perp().dot(point).abs() > n.perp().abs().dot(constants.reach) {
             return None;
         }
-        self.cushions.at(self.rail).resolve(constants.radius, n, &mut ball);
+        self.cushion.resolve(constants.radius, n, &mut ball);
         let leaving = Moving::of(constants.radius, &ball)?;
         let ball = self.advance_until(&ball, |segment, duration| closest_approach(segment, duration, *first))?;
         let arriving = Moving::of(constants.radius, &ball)?;

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 use super::BallState;
 pub use ball_ball::BallImpact;
-pub use cushion::{Cushion, Cushions, ImpactImpulse};
+pub use cushion::{Cushion, ImpactImpulse};
 pub use simultaneous::{ImpactLaw, collide_together};
 
 /// Returns the separation speed of an impact in the air with the closing speed `approach`, m/s. Up to `slowest` no speed is lost: otherwise

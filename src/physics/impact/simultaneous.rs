@@ -19,10 +19,10 @@
 
 use glam::DVec2;
 
-use super::{BallImpact, BallState, Cushions, ImpactImpulse, contact_twist};
+use super::{BallImpact, BallState, Cushion, ImpactImpulse, contact_twist};
 use crate::{
     physics::{Contact, MAX_CONTACTS, Partner},
-    table::{BALLS, Table},
+    table::{BALLS, Rail, Table},
 };
 
 /// Largest number of Gauss-Seidel sweeps for the normal impulses: for three balls they converge linearly with a factor of at most 3/4, in
@@ -35,28 +35,37 @@ const MAX_SWEEPS: usize = 200;
 pub struct ImpactLaw {
     /// Law of two balls.
     pub balls: BallImpact,
-    /// Laws of the four cushions.
-    pub cushions: Cushions,
+    /// Laws of the cushions, in the order of [`Rail::ALL`].
+    cushions: [Cushion; 4],
 }
 
 impl ImpactLaw {
     /// Returns the laws of a table.
     pub fn of(table: &Table) -> Self {
-        Self { balls: BallImpact::of(table), cushions: Cushions::of(table) }
+        Self { balls: BallImpact::of(table), cushions: Rail::ALL.map(|rail| Cushion::of(table, rail)) }
+    }
+
+    /// Returns the law of a cushion.
+    #[inline(always)]
+    pub fn cushion(&self, rail: Rail) -> &Cushion {
+        &self.cushions[rail as usize]
     }
 
     /// Returns the laws with one restitution for all impacts at any speed, and cushion contacts at the height of the balls' centres. Zero
     /// is the limit of infinitely many bounces; one is the law of micro-collisions.
     #[must_use]
     pub fn with_restitution(&self, restitution: f64) -> Self {
-        Self { balls: self.balls.with_restitution(restitution), cushions: self.cushions.with_restitution(restitution) }
+        Self {
+            balls: self.balls.with_restitution(restitution),
+            cushions: self.cushions.map(|cushion| cushion.with_restitution(restitution)),
+        }
     }
 
     /// Returns the restitution of a slow impact.
     pub fn restitution(&self, contact: &Contact) -> f64 {
         match contact.partner {
             Partner::Ball(_) => self.balls.restitution,
-            Partner::Cushion(rail) => self.cushions.at(rail).restitution,
+            Partner::Cushion(rail) => self.cushion(rail).restitution,
         }
     }
 }
@@ -132,7 +141,7 @@ fn apply_impulses(
             let (impulse, slip) = (impulses[index], slips[index].length());
             let factor = match contact.partner {
                 Partner::Ball(_) => law.balls.friction_factor(impulse, slip),
-                Partner::Cushion(rail) => law.cushions.at(rail).friction_factor(impulse, slip),
+                Partner::Cushion(rail) => law.cushion(rail).friction_factor(impulse, slip),
             };
             let (tangential, t) = (-share * factor * slips[index], normals[index].perp());
             let twist = contact_twist(radius, -tangential.x, -tangential.y, t);
@@ -160,7 +169,7 @@ fn apply_impulses(
 /// Applies a single impact.
 fn collide_single(radius: f64, law: &ImpactLaw, balls: &mut [BallState; BALLS], contact: &Contact) -> ImpactImpulse {
     match contact.partner {
-        Partner::Cushion(rail) => law.cushions.at(rail).resolve(radius, rail.normal(), &mut balls[contact.first]),
+        Partner::Cushion(rail) => law.cushion(rail).resolve(radius, rail.normal(), &mut balls[contact.first]),
         Partner::Ball(second) => {
             let (mut one, mut other) = (balls[contact.first], balls[second]);
             let normal = law.balls.resolve(radius, &mut one, &mut other);
@@ -207,7 +216,6 @@ fn normal_impulses(law: &ImpactLaw, balls: &[BallState; BALLS], contacts: &[Cont
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::Rail;
 
     const RADIUS: f64 = 0.03;
 

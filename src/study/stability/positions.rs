@@ -12,7 +12,7 @@ use super::{
     trace::{Piece, Trace},
 };
 use crate::{
-    physics::{Cushions, Motion},
+    physics::{ImpactLaw, Motion},
     simulation::{Constants, EventKind, Rail},
     table::{BALLS, PAIRS, Table},
 };
@@ -83,7 +83,7 @@ fn stretches(table: &Table, pieces: &[Piece]) -> Vec<Stretch> {
 
 /// Measures jumps of the balls of a shot, and their overlaps with each other and with cushions.
 pub(super) fn measure(table: &Table, shot: &Shot, trace: &Trace, figures: &mut Figures) {
-    let cushions = Cushions::of(table);
+    let law = ImpactLaw::of(table);
     let balls: [Vec<Stretch>; BALLS] = std::array::from_fn(|ball| stretches(table, &trace.pieces[ball]));
     for (ball, stretches) in balls.iter().enumerate() {
         let mut last = shot.layout.balls[ball].extend(0.0);
@@ -93,7 +93,7 @@ pub(super) fn measure(table: &Table, shot: &Shot, trace: &Trace, figures: &mut F
             let begins = if off { stretch.place[0].with_z(last.z) } else { stretch.place[0] };
             figures.jump.record(last.distance(begins), stretch.begin);
             last = stretch.at(stretch.end);
-            measure_outside(&cushions, &trace.constants, stretch, figures);
+            measure_outside(&law, &trace.constants, stretch, figures);
         }
         if trace.kept_until == f64::INFINITY {
             figures.jump.record(last.truncate().distance(trace.end.balls[ball].position), trace.end.time);
@@ -102,18 +102,18 @@ pub(super) fn measure(table: &Table, shot: &Shot, trace: &Trace, figures: &mut F
     for (first, second) in PAIRS {
         measure_overlaps(&trace.constants, &balls[first], &balls[second], figures);
     }
-    measure_contact_gaps(&cushions, trace, &balls, figures);
+    measure_contact_gaps(&law, trace, &balls, figures);
 }
 
 /// Measures how far a stretch penetrates a cushion: on the cloth beyond the ball's reach, in the air closer to the nose than a
 /// radius.
-fn measure_outside(cushions: &Cushions, constants: &Constants, stretch: &Stretch, figures: &mut Figures) {
+fn measure_outside(law: &ImpactLaw, constants: &Constants, stretch: &Stretch, figures: &mut Figures) {
     if stretch.motion == Motion::OffTable {
         return;
     }
     for rail in Rail::ALL {
         let n = rail.normal();
-        let [sine, cosine] = cushions.at(rail).nose().map(|share| share * constants.radius);
+        let [sine, cosine] = law.cushion(rail).nose.map(|share| share * constants.radius);
         let mut inwards = stretch.place.map(|c| c.truncate().dot(n));
         inwards[0] += n.abs().dot(constants.reach);
         let lasts = stretch.end - stretch.begin;
@@ -186,7 +186,7 @@ fn measure_overlaps(constants: &Constants, first: &[Stretch], second: &[Stretch]
 }
 
 /// Measures the gaps between reported collision partners.
-fn measure_contact_gaps(cushions: &Cushions, trace: &Trace, balls: &[Vec<Stretch>; BALLS], figures: &mut Figures) {
+fn measure_contact_gaps(law: &ImpactLaw, trace: &Trace, balls: &[Vec<Stretch>; BALLS], figures: &mut Figures) {
     let constants = &trace.constants;
     let place = |ball: usize, time: f64| {
         let list = &balls[ball];
@@ -199,7 +199,7 @@ fn measure_contact_gaps(cushions: &Cushions, trace: &Trace, balls: &[Vec<Stretch
                 place(first, event.time).distance(place(second, event.time)) - 2.0 * constants.radius
             }
             EventKind::BallRail(ball, rail) => {
-                let [sine, cosine] = cushions.at(rail).nose().map(|share| share * constants.radius);
+                let [sine, cosine] = law.cushion(rail).nose.map(|share| share * constants.radius);
                 let (n, centre) = (rail.normal(), place(ball, event.time));
                 let inwards = n.abs().dot(constants.reach) + centre.truncate().dot(n);
                 if centre.z == 0.0 { inwards } else { (inwards + cosine).hypot(centre.z - sine) - constants.radius }

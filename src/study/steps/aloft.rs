@@ -37,7 +37,7 @@ impl Stepper<'_> {
 
     /// Returns the vector from a ball in the air to the nose of `rail`, m.
     fn vector_to_nose(&self, state: &SpatialState, rail: Rail) -> DVec3 {
-        Nose::of(self.law.cushions.at(rail), self.constants.radius).vector_from(&self.constants, rail, state.position)
+        Nose::of(self.law.cushion(rail), self.constants.radius).vector_from(&self.constants, rail, state.position)
     }
 
     /// Returns the same vector, or the horizontal vector towards the rail for a ball that is deep within it.
@@ -153,7 +153,7 @@ impl Stepper<'_> {
         let mut state = self.balls[index].state;
         let d = self.to_nose(&state, rail).normalize();
         let slowest = self.constants.tolerance.slowest_in_air;
-        self.law.cushions.at(rail).resolve_in_space(self.constants.radius, slowest, d, &mut state);
+        self.law.cushion(rail).resolve_in_space(self.constants.radius, slowest, d, &mut state);
         self.observer.event(Event { time: self.now, kind: EventKind::BallRail(index, rail) })?;
         self.send_off(index, state)
     }

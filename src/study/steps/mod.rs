@@ -334,7 +334,7 @@ impl<'a> Stepper<'a> {
             }
             EventKind::BallRail(index, rail) => {
                 let mut state = self.balls[index].state.horizontal_state();
-                let impulse = self.law.cushions.at(rail).resolve(c.radius, rail.normal(), &mut state);
+                let impulse = self.law.cushion(rail).resolve(c.radius, rail.normal(), &mut state);
                 if impulse.climb > c.least_climb {
                     let mut climbing = SpatialState::from(state);
                     climbing.velocity.z = impulse.climb;

@@ -7,7 +7,7 @@ mod nose;
 use glam::{DVec2, DVec3};
 
 use super::{super::SpatialState, BallState};
-use crate::table::{Fade, Rail, RailModel, Rails, Table};
+use crate::table::{Fade, Rail, RailModel, Table};
 use equator::collide_rail;
 use nose::StickSlip;
 
@@ -18,10 +18,14 @@ pub struct Cushion {
     pub restitution: f64,
     /// Coefficient of friction.
     pub friction: f64,
-    /// The impact law.
+    /// Sine and cosine of the elevation of the nose's contact point, seen from the centre of a ball on the cloth.
+    pub nose: [f64; 2],
     law: Law,
     fade: Option<Fade>,
 }
+
+/// Sine and cosine of the elevation of a contact at the height of the ball's centre.
+const EQUATOR: [f64; 2] = [0.0, 1.0];
 
 /// Largest number of immediately repeated impacts with a nose. On accepted tables, each repetition leaves at most 0.84 of the approach
 /// speed.
@@ -40,20 +44,13 @@ pub struct ImpactImpulse {
     pub climb: f64,
 }
 
-/// Constants of the impact law, computed once per shot.
+/// Model of the impact.
 #[derive(Clone, Copy, Debug)]
 enum Law {
     Equator,
-    /// Sine and cosine of the elevation of the nose's contact point as seen from the ball's centre, and the stick/slip law.
-    Nose {
-        sine: f64,
-        cosine: f64,
-        stick_slip: StickSlip,
-    },
-    /// The same elevation, with simultaneous friction on the cloth of coefficient `cloth`.
+    Nose(StickSlip),
+    /// With simultaneous friction on the cloth of coefficient `cloth`.
     Mathavan {
-        sine: f64,
-        cosine: f64,
         cloth: f64,
     },
 }
@@ -64,23 +61,23 @@ impl Cushion {
         let own = table.rail.overrides(rail);
         let restitution = own.e.unwrap_or(table.rail_restitution);
         let sine = own.height.or(table.rail.height).map_or(0.0, |height| height / table.radius - 1.0);
-        let cosine = if sine == 0.0 { 1.0 } else { (1.0 - sine * sine).sqrt() };
-        let law = match table.rail.model {
-            RailModel::Equator => Law::Equator,
-            RailModel::Nose => Law::Nose { sine, cosine, stick_slip: StickSlip::Sharp },
+        let nose = [sine, (1.0 - sine * sine).sqrt()];
+        let (nose, law) = match table.rail.model {
+            RailModel::Equator => (EQUATOR, Law::Equator),
+            RailModel::Nose => (nose, Law::Nose(StickSlip::Sharp)),
             RailModel::Smooth => {
                 let most = 2.0 / 7.0 * table.rail.kappa.unwrap_or(1.0);
-                Law::Nose { sine, cosine, stick_slip: StickSlip::Smooth { most } }
+                (nose, Law::Nose(StickSlip::Smooth { most }))
             }
-            RailModel::Mathavan => Law::Mathavan { sine, cosine, cloth: table.sliding_friction },
+            RailModel::Mathavan => (nose, Law::Mathavan { cloth: table.sliding_friction }),
         };
-        Self { restitution, friction: table.friction_of(rail), law, fade: table.rail.fade }
+        Self { restitution, friction: table.friction_of(rail), nose, law, fade: table.rail.fade }
     }
 
     /// Returns the cushion with this restitution at any speed and contact at the height of the ball's centre.
     #[must_use]
     pub fn with_restitution(self, restitution: f64) -> Self {
-        Self { restitution, law: Law::Equator, fade: None, ..self }
+        Self { restitution, nose: EQUATOR, law: Law::Equator, fade: None, ..self }
     }
 
     /// Applies a collision of a ball on the cloth with this cushion, whose normal into the table is `n`.
@@ -116,11 +113,9 @@ impl Cushion {
         let restitution = self.restitution_at(-ball.velocity.dot(n));
         let [normal, climb] = match self.law {
             Law::Equator => [collide_rail(radius, restitution, self.friction, n, ball), 0.0],
-            Law::Nose { sine, cosine, stick_slip } => {
-                nose::collide(radius, restitution, self.friction, [sine, cosine], stick_slip, n, ball)
-            }
-            Law::Mathavan { sine, cosine, cloth } => {
-                [mathavan::collide(radius, restitution, [self.friction, cloth], [sine, cosine], n, ball), 0.0]
+            Law::Nose(stick_slip) => nose::collide(radius, restitution, self.friction, self.nose, stick_slip, n, ball),
+            Law::Mathavan { cloth } => {
+                [mathavan::collide(radius, restitution, [self.friction, cloth], self.nose, n, ball), 0.0]
             }
         };
         ImpactImpulse { normal, climb }
@@ -141,49 +136,9 @@ impl Cushion {
     /// that along the normal into the table. The ball leaves at least at the speed `slowest`, m/s. Returns its approach speed,
     /// m/s, which is negative if it does not approach.
     pub fn resolve_in_space(&self, radius: f64, slowest: f64, d: DVec3, ball: &mut SpatialState) -> f64 {
-        let stick_slip = if let Law::Nose { stick_slip, .. } = self.law { stick_slip } else { StickSlip::Sharp };
+        let stick_slip = if let Law::Nose(stick_slip) = self.law { stick_slip } else { StickSlip::Sharp };
         let restitution = self.restitution_at(ball.velocity.dot(d));
         nose::collide_in_space(radius, [restitution, self.friction, slowest], stick_slip, d, ball)
-    }
-
-    /// Returns sine and cosine of the elevation of the nose's contact point, seen from the centre of a ball on the cloth.
-    pub fn nose(&self) -> [f64; 2] {
-        match self.law {
-            Law::Equator => [0.0, 1.0],
-            Law::Nose { sine, cosine, .. } | Law::Mathavan { sine, cosine, .. } => [sine, cosine],
-        }
-    }
-}
-
-/// The four cushions of a table, which usually have the same constants.
-#[derive(Clone, Debug)]
-pub struct Cushions {
-    all: Cushion,
-    own: Option<Box<[Cushion; 4]>>,
-}
-
-impl Cushions {
-    /// Returns the cushions of `table`.
-    pub fn of(table: &Table) -> Self {
-        let Rails { left, right, bottom, top, .. } = table.rail;
-        let differ = left.is_some() || right.is_some() || bottom.is_some() || top.is_some();
-        Self {
-            all: Cushion::of(table, Rail::Left),
-            own: differ.then(|| Box::new(Rail::ALL.map(|rail| Cushion::of(table, rail)))),
-        }
-    }
-
-    /// Returns the cushion of a rail.
-    #[inline(always)]
-    pub fn at(&self, rail: Rail) -> &Cushion {
-        self.own.as_ref().map_or(&self.all, |own| &own[rail as usize])
-    }
-
-    /// Returns all cushions with this restitution and contact at the height of the ball's centre.
-    #[must_use]
-    pub fn with_restitution(&self, restitution: f64) -> Self {
-        let own = self.own.as_ref().map(|own| Box::new(own.map(|cushion| cushion.with_restitution(restitution))));
-        Self { all: self.all.with_restitution(restitution), own }
     }
 }
 

@@ -6,7 +6,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{Case, CaseKind, variant};
 use crate::{
-    physics::{CueDegrees, Cushions, strike},
+    physics::{CueDegrees, Cushion, strike},
     simulation::{EventKind, Rail},
     study::stability::{Shot, Trace, adversarial, draw},
     table::{Flight, Layout, Rails, Table},
@@ -98,7 +98,7 @@ fn hit_or_missed(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String
 
 /// Draws a shot in which the ball lands on the nose of the right cushion, at any possible height.
 fn on_the_nose(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
-    let [sine, cosine] = Cushions::of(table).at(Rail::Right).nose();
+    let [sine, cosine] = Cushion::of(table, Rail::Right).nose;
     loop {
         let (stroke, velocity, lift) = jump(table, rng, 1.5..5.0);
         let angle: f64 = rng.random_range(0.0..1.55);
