@@ -106,10 +106,9 @@ pub fn line_of_aim(table: &Table, layout: &Layout, phi: f64) -> [RailPoint; 2] {
 fn rail_point(table: &Table, from: DVec2, direction: DVec2) -> RailPoint {
     let half = 0.5 * DVec2::new(table.length, table.width);
     let distance = |rail: Rail| {
-        let inward = rail.normal();
-        let approach = -direction.dot(inward);
+        let approach = -direction.dot(rail.normal());
         // A line parallel to a cushion never meets it.
-        if approach > 1e-12 { (from.dot(inward) + half.dot(inward.abs())) / approach } else { f64::INFINITY }
+        if approach > 1e-12 { rail.gap(half, from) / approach } else { f64::INFINITY }
     };
     let rail = Rail::ALL.into_iter().min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(Rail::Left);
     RailPoint::on(table, rail, from + distance(rail) * direction)

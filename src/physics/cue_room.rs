@@ -215,9 +215,8 @@ impl Stick {
 
     /// Returns `None` for a rail that the cue cannot reach or points away from.
     fn over_rail(&self, rail: Rail) -> Option<Condition> {
-        let inward = rail.normal();
-        let towards = -self.back.dot(inward);
-        let behind = self.half.dot(inward.abs()) + self.point.truncate().dot(inward);
+        let towards = -self.back.dot(rail.normal());
+        let behind = rail.gap(self.half, self.point.truncate());
         if behind >= towards.max(0.0) * self.room.length + self.butt() {
             return None;
         }

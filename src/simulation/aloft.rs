@@ -8,7 +8,6 @@ use glam::DVec3;
 use super::{
     Constants, Rail, Segment,
     ball_ball::Triangle,
-    contacts::cushion_gap,
     hops::{Arc, Hops},
     predict::{Prediction, lesser, polynomial_closes, shifted, travel},
     roots::{MAX_DEGREE, first_crossing},
@@ -38,7 +37,7 @@ impl Nose {
     /// Returns the vector from a ball's centre to the nose of `rail`, m. If it points into the table, the ball has passed over the nose.
     pub fn vector_from(&self, constants: &Constants, rail: Rail, centre: DVec3) -> DVec3 {
         let n = rail.normal();
-        let inwards = gap(constants, rail, centre) + self.beyond;
+        let inwards = rail.gap(constants.reach, centre.truncate()) + self.beyond;
         (-inwards * n).extend(self.height - centre.z)
     }
 
@@ -55,7 +54,7 @@ impl Nose {
         let duration = arc.end - arc.begin;
         let (climb, n) = (arc.velocity.z, rail.normal());
         let approach = -arc.velocity.truncate().dot(n);
-        let gap = gap(constants, rail, arc.position);
+        let gap = rail.gap(constants.reach, arc.position.truncate());
         if gap - (approach * duration).max(0.0) > self.margin(radius, top(arc, gravity)) + tolerance.certain_gap {
             return None;
         }
@@ -82,11 +81,6 @@ impl Nose {
     }
 }
 
-/// Returns the horizontal gap between a ball and the cushion, m.
-fn gap(constants: &Constants, rail: Rail, centre: DVec3) -> f64 {
-    cushion_gap(constants, rail.normal(), centre.truncate())
-}
-
 /// Returns the greatest height that an arc's energy allows, m; no later arc is higher.
 fn top(arc: &Arc, gravity: f64) -> f64 {
     arc.position.z + 0.5 * arc.velocity.z * arc.velocity.z / gravity
@@ -96,7 +90,7 @@ fn top(arc: &Arc, gravity: f64) -> f64 {
 fn stays_away(constants: &Constants, nose: &Nose, hops: &Hops, arc: &Arc, rest: f64, rail: Rail) -> bool {
     let n = rail.normal();
     let approach = -lesser(arc.velocity.truncate().dot(n), hops.last_velocity.dot(n));
-    let nearest = gap(constants, rail, arc.position) - rest * approach.max(0.0);
+    let nearest = rail.gap(constants.reach, arc.position.truncate()) - rest * approach.max(0.0);
     nearest > nose.margin(constants.radius, top(arc, hops.cloth.gravity)) + constants.tolerance.certain_gap
 }
 

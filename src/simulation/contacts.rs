@@ -18,8 +18,9 @@ pub fn touching(
     on_cloth: [bool; BALLS],
     wanted: impl Fn(f64) -> bool,
 ) -> Contacts {
-    let touches = |gap: f64| gap <= constants.tolerance.touching;
-    contacts_where(constants, balls, on_cloth, |gap, contact| touches(gap) && wanted(contact.opening_speed(balls)))
+    contacts_where(constants, balls, on_cloth, |gap, contact| {
+        gap <= constants.tolerance.touching && wanted(contact.opening_speed(balls))
+    })
 }
 
 /// Whether a ball touches two cushions; a prediction reports only one of several simultaneous cushion impacts.
@@ -36,20 +37,12 @@ pub fn contacts_where(
     wanted: impl Fn(f64, &Contact) -> bool,
 ) -> Contacts {
     let mut contacts = Contacts::NONE;
-    let mut add = |gap: f64, contact: Contact| {
-        if wanted(gap, &contact) {
+    let with_cushions = (0..BALLS).flat_map(|ball| Rail::ALL.map(|rail| Contact::with_cushion(ball, rail)));
+    for contact in with_cushions.chain(PAIRS.map(|(first, second)| Contact::of_balls(first, second))) {
+        let is_on_cloth = on_cloth[contact.first] && contact.second().is_none_or(|second| on_cloth[second]);
+        if is_on_cloth && wanted(gap(constants, balls, &contact), &contact) {
             contacts.push(contact);
         }
-    };
-    for index in (0..BALLS).filter(|&index| on_cloth[index]) {
-        for rail in Rail::ALL {
-            let contact = Contact::with_cushion(index, rail);
-            add(gap(constants, balls, &contact), contact);
-        }
-    }
-    for (first, second) in PAIRS.into_iter().filter(|&(first, second)| on_cloth[first] && on_cloth[second]) {
-        let contact = Contact::of_balls(first, second);
-        add(gap(constants, balls, &contact), contact);
     }
     contacts
 }
@@ -59,13 +52,8 @@ fn gap(constants: &Constants, balls: &State, contact: &Contact) -> f64 {
     let place = balls[contact.first].position;
     match contact.partner {
         Partner::Ball(second) => place.distance(balls[second].position) - constants.diameter,
-        Partner::Cushion(rail) => cushion_gap(constants, rail.normal(), place),
+        Partner::Cushion(rail) => rail.gap(constants.reach, place),
     }
-}
-
-/// Returns the distance of a ball at `place` on the cloth from the cushion with this normal, m.
-pub fn cushion_gap(constants: &Constants, normal: DVec2, place: DVec2) -> f64 {
-    normal.abs().dot(constants.reach) + place.dot(normal)
 }
 
 /// Moves a ball exactly to the cushion with this normal: the rounding of a prediction must not leave a gap through which the ball could

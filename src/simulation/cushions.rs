@@ -187,7 +187,7 @@ mod tests {
             let spin = crate::physics::rolling_spin(constants.radius, velocity).extend(0.0);
             let (_, rail, at) = first_cushion(DVec2::new(0.2, -0.1), velocity, spin);
             assert_eq!(rail, expected);
-            let gap = rail.normal().abs().dot(constants.reach) + at.dot(rail.normal());
+            let gap = rail.gap(constants.reach, at);
             assert!(gap.abs() < 1e-15, "{gap}");
         }
     }

@@ -41,6 +41,12 @@ impl Rail {
         }
     }
 
+    /// Returns the distance of a ball at `place` from this cushion, m. `reach` is the corner of the rectangle that ball centres can reach, m.
+    pub fn gap(self, reach: DVec2, place: DVec2) -> f64 {
+        let n = self.normal();
+        n.abs().dot(reach) + place.dot(n)
+    }
+
     /// Returns the mirror image of `place` in this cushion. A ball aimed at the image hits `place` off the cushion, if the rebound is a
     /// perfect reflection. `reach` is the corner of the rectangle that ball centres can reach, m.
     pub fn image(self, reach: DVec2, place: DVec2) -> DVec2 {

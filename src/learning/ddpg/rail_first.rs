@@ -226,7 +226,7 @@ impl<'a> RailFirstPaths<'a> {
     /// Returns the time at which a segment reaches the cushion, s.
     fn rail_contact(&self, segment: &Segment, duration: f64) -> Option<f64> {
         let n = self.rail.normal();
-        let gap = (n.dot(segment.position) + n.abs().dot(self.constants.reach)).max(0.0);
+        let gap = self.rail.gap(self.constants.reach, segment.position).max(0.0);
         let (approach, bend) = (-n.dot(segment.velocity), -n.dot(segment.half_acceleration));
         // The smallest non-negative root of gap = approach t + bend t².
         let discriminant = approach * approach + 4.0 * bend * gap;

@@ -76,9 +76,8 @@ pub fn collides(table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
                 let radius = radius * f64::from(rings - ring) / f64::from(rings);
                 let point = contact + s * axis + radius * (across * aside + along * up);
                 let place = point.truncate();
-                let behind = |rail: Rail| -place.dot(rail.normal()) - half.dot(rail.normal().abs());
                 let in_rail = point.z < room.nose - table.radius
-                    && Rail::ALL.into_iter().any(|rail| (0.0..room.rail).contains(&behind(rail)));
+                    && Rail::ALL.into_iter().any(|rail| (0.0..room.rail).contains(&-rail.gap(half, place)));
                 in_rail || layout.balls[1..].iter().any(|ball| (point - ball.extend(0.0)).length() < table.radius)
             })
         })

@@ -200,8 +200,8 @@ fn measure_contact_gaps(law: &ImpactLaw, trace: &Trace, balls: &[Vec<Stretch>; B
             }
             EventKind::BallRail(ball, rail) => {
                 let [sine, cosine] = law.cushion(rail).nose.map(|share| share * constants.radius);
-                let (n, centre) = (rail.normal(), place(ball, event.time));
-                let inwards = n.abs().dot(constants.reach) + centre.truncate().dot(n);
+                let centre = place(ball, event.time);
+                let inwards = rail.gap(constants.reach, centre.truncate());
                 if centre.z == 0.0 { inwards } else { (inwards + cosine).hypot(centre.z - sine) - constants.radius }
             }
             _ => continue,

@@ -248,8 +248,7 @@ impl<'a> Stepper<'a> {
         if self.balls[index].segment.motion == Motion::Flying {
             return self.nose_gap(state, rail);
         }
-        let n = rail.normal();
-        n.abs().dot(self.constants.reach) + state.position.truncate().dot(n)
+        rail.gap(self.constants.reach, state.position.truncate())
     }
 
     /// Returns the event of a ball whose gap to a cushion has closed.

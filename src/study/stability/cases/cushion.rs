@@ -86,7 +86,7 @@ fn returns(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
     let pushed = (target - place).normalize();
     for rail in Rail::ALL {
         let n = rail.normal();
-        let is_there = n.abs().dot(table.reach()) + target.dot(n) == 0.0;
+        let is_there = rail.gap(table.reach(), target) == 0.0;
         let answers = |e: &crate::simulation::Event| {
             e.kind == EventKind::BallRail(1, rail) && (e.time - first.time).abs() <= MOMENT
                 || e.kind == EventKind::ContactBegins(1) && (e.time - first.time).abs() <= MOMENT
@@ -113,9 +113,8 @@ fn cue_ball(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
 fn leaves(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
     let from = shot.layout.balls[0];
     for rail in Rail::ALL {
-        let n = rail.normal();
-        let speed = trace.impulse.velocity.dot(n);
-        if n.abs().dot(table.reach()) + from.dot(n) != 0.0 {
+        let speed = trace.impulse.velocity.dot(rail.normal());
+        if rail.gap(table.reach(), from) != 0.0 {
             continue;
         }
         let answers = trace.events.iter().any(|e| e.time == 0.0 && e.kind == EventKind::BallRail(0, rail));

@@ -64,11 +64,8 @@ pub fn follows_quadrature(table: &Table, shot: &Shot, trace: &Trace) -> Result<(
 
 /// Returns the normal of the cushion that a ball touches.
 fn cushion(table: &Table, place: DVec2) -> Option<DVec2> {
-    let stands = |rail: &crate::simulation::Rail| {
-        let n = rail.normal();
-        n.abs().dot(table.reach()) + place.dot(n) == 0.0
-    };
-    crate::simulation::Rail::ALL.iter().find(|rail| stands(rail)).map(|rail| rail.normal())
+    let touched = crate::simulation::Rail::ALL.into_iter().find(|rail| rail.gap(table.reach(), place) == 0.0);
+    touched.map(crate::simulation::Rail::normal)
 }
 
 /// Returns the integral from 0 to 1.
