@@ -9,8 +9,8 @@ use super::{
     Constants, Rail, Segment,
     ball_ball::Triangle,
     hops::{Arc, Hops},
-    predict::{Prediction, lesser, polynomial_closes, shifted, travel},
-    roots::{MAX_DEGREE, first_crossing},
+    predict::{Prediction, lesser, polynomial_closes, shifted, squared_gap, travel},
+    roots::first_crossing,
     savings::Savings,
 };
 use crate::physics::{Cushion, ImpactLaw, Motion};
@@ -237,9 +237,9 @@ fn meet(constants: &Constants, d: &[DVec3; 6], horizon: f64) -> Prediction {
     if horizon <= 0.0 || closing > tolerance.certain_gap + travel(&d.map(DVec3::length), horizon) {
         return Prediction::Nothing;
     }
-    let apart = d[0].length_squared() - diameter * diameter;
     if d[3..].iter().all(|c| *c == DVec3::ZERO) {
         let [d, v, k, ..] = *d;
+        let apart = d.length_squared() - diameter * diameter;
         let c = [2.0 * d.dot(v), v.length_squared() + 2.0 * d.dot(k), 2.0 * v.dot(k), k.length_squared()];
         if apart <= scale * tolerance.touching {
             return polynomial_closes(tolerance, &[apart, c[0], c[1], c[2], c[3]], scale, horizon);
@@ -249,12 +249,5 @@ fn meet(constants: &Constants, d: &[DVec3; 6], horizon: f64) -> Prediction {
         let rounding = f64::EPSILON * diameter * diameter;
         return first_crossing(value, &slope, horizon, rounding).map_or(Prediction::Nothing, Prediction::Impact);
     }
-    let mut gap = [0.0; MAX_DEGREE + 1];
-    for i in 0..6 {
-        for j in 0..6 {
-            gap[i + j] += d[i].dot(d[j]);
-        }
-    }
-    gap[0] = apart;
-    polynomial_closes(tolerance, &gap, scale, horizon)
+    polynomial_closes(tolerance, &squared_gap(d, DVec3::dot, diameter), scale, horizon)
 }

@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::{
     Constants, Rail, Segment,
-    roots::{MAX_DEGREE, first_crossing, horner},
+    roots::{MAX_DEGREE, derivative, first_crossing, horner},
     tolerance::Tolerance,
 };
 
@@ -67,24 +67,30 @@ pub fn next_collision_on_curve(
 ) -> Prediction {
     let (c1, c2) = (shifted(first, now), shifted(second, now));
     let d: [DVec2; 6] = std::array::from_fn(|power| c1[power] - c2[power]);
-    let diameter = 2.0 * constants.radius;
+    let diameter = constants.diameter;
     // Most pairs are too far apart to collide in such a short time.
     let tolerance = &constants.tolerance;
     if d[0].length() - diameter > tolerance.touching + travel(&d.map(DVec2::length), horizon) {
         return Prediction::Nothing;
     }
-    let mut gap = [0.0; MAX_DEGREE + 1];
-    for i in 0..6 {
-        for j in 0..6 {
-            gap[i + j] += d[i].dot(d[j]);
-        }
-    }
-    gap[0] -= diameter * diameter;
+    let gap = squared_gap(&d, DVec2::dot, diameter);
     let stays = gap[0] <= 2.0 * diameter * tolerance.touching && gap[1].abs() <= 2.0 * diameter * tolerance.opening;
     if may_rest && stays && gap[2] < -diameter * tolerance.pressing {
         return Prediction::Pressed;
     }
     polynomial_closes(tolerance, &gap, 2.0 * diameter, horizon)
+}
+
+/// Returns the coefficients of the squared distance of two balls less that of touching ones, for a distance vector `d[0] + t d[1] + …`.
+pub fn squared_gap<V: Copy>(d: &[V; 6], dot: impl Fn(V, V) -> f64, diameter: f64) -> [f64; MAX_DEGREE + 1] {
+    let mut gap = [0.0; MAX_DEGREE + 1];
+    for i in 0..6 {
+        for j in 0..6 {
+            gap[i + j] += dot(d[i], d[j]);
+        }
+    }
+    gap[0] -= diameter * diameter;
+    gap
 }
 
 /// Returns an upper bound of the distance along a trajectory with coefficients of these magnitudes within `time`.
@@ -114,10 +120,7 @@ pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], scale: f64, horizon
     }
     let work = &mut work[..count];
     let mut slope = [0.0; MAX_DEGREE];
-    for power in 1..count {
-        slope[power - 1] = power as f64 * work[power];
-    }
-    let slope = &slope[..count - 1];
+    let slope = derivative(work, &mut slope);
     let closes = |work: &[f64]| first_crossing(|t| horner(work, t), slope, horizon, f64::EPSILON * work[0].abs());
     let mut time = closes(work);
     if stays && time.is_some_and(|time| horner(slope, time) > -scale * tolerance.opening) {

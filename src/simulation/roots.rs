@@ -65,6 +65,15 @@ pub fn horner(coefficients: &[f64], t: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, c| sum * t + c)
 }
 
+/// Returns the coefficients of a polynomial's derivative, which are stored in `slope`.
+#[inline]
+pub fn derivative<'s>(coefficients: &[f64], slope: &'s mut [f64; MAX_DEGREE]) -> &'s [f64] {
+    for power in 1..coefficients.len() {
+        slope[power - 1] = power as f64 * coefficients[power];
+    }
+    &slope[..coefficients.len() - 1]
+}
+
 /// Finds all sign changes of the polynomial in the open interval `(0, end)`, in ascending order. Returns their number.
 fn roots(coefficients: &[f64], end: f64, found: &mut [f64; MAX_ROOTS]) -> usize {
     let mut degree = coefficients.len().saturating_sub(1);
@@ -94,7 +103,6 @@ fn keep_inside(candidates: &[f64], end: f64, found: &mut [f64; MAX_ROOTS]) -> us
 }
 
 fn roots_between_extrema(coefficients: &[f64], end: f64, found: &mut [f64; MAX_ROOTS]) -> usize {
-    let degree = coefficients.len() - 1;
     // A polynomial whose Bernstein coefficients on the interval share one sign has no root in it.
     let mut b = [0.0; MAX_DEGREE + 1];
     let b = bernstein(coefficients, end, &mut b);
@@ -102,10 +110,7 @@ fn roots_between_extrema(coefficients: &[f64], end: f64, found: &mut [f64; MAX_R
         return 0;
     }
     let mut slope = [0.0; MAX_DEGREE];
-    for power in 1..=degree {
-        slope[power - 1] = power as f64 * coefficients[power];
-    }
-    let slope = &slope[..degree];
+    let slope = derivative(coefficients, &mut slope);
     let mut turns = [0.0; MAX_ROOTS];
     let turn_count = roots(slope, end, &mut turns);
     turns[turn_count] = end;
@@ -227,7 +232,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn derivative(coefficients: &[f64]) -> Vec<f64> {
-        (1..coefficients.len()).map(|i| i as f64 * coefficients[i]).collect()
+        super::derivative(coefficients, &mut [0.0; MAX_DEGREE]).to_vec()
     }
 
     fn from_roots(roots: &[f64]) -> Vec<f64> {
