@@ -58,18 +58,14 @@ impl Recording {
     /// # Errors
     /// The first problem of the layout or the stroke.
     pub fn new(table: &Table, layout: &Layout, cue: &CueInputs) -> Result<Self, ShotError> {
-        Self::simulated(table, layout, Start::Stroke(cue))
+        Self::started(table, layout, Start::Stroke(cue))
     }
 
-    /// Checks and plays a shot with this motion of the cue ball just after the stroke.
+    /// Checks and plays a shot with this initial condition.
     ///
     /// # Errors
-    /// The first problem of the layout or the motion.
-    pub fn with_impulse(table: &Table, layout: &Layout, impulse: &Impulse) -> Result<Self, ShotError> {
-        Self::simulated(table, layout, Start::Motion(impulse))
-    }
-
-    fn simulated(table: &Table, layout: &Layout, start: Start<'_>) -> Result<Self, ShotError> {
+    /// The first problem of the layout, the stroke or the motion.
+    pub fn started(table: &Table, layout: &Layout, start: Start<'_>) -> Result<Self, ShotError> {
         let play =
             |impulse: &Impulse, kept: &mut Recorder| (simulate_with::<AllSavings, _>(table, layout, impulse, kept), ());
         Ok(Self::record_with(table, layout, start, play)?.0)
@@ -87,7 +83,9 @@ impl Recording {
         play: impl FnOnce(&Impulse, &mut Recorder) -> (End, T),
     ) -> Result<(Self, T), ShotError> {
         layout.validate(table)?;
-        let (impulse, mut kept) = (start.impulse(table)?, Recorder::with_capacity());
+        let impulse = start.impulse(table)?;
+        // Capacity for an ordinary shot: a dozen events, most of them of the cue ball.
+        let mut kept = Recorder { events: Vec::with_capacity(16), segments: [16, 4, 4].map(Vec::with_capacity) };
         let (end, more) = play(&impulse, &mut kept);
         for (ball, segments) in kept.segments.iter_mut().enumerate() {
             let BallState { position, spin, .. } = end.balls[ball];
@@ -125,10 +123,7 @@ impl Recording {
 
     /// Returns the balls' centres at time `t`, m.
     pub fn positions(&self, t: f64) -> [DVec2; BALLS] {
-        std::array::from_fn(|ball| {
-            let (segment, after) = self.segment(ball, t);
-            segment.position_after(after)
-        })
+        std::array::from_fn(|ball| self.state(ball, t).position)
     }
 
     /// Returns the final layout; balls that have left the table are on their spots.
@@ -144,8 +139,7 @@ impl Recording {
 
     /// Returns the height of a ball above its position on the cloth at time `t` (s), m.
     pub fn height(&self, ball: usize, t: f64) -> f64 {
-        let (segment, after) = self.segment(ball, t);
-        segment.hops().map_or(0.0, |hops| hops.state_after(after).position.z)
+        self.spatial_state(ball, t).position.z
     }
 
     /// Returns a ball's position, velocity and spin in three dimensions at time `t`, s.
@@ -174,13 +168,6 @@ impl Recording {
 pub struct Recorder {
     events: Vec<Event>,
     segments: [Vec<Segment>; BALLS],
-}
-
-impl Recorder {
-    /// Creates a recorder with capacity for an ordinary shot: a dozen events, most of them of the cue ball.
-    fn with_capacity() -> Self {
-        Self { events: Vec::with_capacity(16), segments: [16, 4, 4].map(Vec::with_capacity) }
-    }
 }
 
 impl Observer for Recorder {
@@ -214,7 +201,7 @@ mod tests {
         let layout = Layout::parse("-1,0 0,0.02 0.6,0.1", &table).unwrap();
         let cue = CueInputs::parse("0.2,0.3,4,1,4").unwrap();
         let struck = Recording::new(&table, &layout, &cue).unwrap();
-        let moved = Recording::with_impulse(&table, &layout, struck.impulse()).unwrap();
+        let moved = Recording::started(&table, &layout, Start::Motion(struck.impulse())).unwrap();
         assert!(struck.events().len() > 5);
         assert_eq!(moved.events(), struck.events());
         assert_eq!((moved.duration(), moved.final_layout()), (struck.duration(), struck.final_layout()));
@@ -239,7 +226,7 @@ mod tests {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let impulse = Impulse::on_cloth;
-        let play = |layout: &Layout, impulse: &Impulse| Recording::with_impulse(&table, layout, impulse);
+        let play = |layout: &Layout, impulse: &Impulse| Recording::started(&table, layout, Start::Motion(impulse));
         let still = play(&layout, &impulse(DVec2::ZERO, DVec3::ZERO)).unwrap();
         assert_eq!((still.duration(), still.events().len(), still.final_layout()), (0.0, 0, layout));
         let spinning = play(&layout, &impulse(DVec2::ZERO, DVec3::new(0.0, 0.0, 30.0))).unwrap();

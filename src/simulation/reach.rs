@@ -54,7 +54,7 @@ mod tests {
     use super::*;
     use crate::{
         physics::Impulse,
-        simulation::Recording,
+        simulation::{Recording, Start},
         table::{Layout, Table},
     };
 
@@ -75,7 +75,7 @@ mod tests {
     /// Returns the largest ratio of the remaining path length to that by rolling, over all events of a shot.
     fn farthest(table: &Table, layout: &Layout, impulse: &Impulse) -> f64 {
         const PIECES: u32 = 16;
-        let shot = Recording::with_impulse(table, layout, impulse).unwrap();
+        let shot = Recording::started(table, layout, Start::Motion(impulse)).unwrap();
         let constants = Constants::of(table);
         let (mut path, mut end, mut largest) = (0.0, shot.duration(), 0.0_f64);
         for start in shot.events().iter().rev().map(|event| event.time).chain([0.0]) {

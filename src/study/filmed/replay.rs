@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     game::{Rule, Tally},
-    simulation::{Recording, ShotError},
+    simulation::{Recording, ShotError, Start},
     table::{BALLS, Table},
 };
 
@@ -51,7 +51,7 @@ impl Replay {
         layout.validate(table).map_err(|error| refuse(error.into()))?;
         let fitted = shot_fit::fit_shot(table, filmed).ok_or(ReplayError::Short(number))?;
         let impulse = fitted.motion.impulse(table.radius);
-        let recording = Recording::with_impulse(table, &layout, &impulse).map_err(refuse)?;
+        let recording = Recording::started(table, &layout, Start::Motion(&impulse)).map_err(refuse)?;
         Ok(Self { filmed: filmed.clone(), fitted, recording })
     }
 
