@@ -99,11 +99,13 @@ impl Tolerance {
     pub fn of(table: &Table) -> Self {
         let speed = (table.gravity * table.radius).sqrt();
         let friction = table.sliding_friction.max(table.spinning_friction) * table.gravity;
+        // Coordinates are rounded to a quarter of this, m.
+        let rounding = f64::EPSILON * table.length.max(table.width);
         Self {
-            touching: 16.0 * f64::EPSILON * table.length.max(table.width),
-            simultaneous: 800.0 * f64::EPSILON * table.length.max(table.width) / speed,
-            certain_gap: 1.6e5 * f64::EPSILON * table.length.max(table.width),
-            coupled_gap: 1.6e4 * f64::EPSILON * table.length.max(table.width),
+            touching: 16.0 * rounding,
+            simultaneous: 800.0 * rounding / speed,
+            certain_gap: 1.6e5 * rounding,
+            coupled_gap: 1.6e4 * rounding,
             opening: 2e-11 * speed,
             pressing: 1e-14 * table.gravity.min(5.0 * friction),
             slip: 2e-10 * speed,
@@ -111,7 +113,7 @@ impl Tolerance {
             yielding: 1e-5 * speed,
             still: (2e-11 * Rolling::of(table).least).sqrt(),
             shortest_step: (8e-13 * speed / friction).min(1e-13),
-            shortest_quintic: 8.7e10 * f64::EPSILON * table.length.max(table.width) / speed,
+            shortest_quintic: 8.7e10 * rounding / speed,
             step_error: 2e-13 * speed.max(table.radius),
             force_error: 1e-12 * table.gravity.min(5.0 * friction),
             slow_bounce: 2e-2 * speed * liveliness(table),
@@ -120,7 +122,7 @@ impl Tolerance {
             slowest_lossless_bounce: 2e-8 * speed,
             slowest_in_air: 4e-3 * speed,
             fastest_micro_collision: 1e-3 * speed,
-            micro_gap: 7e5 * f64::EPSILON * table.length.max(table.width),
+            micro_gap: 7e5 * rounding,
             first_bounce: FIRST_BOUNCE * speed,
             shortest_parting: 4.0 * FIRST_BOUNCE * speed / (table.sliding_friction * table.gravity),
             slowest_coupled_bounce: 2e-8 * speed,
