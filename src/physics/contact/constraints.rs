@@ -87,7 +87,7 @@ impl<const ROOM: usize> ConstraintSystem<ROOM> {
             let mu = if has_friction(contact) { coefficient(table, contact) } else { 0.0 };
             Joint::new(table.radius, balls, contact, set.contact[index], mu)
         };
-        let joints = std::array::from_fn(|index| if index < contacts.len() { joint(index) } else { Joint::NONE });
+        let joints = std::array::from_fn(|index| if index < contacts.len() { joint(index) } else { Joint::default() });
         Self {
             joints,
             contacts: contacts.len().min(ROOM),
@@ -139,7 +139,7 @@ impl<const ROOM: usize> ConstraintSystem<ROOM> {
     /// Returns the motion of the balls under each unknown alone, after the cloth's holding forces, contact by contact.
     #[inline(always)]
     fn responses(&self) -> Responses<ROOM> {
-        let mut responses = [[Response::NONE; 3]; ROOM];
+        let mut responses = [[Response::default(); 3]; ROOM];
         for (joint, responses) in self.joints.iter().zip(&mut responses) {
             for (unknown, response) in responses[..joint.unknowns].iter_mut().enumerate() {
                 let (push, twist) = joint.act(joint.unit(unknown));
@@ -382,7 +382,7 @@ impl Scene<'_> {
     fn free(self, members: [bool; BALLS]) -> Movement {
         let Self { table, balls, set, .. } = self;
         let [sliding, _, spinning] = frictions(table);
-        let mut free = Movement::NONE;
+        let mut free = Movement::default();
         for ball in (0..BALLS).filter(|&ball| members[ball]) {
             let state = &balls[ball];
             let (linear, angular) = (&mut free.linear[ball], &mut free.angular[ball]);

@@ -159,26 +159,21 @@ impl Scene<'_> {
     /// which a friction yields or whose linear system has no solution. `is_short` limits the search, for steps that fail. Nor is a long
     /// search worthwhile after a state without a solution: there are mostly no forces.
     pub fn search_forces(self, similar: &Forces, is_short: bool, effort: &Effort) -> Forces {
-        let Self { table, set, .. } = self;
+        let (table, mut set) = (self.table, *self.set);
         let attempts = if similar.converged && !is_short { ATTEMPTS } else { 1 };
         let (problem, solution) = self.solved(Some(similar), attempts, effort);
         let accelerations = problem.accelerations(&solution.values);
         let mut forces = Forces::of(table.radius, &problem, &solution, &accelerations);
         forces.slack = self.spin_slack();
         for (unknown, branch) in problem.unknowns.iter().zip(&solution.branches) {
-            let friction = match unknown.kind {
-                ForceKind::Normal(_) | ForceKind::Spin(_) => Friction::Sticks,
-                ForceKind::Cloth(ball) => set.cloth[ball],
-                ForceKind::Roll(ball) => set.roll[ball],
-                ForceKind::Contact(index) => set.contact[index],
-            };
+            let yields = set.friction_mut(unknown.kind).is_some_and(|friction| *friction == Friction::Yields);
             // The active set ends when any law changes its branch. The margin is the growth rate, or the distance of the force from its
             // limit.
             let rows = &problem.rates[unknown.first..][..unknown.count];
             let slack = match branch {
-                Branch::Holds if friction == Friction::Yields => -slack_of(unknown, &solution.values),
+                Branch::Holds if yields => -slack_of(unknown, &solution.values),
                 Branch::Holds => slack_of(unknown, &solution.values),
-                Branch::Limited(_) if friction == Friction::Yields => f64::INFINITY,
+                Branch::Limited(_) if yields => f64::INFINITY,
                 _ => -rows.iter().fold(0.0_f64, |rate, row| libm::hypot(rate, row.dot(&accelerations))),
             };
             forces.slack = forces.slack.min(slack);

@@ -11,15 +11,13 @@ use crate::{
 };
 
 /// Accelerations, velocities or their changes: of the centre, and R times those of the spin.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Movement {
     pub linear: [DVec2; BALLS],
     pub angular: [DVec3; BALLS],
 }
 
 impl Movement {
-    pub const NONE: Self = Self { linear: [DVec2::ZERO; BALLS], angular: [DVec3::ZERO; BALLS] };
-
     /// Returns the largest difference of the members' motions.
     pub fn distance(&self, other: &Self, members: [bool; BALLS]) -> f64 {
         (0..BALLS).filter(|&ball| members[ball]).fold(0.0, |largest, ball| {
@@ -30,21 +28,17 @@ impl Movement {
 }
 
 /// Motion of a contact's first and second ball under one of its unknowns alone.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub struct Response {
     pub linear: [DVec2; 2],
     pub angular: [DVec3; 2],
-}
-
-impl Response {
-    pub const NONE: Self = Self { linear: [DVec2::ZERO; 2], angular: [DVec3::ZERO; 2] };
 }
 
 /// Components of a force or rate along a contact's normal, its tangent `t = z×n` and z.
 pub type Triple = [f64; 3];
 
 /// A contact with its precomputed geometry.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub struct Joint {
     pub first: usize,
     pub second: Option<usize>,
@@ -61,17 +55,6 @@ pub struct Joint {
 }
 
 impl Joint {
-    pub const NONE: Self = Self {
-        first: 0,
-        second: None,
-        n: DVec2::ZERO,
-        t: DVec2::ZERO,
-        at: 0,
-        unknowns: 0,
-        slip_friction: DVec2::ZERO,
-        bias: [0.0; 3],
-    };
-
     /// Creates the joint of a contact with this friction mode and the coefficient `mu` for slip. Its unknowns are numbered from 0. `radius`
     /// is the balls' radius, m.
     #[inline(always)]

@@ -12,9 +12,6 @@ pub enum ClothMode {
     Stands,
 }
 
-/// Holding forces of the cloth on a ball: against slip, against rolling, against spin.
-pub type HoldingForces = (DVec2, DVec2, f64);
-
 /// Holding modes of the cloth for one ball.
 #[derive(Clone, Copy)]
 pub struct Sticking {
@@ -33,8 +30,8 @@ impl Sticking {
         Self { cloth, spin: !matches!(set.spin[ball], Friction::Slips(_)) }
     }
 
-    /// Returns the forces that hold a ball with this motion without them.
-    pub fn holding_forces(self, linear: DVec2, angular: DVec3) -> HoldingForces {
+    /// Returns the forces against slip, against rolling and against spin that hold a ball with this motion without them.
+    pub fn holding_forces(self, linear: DVec2, angular: DVec3) -> (DVec2, DVec2, f64) {
         let around = angular.truncate();
         let (cloth, roll) = match self.cloth {
             ClothMode::Slides => (DVec2::ZERO, DVec2::ZERO),

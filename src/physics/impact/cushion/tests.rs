@@ -9,11 +9,12 @@ use crate::table::Rails;
 const RADIUS: f64 = 0.030_75;
 
 fn cushion(model: RailModel, height: f64) -> Cushion {
+    cushion_with(model, height, 0.87, 0.25)
+}
+
+fn cushion_with(model: RailModel, height: f64, rail_restitution: f64, rail_friction: f64) -> Cushion {
     let rail = Rails { model, height: Some(height), kappa: Some(1.146), ..Rails::default() };
-    Cushion::of(
-        &Table { rail, radius: RADIUS, rail_restitution: 0.87, rail_friction: 0.25, ..Table::default() },
-        Rail::Right,
-    )
+    Cushion::of(&Table { rail, radius: RADIUS, rail_restitution, rail_friction, ..Table::default() }, Rail::Right)
 }
 
 const MODELS: [RailModel; 4] = [RailModel::Equator, RailModel::Nose, RailModel::Smooth, RailModel::Mathavan];
@@ -44,13 +45,11 @@ proptest! {
     fn lossy_rails_let_no_ball_through(
         ball in moving(),
         height in 0.0308..0.049f64,
-        (rail_restitution, rail_friction) in (0.0..0.5f64, 0.0..0.99f64),
+        (e, mu) in (0.0..0.5f64, 0.0..0.99f64),
     ) {
         for model in MODELS {
-            let rail = Rails { model, height: Some(height), kappa: Some(1.146), ..Rails::default() };
-            let table = Table { rail, radius: RADIUS, rail_restitution, rail_friction, ..Table::default() };
             let mut after = ball;
-            let impulse = Cushion::of(&table, Rail::Right).resolve(RADIUS, DVec2::NEG_X, &mut after);
+            let impulse = cushion_with(model, height, e, mu).resolve(RADIUS, DVec2::NEG_X, &mut after);
             prop_assert!(after.velocity.x <= 1e-12 || impulse.climb > 0.0, "{model:?}: {after:?}");
             let (before, energy) = (ball.specific_energy(RADIUS), after.specific_energy(RADIUS));
             prop_assert!(energy <= before * (1.0 + 1e-12), "{model:?}: {before} to {energy}");
@@ -106,10 +105,9 @@ proptest! {
         let taken = |after: BallState| (after.spin - ball.spin).length();
         prop_assert!(taken(smooth) <= 1.146 * taken(sharp) * (1.0 + 1e-12));
         // With so little friction every impact slips. The spin changes by 5/(2R) times the friction impulse per mass.
-        let rail = Rails { model: RailModel::Smooth, height: Some(0.0365), kappa: Some(1.146), ..Rails::default() };
-        let table = Table { rail, radius: RADIUS, rail_restitution: 0.87, rail_friction: 0.02, ..Table::default() };
         let mut after = ball;
-        let impulse = Cushion::of(&table, Rail::Right).resolve(RADIUS, DVec2::NEG_X, &mut after);
+        let impulse =
+            cushion_with(RailModel::Smooth, 0.0365, 0.87, 0.02).resolve(RADIUS, DVec2::NEG_X, &mut after);
         let friction = 0.4 * RADIUS * (after.spin - ball.spin).length();
         prop_assert!(friction <= 0.02 * impulse.normal * (1.0 + 1e-9), "{friction} of {}", impulse.normal);
     }
