@@ -71,21 +71,15 @@ impl Bounces {
 #[derive(Clone, Debug)]
 pub struct Chatters([Bounces; SLOTS]);
 
-impl Chatters {
+impl Default for Chatters {
     /// Creates records without bounces.
-    pub const fn new() -> Self {
-        Self(
-            [Bounces {
-                count: 0,
-                last: f64::NEG_INFINITY,
-                flight: f64::INFINITY,
-                longest: 0.0,
-                pause: 0.0,
-                flight_ratio: 0.0,
-            }; SLOTS],
-        )
+    fn default() -> Self {
+        let (last, flight) = (f64::NEG_INFINITY, f64::INFINITY);
+        Self([Bounces { count: 0, last, flight, longest: 0.0, pause: 0.0, flight_ratio: 0.0 }; SLOTS])
     }
+}
 
+impl Chatters {
     fn slot(contact: &Contact) -> usize {
         match contact.partner {
             Partner::Ball(second) => contact.first + second - 1,
@@ -137,17 +131,10 @@ impl Chatters {
     }
 }
 
-/// End of a chatter.
-pub struct ChatterEnd {
-    /// Contacts that rest from now on.
-    pub contacts: Contacts,
-    /// Remaining duration of the omitted bounces, s; zero if they are negligibly slow.
-    pub duration: f64,
-}
-
 /// Returns the contacts that come to rest together with `contact`, which has just bounced and opens in the state `balls`. Forces must press
-/// them once their bounces have ended, and the remaining bounces must be negligible. `None` if the chatter continues. `restitution` is that
-/// of its bounces; `flight_ratio` is the ratio of the last flight to the one before.
+/// them once their bounces have ended, and the remaining bounces must be negligible. Also returns the remaining duration of the omitted
+/// bounces, s, which is zero if they are negligibly slow. `None` if the chatter continues. `restitution` is that of its bounces;
+/// `flight_ratio` is the ratio of the last flight to the one before.
 pub fn chatter_end(
     table: &Table,
     constants: &Constants,
@@ -156,7 +143,7 @@ pub fn chatter_end(
     on_cloth: [bool; BALLS],
     (restitution, flight_ratio): (f64, f64),
     effort: &Effort,
-) -> Option<ChatterEnd> {
+) -> Option<(Contacts, f64)> {
     let tolerance = &constants.tolerance;
     let speed = contact.opening_speed(balls);
     // Bounces without loss never fade.
@@ -164,7 +151,7 @@ pub fn chatter_end(
     if speed <= slowest {
         let mut alone = Contacts::NONE;
         alone.push(*contact);
-        return Some(ChatterEnd { contacts: alone, duration: 0.0 });
+        return Some((alone, 0.0));
     }
     // While a contact chatters, the contacts that are coupled to it count as closed, and slips as small as its bounces cause count as zero.
     // A contact in flight does not press, and could only be stopped by pulling.
@@ -230,7 +217,7 @@ pub fn chatter_end(
     let is_missed = speed > tolerance.slowest_coupled_bounce;
     let duration = if is_missed { 2.0 * speed / (pull * (1.0 - restitution)) } else { 0.0 };
     let is_cut_short = is_missed && meets_another(constants, balls, on_cloth, &resolved.contacts, duration);
-    (!is_cut_short).then_some(ChatterEnd { contacts: resolved.contacts, duration })
+    (!is_cut_short).then_some((resolved.contacts, duration))
 }
 
 /// Whether a ball of the contacts collides with anything else within `time`, s, before the omitted bounces are over: it would still have
@@ -272,7 +259,7 @@ mod tests {
 
     #[test]
     fn bounces_are_reported_until_they_are_a_chatter() {
-        let mut chatters = Chatters::new();
+        let mut chatters = Chatters::default();
         let flights = (1..=40).map(|bounce| 0.1 * 0.9_f64.powi(bounce));
         let (reported, now) = reported(&mut chatters, &Contact::of_balls(0, 1), flights);
         assert_eq!(reported, REPORTED_BOUNCES);
@@ -283,7 +270,7 @@ mod tests {
     /// Bounces between a ball and a cushion: each time the cushion throws the ball back, they start again, with shorter flights.
     #[test]
     fn ball_thrown_back_by_another_contact_continues_its_chatter() {
-        let mut chatters = Chatters::new();
+        let mut chatters = Chatters::default();
         let flights = (0..20).flat_map(|round| {
             let longest = 0.1 * 0.95_f64.powi(round);
             let pause = move |bounce: i32| if bounce == 11 { 0.9 * longest } else { 0.0 };
@@ -298,7 +285,7 @@ mod tests {
     #[test]
     fn bounces_with_shrinking_pauses_are_one_chatter() {
         let flights = (1..=50).flat_map(|round| [0.0, 0.0, 6e-3 * 0.9_f64.powi(round)]);
-        let (reported, _) = reported(&mut Chatters::new(), &Contact::of_balls(0, 2), flights);
+        let (reported, _) = reported(&mut Chatters::default(), &Contact::of_balls(0, 2), flights);
         assert!(reported <= 4 * REPORTED_BOUNCES, "{reported} of 150 bounces are reported");
     }
 
@@ -339,7 +326,7 @@ mod tests {
             let bounces = (table.rail_restitution, 0.3);
             chatter_end(&table, &constants, &contact, &balls, [true; BALLS], bounces, &Effort::default())
                 .expect("the chatter ends")
-                .contacts
+                .0
                 .to_vec()
         };
         let other = Contact::with_cushion(0, Rail::Top);

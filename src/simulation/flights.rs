@@ -5,7 +5,6 @@ use std::ops::ControlFlow;
 use super::{
     EventKind, Observer, Segment,
     aloft::Nose,
-    chatter::Chatters,
     contacts::PAIRS_OF,
     engine::{Ball, ContactMode, Engine, PairPrediction, only_ball},
     guards::AIR_IMPACT_COST,
@@ -154,8 +153,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.effort_in_air.add(AIR_IMPACT_COST);
         let (first, second) = PAIRS[pair];
         let PairPrediction { since, after, .. } = self.pairs[pair];
-        let mut changed = only_ball(first);
-        changed[second] = true;
+        let changed = std::array::from_fn(|ball| ball == first || ball == second);
         let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
         let c = self.constants;
         let [mut one, mut other] = [first, second].map(|index| match &freed {
@@ -187,8 +185,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
     /// Whether an impact in the air is reported. It is not if it is one of many by which a ball slides off another one or off a nose.
     fn is_reported(&mut self, now: f64, contact: &Contact, approach: f64) -> bool {
-        approach > self.constants.tolerance.slow_bounce
-            || !self.chatters.get_or_insert_with(|| Box::new(Chatters::new())).bounce(contact, now)
+        approach > self.constants.tolerance.slow_bounce || !self.chatters.get_or_insert_default().bounce(contact, now)
     }
 
     /// Makes a ball that reaches the cloth at the moment of an impact land before it: otherwise rounding would decide whether its state is

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::{
     Event, EventKind, Observer,
-    chatter::{Chatters, chatter_end},
+    chatter::chatter_end,
     contacts::{PAIRS_OF, close_gaps, is_in_corner, move_to_cushion, touching},
     engine::{Ball, ContactMode, Engine, PairPrediction, SAME_TIME, only_ball},
     guards::{BALL_BOUNCE_COST, RAIL_BOUNCE_COST},
@@ -98,8 +98,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             return self.collide_in_space(pair, now);
         }
         let PairPrediction { since, after, .. } = self.pairs[pair];
-        let mut changed = only_ball(first);
-        changed[second] = true;
+        let changed = std::array::from_fn(|ball| ball == first || ball == second);
         let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
         let state_of = |index: usize| match &freed {
             Some(states) if self.resting_members()[index] => states[index],
@@ -232,8 +231,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     #[cold]
     pub(super) fn slow_bounce(&mut self, now: f64, contact: &Contact) -> ControlFlow<(), bool> {
         self.effort.add(if contact.second().is_some() { BALL_BOUNCE_COST } else { RAIL_BOUNCE_COST });
-        let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
-        if !chatters.bounce(contact, now) && self.micro_collisions.is_none() {
+        if !self.chatters.get_or_insert_default().bounce(contact, now) && self.micro_collisions.is_none() {
             return ControlFlow::Continue(true);
         }
         self.observer.contact_step()?;
@@ -258,8 +256,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let flight_ratio = self.chatters.as_ref().map_or(0.0, |chatters| chatters.flight_ratio(contact));
         let states = self.states_with(now, freed, bounced);
         let bounces = (self.law.restitution(contact), flight_ratio);
-        let end = chatter_end(self.table, &self.constants, contact, &states, self.on_cloth(), bounces, &self.effort)?;
-        (now + end.duration < self.next_meeting_aloft()).then_some(end.contacts)
+        let (contacts, duration) =
+            chatter_end(self.table, &self.constants, contact, &states, self.on_cloth(), bounces, &self.effort)?;
+        (now + duration < self.next_meeting_aloft()).then_some(contacts)
     }
 
     /// Returns the next collision time of two balls, at least one of which is in the air, s: it may throw others back into the contacts
@@ -328,9 +327,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let changed = std::array::from_fn(|ball| rests.involve(ball));
         self.relaunch(now, changed, &states);
         self.report_impact(now, impact, reported)?;
-        for (contact, _) in
-            contacts.iter().zip(given).filter(|(contact, given)| *given > 0.0 && kind(contact) != impact)
-        {
+        let pushed = contacts.iter().zip(given).filter(|(_, given)| *given > 0.0);
+        for contact in pushed.map(|(contact, _)| contact).filter(|contact| kind(contact) != impact) {
             let reported = self.slow_bounce(now, contact)?;
             self.report_impact(now, kind(contact), reported)?;
         }

@@ -45,14 +45,10 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 
     /// Returns the longest pause between two micro-collisions of a contact, s, if the pressing acceleration is at least a tenth of sliding
-    /// friction's. Negative infinity if resting contacts are not disabled.
+    /// friction's.
     pub(super) fn longest_pause(&self) -> f64 {
         let Constants { tolerance, sliding, .. } = &self.constants;
-        if self.micro_collisions.is_some() {
-            20.0 * tolerance.fastest_micro_collision / sliding
-        } else {
-            f64::NEG_INFINITY
-        }
+        20.0 * tolerance.fastest_micro_collision / sliding
     }
 
     /// Separates two colliding balls by the gap of a micro-collision, which they cross before the next one.

@@ -4,12 +4,10 @@ use std::ops::ControlFlow;
 
 use super::{
     EventKind, Observer, Segment,
-    chatter::Chatters,
     contacts::PAIRS_OF,
     engine::{ContactMode, Engine, only_ball},
-    resting::{Outcome, Resting},
+    resting::Resting,
     savings::Savings,
-    segment::Course,
 };
 use crate::{
     physics::{BallState, Motion},
@@ -90,9 +88,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         for index in (0..BALLS).filter(|&index| resting.members[index] && time > 0.0) {
             let segment = &mut self.balls[index].segment;
             if segment.start == resting.start {
-                let (half_acceleration, curve) = resting.course(index);
-                segment.half_acceleration = half_acceleration;
-                segment.course = Some(Box::new(Course::Contact(curve)));
+                (segment.half_acceleration, segment.course) = resting.course(index);
             }
         }
     }
@@ -119,16 +115,12 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         }
         self.end_step(now);
         // Other members of a continuing contact are part of the new one.
-        let mut states: [BallState; BALLS] = match &self.resting {
-            Some(resting) if resting.start < now => std::array::from_fn(|index| {
-                if resting.members[index] && self.balls[index].segment.start < now {
-                    resting.end[index]
-                } else {
-                    self.state(index, now)
-                }
-            }),
-            _ => std::array::from_fn(|index| self.state(index, now)),
-        };
+        let states: [BallState; BALLS] = std::array::from_fn(|index| match &self.resting {
+            Some(resting) if resting.start.max(self.balls[index].segment.start) < now && resting.members[index] => {
+                resting.end[index]
+            }
+            _ => self.state(index, now),
+        });
         if self.is_out_of_reach(|index| states[index]) {
             return ControlFlow::Break(());
         }
@@ -140,37 +132,21 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 previous.contacts.iter().for_each(|contact| chatters.rest(contact, now));
             }
         }
-        let on_cloth = self.on_cloth();
-        let moved: [bool; BALLS];
-        (self.resting, moved) = match Resting::begin(
-            self.table,
-            &self.constants,
-            now,
-            &states,
-            on_cloth,
-            previous.as_deref(),
-            self.next_step,
-        ) {
-            Outcome::Rests(resting) => {
-                self.effort.absorb(&resting.effort);
-                self.next_step = resting.next_step;
-                let chatters = self.chatters.get_or_insert_with(|| Box::new(Chatters::new()));
-                resting.contacts.iter().for_each(|contact| chatters.begin_rest(contact, now));
-                let moved =
-                    std::array::from_fn(|index| !resting.members[index] && resting.begin[index] != states[index]);
-                states = std::array::from_fn(|index| if moved[index] { resting.begin[index] } else { states[index] });
-                (Some(resting), moved)
-            }
-            Outcome::Free(ended, moved, effort) => {
-                self.effort.absorb(&effort);
-                states = ended;
-                (None, moved)
-            }
-        };
-        // A slip that ends here has ended for good.
-        self.relaunch(now, moved, &states);
-        *changed = std::array::from_fn(|index| changed[index] || moved[index]);
+        let (on_cloth, previous) = (self.on_cloth(), previous.as_deref());
+        let (resting, begin, effort) =
+            Resting::begin(self.table, &self.constants, now, &states, on_cloth, previous, self.next_step);
+        self.effort.absorb(&effort);
+        if let Some(resting) = &resting {
+            self.next_step = resting.next_step;
+            let chatters = self.chatters.get_or_insert_default();
+            resting.contacts.iter().for_each(|contact| chatters.begin_rest(contact, now));
+        }
+        self.resting = resting;
         let members = self.resting_members();
+        // A slip that ends here has ended for good.
+        let moved: [bool; BALLS] = std::array::from_fn(|index| !members[index] && begin[index] != states[index]);
+        self.relaunch(now, moved, &begin);
+        *changed = std::array::from_fn(|index| changed[index] || moved[index]);
         for index in 0..BALLS {
             let was = self.balls[index].mode;
             if members[index] {
@@ -184,7 +160,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 self.balls[index].mode = ContactMode::Bouncing;
                 // A ball whose contact ended because of another ball is still on the common trajectory.
                 if self.balls[index].segment.motion == Motion::Resting {
-                    self.relaunch(now, only_ball(index), &states);
+                    self.relaunch(now, only_ball(index), &begin);
                     changed[index] = true;
                 }
             }
@@ -232,7 +208,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     pub(super) fn rest(&mut self, index: usize, now: f64) {
         let Some(resting) = &self.resting else { return };
         let state = &resting.begin[index];
-        let (half_acceleration, curve) = resting.course(index);
+        let (half_acceleration, course) = resting.course(index);
         let step = resting.step;
         let segment = Segment {
             start: now,
@@ -241,7 +217,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             half_acceleration,
             spin: state.spin,
             motion: Motion::Resting,
-            course: Some(Box::new(Course::Contact(curve))),
+            course,
         };
         if self.balls[index].segment.start < now {
             self.end_segment(index, now);

@@ -1,9 +1,9 @@
 //! Time integration of resting contacts: balls that are pressed against cushions or each other, with adaptive steps.
 //!
 //! The equations have no closed form, because the slip turns under the frictions of cloth and cushion together. They are integrated from
-//! one change of the active set to the next, with an estimated error of at most [`Tolerance::step_error`] per step. When a slip ends, its
-//! direction is singular in time. With time rescaled by the slip, `dt = |u|/|u₀| dτ`, the slip decays exponentially and the solution stays
-//! smooth.
+//! one change of the active set to the next, with an estimated error of at most [`super::Tolerance::step_error`] per step. When a slip
+//! ends, its direction is singular in time. With time rescaled by the slip, `dt = |u|/|u₀| dτ`, the slip decays exponentially and the
+//! solution stays smooth.
 
 mod active_set;
 mod bounds;
@@ -13,13 +13,12 @@ mod within;
 
 use glam::{DVec2, DVec3};
 
-use self::active_set::{find_active_set, remove_rounding, transient_pressing, without_ending_slips};
+use self::active_set::{find_active_set, remove_rounding, without_ending_slips};
 use super::{
     Constants, Rail,
     contacts::{close_gaps, touching},
     extrapolation::{Phase, State, Step, extrapolate},
     guards::{RESTING_BUDGET, STEP_BUDGET, STEP_COST, known_set_cost},
-    tolerance::Tolerance,
 };
 use crate::{
     physics::{ActiveSet, BallState, Contact, Contacts, Effort, Forces, Friction, Resolved, Scene, slip},
@@ -54,9 +53,6 @@ const WITHOUT_FORCES: f64 = 0.1;
 
 /// Largest number of iterations for the time at which a law breaks; false position needs about ten.
 const MAX_GUESSES: usize = 60;
-
-/// Linear accelerations of all balls, m/s², and angular ones, rad/s².
-type Accelerations<'a> = (&'a [DVec2; BALLS], &'a [DVec3; BALLS]);
 
 /// Location of a slip: a ball on the cloth, its centre, or a contact, by index.
 #[derive(Clone, Copy, Debug)]
@@ -117,17 +113,9 @@ impl Trial {
     }
 }
 
-/// Result of `Resting::begin`.
-pub enum Outcome {
-    /// A step of balls that press each other.
-    Rests(Box<Resting>),
-    /// No contact presses: states of the free balls, whether each has a slip that ends here, and the work spent.
-    Free(State, [bool; BALLS], Effort),
-}
-
 impl Resting {
     /// Takes one step of at most `next_step` seconds from `balls` at time `start`, if any contact presses. The `previous` step, if there is
-    /// one, determines which frictions yield.
+    /// one, determines which frictions yield. Also returns the states of all balls without the slips that end here, and the work spent.
     pub fn begin(
         table: &Table,
         constants: &Constants,
@@ -136,18 +124,14 @@ impl Resting {
         on_cloth: [bool; BALLS],
         previous: Option<&Self>,
         next_step: f64,
-    ) -> Outcome {
-        let Tolerance { force_error, .. } = constants.tolerance;
+    ) -> (Option<Box<Self>>, State, Effort) {
         let mut contacts =
             touching(constants, balls, on_cloth, |opening| opening.abs() <= 2.0 * constants.tolerance.opening);
         let (mut free, effort) = (*balls, Effort::default());
         effort.add(STEP_COST);
-        let least_push = force_error + transient_pressing(constants, balls, &contacts);
-        let Some((begin, resolved)) =
-            find_active_set(table, constants, &mut free, &mut contacts, least_push, previous, &effort)
+        let Some((begin, resolved)) = find_active_set(table, constants, &mut free, &mut contacts, previous, &effort)
         else {
-            let ended = without_ending_slips(table, constants, &free, &contacts);
-            return Outcome::Free(ended, std::array::from_fn(|ball| ended[ball] != balls[ball]), effort);
+            return (None, without_ending_slips(table, constants, &free, &contacts), effort);
         };
         let Resolved { contacts, set, forces, shared, .. } = resolved;
         let mut resting = Self {
@@ -171,7 +155,8 @@ impl Resting {
             constants: *constants,
         };
         resting.advance(table);
-        Outcome::Rests(Box::new(resting))
+        let effort = std::mem::take(&mut resting.effort);
+        (Some(Box::new(resting)), begin, effort)
     }
 
     /// Takes the next step if the active set has not changed at the end of this one. Returns whether it has done so.
@@ -190,7 +175,7 @@ impl Resting {
     fn advance(&mut self, table: &Table) {
         let shortest = self.constants.tolerance.shortest_step;
         let begin = self.initial_trial();
-        let mut span = self.longest_step(table.radius).min(self.next_step).max(shortest);
+        let mut span = self.longest_step().min(self.next_step).max(shortest);
         let (trial, broken) = loop {
             let mut trial = self.attempt(table, &begin, span);
             if trial.has_no_forces() {
@@ -228,7 +213,7 @@ impl Resting {
         }
         let mut end = trial.step.end;
         let keeps_set = !broken && !self.shared && self.set.begins_no_slip();
-        let ends = if keeps_set { self.slips_end_after(table, &end.balls, &trial.forces) } else { None };
+        let ends = if keeps_set { self.slips_end_after(&end.balls, &trial.forces) } else { None };
         if let Some(time) = ends {
             for (ball, state) in end.balls.iter_mut().enumerate().filter(|(ball, _)| self.members[*ball]) {
                 let linear = trial.forces.linear[ball];
@@ -240,7 +225,7 @@ impl Resting {
         }
         (self.step, self.last, self.keeps_set) = (end.time, trial.forces, keeps_set && ends.is_none());
         let changes = broken || ends.is_some();
-        let rate = self.time_rate(table.radius, &end.balls);
+        let rate = self.time_rate(&end.balls);
         self.next_step = if changes { f64::INFINITY } else { trial.step.best_length * rate };
         self.end = if self.keeps_set {
             close_gaps(&self.constants, &mut end.balls, &self.contacts);
@@ -251,9 +236,9 @@ impl Resting {
     }
 
     /// Returns the time until the next slips end, s, if it is so short that the forces no longer change.
-    fn slips_end_after(&self, table: &Table, balls: &State, forces: &Forces) -> Option<f64> {
+    fn slips_end_after(&self, balls: &State, forces: &Forces) -> Option<f64> {
         let mut soonest = f64::INFINITY;
-        self.slips(table.radius, balls, forces, |_, slip, rate| {
+        self.slips(balls, forces, |_, slip, rate| {
             let falls = -slip.length_squared() / rate.dot(slip);
             if falls > 0.0 {
                 soonest = soonest.min(falls);
@@ -261,7 +246,7 @@ impl Resting {
         });
         let tolerance = &self.constants.tolerance;
         let mut error = 0.0_f64;
-        self.slips(table.radius, balls, forces, |_, slip, rate| {
+        self.slips(balls, forces, |_, slip, rate| {
             // Slips that do not end at the same time turn slightly until then.
             if (slip + soonest * rate).length() > tolerance.slip {
                 error = error.max(self.constants.sliding * soonest * soonest * rate.length() / slip.length());
@@ -269,22 +254,23 @@ impl Resting {
         });
         let turned = |ball: usize| {
             let spin = balls[ball].spin.z + soonest * forces.angular[ball].z;
-            self.members[ball] && self.turns_over(table.radius, ball, spin)
+            self.members[ball] && self.turns_over(ball, spin)
         };
         let is_near = error <= tolerance.negligible && soonest * self.constants.sliding <= tolerance.yielding;
         (is_near && !(0..BALLS).any(turned)).then_some(soonest)
     }
 
     /// Whether a `spin` about the vertical, rad/s, has the sign opposite to that of this active set.
-    fn turns_over(&self, radius: f64, ball: usize, spin: f64) -> bool {
+    fn turns_over(&self, ball: usize, spin: f64) -> bool {
         match self.set.spin[ball] {
-            Friction::Slips(sign) => radius * spin * sign.x < -self.constants.tolerance.slip,
+            Friction::Slips(sign) => self.constants.radius * spin * sign.x < -self.constants.tolerance.slip,
             Friction::Sticks | Friction::Yields | Friction::Filippov => false,
         }
     }
 
     /// Passes every slip of this active set and its rate to `each`.
-    fn slips(&self, radius: f64, balls: &State, forces: &Forces, mut each: impl FnMut(SlipLocation, DVec2, DVec2)) {
+    fn slips(&self, balls: &State, forces: &Forces, mut each: impl FnMut(SlipLocation, DVec2, DVec2)) {
+        let radius = self.constants.radius;
         let rates: State = std::array::from_fn(|ball| BallState {
             position: balls[ball].position,
             velocity: forces.linear[ball],
@@ -350,9 +336,9 @@ impl Resting {
                 }
                 (last.linear, last.angular)
             });
-            self.slope(table.radius, &phase.balls, (&linear, &angular))
+            self.slope(&phase.balls, &linear, &angular)
         };
-        let first = self.slope(table.radius, &begin.balls, (&from.forces.linear, &from.forces.angular));
+        let first = self.slope(&begin.balls, &from.forces.linear, &from.forces.angular);
         let (length, tolerance) = (span - from.span, self.constants.tolerance.step_error);
         let stiff = self.stiff(table, from, length);
         let mut step = extrapolate(begin, &first, slope, stiff.as_ref(), length, (table.radius, tolerance));
@@ -367,7 +353,7 @@ impl Resting {
     /// Whether the forces at a step's end obey all laws.
     fn satisfies_laws(&self, table: &Table, trial: &Trial) -> bool {
         let end = &trial.step.end.balls;
-        let turned = |ball: usize| self.members[ball] && self.turns_over(table.radius, ball, end[ball].spin.z);
+        let turned = |ball: usize| self.members[ball] && self.turns_over(ball, end[ball].spin.z);
         if self.is_given_up() || (0..BALLS).any(turned) {
             return false;
         }
@@ -381,7 +367,7 @@ impl Resting {
     }
 
     /// Returns the longest step that is worth trying, in rescaled time, and sets the time scale.
-    fn longest_step(&mut self, radius: f64) -> f64 {
+    fn longest_step(&mut self) -> f64 {
         self.time_scale = None;
         let sliding = self.constants.sliding;
         // While a slip turns in `turn` seconds under the acceleration `a`, a step of `h` seconds deviates by about `a h⁶/(2000 turn⁴)`.
@@ -391,7 +377,7 @@ impl Resting {
         };
         let mut longest = LONGEST_CURVE / sliding;
         let (mut soonest, mut time_scale) = (f64::INFINITY, None);
-        self.slips(radius, &self.begin, &self.first, |place, slip, rate| {
+        self.slips(&self.begin, &self.first, |place, slip, rate| {
             let length = slip.length();
             if length <= self.constants.tolerance.slip {
                 return;
@@ -415,7 +401,8 @@ impl Resting {
     }
 
     /// Returns the derivative of time with respect to rescaled time.
-    fn time_rate(&self, radius: f64, balls: &State) -> f64 {
+    fn time_rate(&self, balls: &State) -> f64 {
+        let radius = self.constants.radius;
         let Some((place, from)) = self.time_scale else { return 1.0 };
         let slip = match place {
             SlipLocation::Cloth(ball) => slip(radius, balls[ball].velocity, balls[ball].spin),
@@ -454,8 +441,9 @@ impl Resting {
         if self.is_given_up() { *near } else { scene.search_forces(near, is_short, &self.effort) }
     }
 
-    fn slope(&self, radius: f64, state: &State, (linear, angular): Accelerations<'_>) -> Phase {
-        let rate = self.time_rate(radius, state);
+    /// Returns the derivatives of a state with these accelerations, m/s² and rad/s², with respect to rescaled time.
+    fn slope(&self, state: &State, linear: &[DVec2; BALLS], angular: &[DVec3; BALLS]) -> Phase {
+        let rate = self.time_rate(state);
         let slope = |ball: usize| BallState {
             position: rate * state[ball].velocity,
             velocity: rate * linear[ball],

@@ -104,8 +104,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 
     /// Predicts the collisions of the `changed` balls, after their trajectories have been set.
-    pub(super) fn predict_changed(&mut self, now: f64, changed: [bool; BALLS]) -> ControlFlow<()> {
-        let mut changed = changed;
+    pub(super) fn predict_changed(&mut self, now: f64, mut changed: [bool; BALLS]) -> ControlFlow<()> {
         if !S::KEPT_PREDICTIONS {
             self.predict_all_again(changed);
         }

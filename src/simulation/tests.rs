@@ -4,11 +4,7 @@ use std::ops::ControlFlow;
 
 use glam::{DVec2, DVec3, Vec2Swizzles};
 
-use super::{
-    Constants, Event, EventKind, Observer, Rail, Segment,
-    resting::{Outcome, Resting},
-    simulate,
-};
+use super::{Constants, Event, EventKind, Observer, Rail, Segment, resting::Resting, simulate};
 use crate::{
     physics::{BallState, CueInputs, Impulse, Motion, Rolling, rolling_spin, slip, strike},
     table::{Layout, RailModel, RailOverrides, Rails, Table},
@@ -303,8 +299,8 @@ fn contact_closing_faster_than_the_tolerance_does_not_rest() {
             velocity: DVec2::new(0.4, closing),
             spin: DVec3::new(-80.0, 0.0, 0.0),
         };
-        let outcome = Resting::begin(&table, &constants, 0.0, &balls, [true; 3], None, f64::INFINITY);
-        matches!(outcome, Outcome::Rests(resting) if resting.members[0])
+        let (resting, ..) = Resting::begin(&table, &constants, 0.0, &balls, [true; 3], None, f64::INFINITY);
+        resting.is_some_and(|resting| resting.members[0])
     };
     assert!(rests(0.0) && rests(constants.tolerance.opening));
     assert!(!rests(2.5e-10));

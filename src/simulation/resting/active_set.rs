@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::{
-    super::{Constants, contacts::close_gaps, extrapolation::State, segment::slides, tolerance::Tolerance},
+    super::{Constants, contacts::close_gaps, extrapolation::State, segment::slides},
     Resting,
 };
 use crate::{
@@ -20,14 +20,8 @@ const MAX_RESTARTS: u32 = 8;
 
 impl Resting {
     /// After this step, keeps frictions yielding that yielded before, while their slips are small.
-    fn keep_yielding(
-        &self,
-        radius: f64,
-        tolerance: &Tolerance,
-        balls: &State,
-        contacts: &[Contact],
-        set: &mut ActiveSet,
-    ) {
+    fn keep_yielding(&self, balls: &State, contacts: &[Contact], set: &mut ActiveSet) {
+        let Constants { radius, tolerance, .. } = self.constants;
         let small = |slip: DVec2| slip.length() <= tolerance.yielding;
         for (ball, state) in balls.iter().enumerate() {
             if self.set.cloth[ball] == Friction::Yields && small(slip(radius, state.velocity, state.spin)) {
@@ -67,7 +61,6 @@ pub fn find_active_set(
     constants: &Constants,
     balls: &mut State,
     contacts: &mut Contacts,
-    least_push: f64,
     previous: Option<&Resting>,
     effort: &Effort,
 ) -> Option<(State, Resolved)> {
@@ -75,6 +68,7 @@ pub fn find_active_set(
         return None;
     }
     let tolerance = &constants.tolerance;
+    let least_push = tolerance.force_error + transient_pressing(constants, balls, contacts);
     // Balls that never slip lose their slip when their contact begins, or when another impact has just made them slip.
     let grips = contacts.iter().filter(|contact| contact.never_slips(table)).any(|contact| {
         previous.is_none_or(|previous| !previous.contacts.contains(contact))
@@ -87,7 +81,7 @@ pub fn find_active_set(
         }
         let mut set = ActiveSet::of(table, &begin, contacts, none);
         if let Some(previous) = previous.filter(|previous| previous.set.yields()) {
-            previous.keep_yielding(table.radius, tolerance, &begin, contacts, &mut set);
+            previous.keep_yielding(&begin, contacts, &mut set);
         }
         remove_rounding(table, constants, &mut begin, contacts, &set);
         // Non-unique forces stay near the previous ones after an interruption that has changed no contact, and after many consecutive
@@ -181,7 +175,7 @@ fn stop_slips(table: &Table, balls: &mut State, contacts: &[Contact]) {
 /// Returns the pressing acceleration that is negligible until the slips that cause it end, m/s². It changes no speed by more than its zero
 /// tolerance, or it is within the rounding of the slip directions. A direction is less accurate the smaller the slip is compared with the
 /// speeds whose difference it is.
-pub fn transient_pressing(constants: &Constants, balls: &State, contacts: &Contacts) -> f64 {
+fn transient_pressing(constants: &Constants, balls: &State, contacts: &Contacts) -> f64 {
     let idle = |ball: &BallState| {
         let slip = slip(constants.radius, ball.velocity, ball.spin).length();
         if slip <= constants.tolerance.ending_slip {

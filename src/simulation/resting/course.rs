@@ -5,13 +5,13 @@ use glam::{DVec2, DVec3};
 use super::{MAX_DEVIATION, Resting};
 use crate::{
     physics::BallState,
-    simulation::{Constants, Tolerance, segment::Curve},
+    simulation::{Constants, Course, Curve, Tolerance},
     table::BALLS,
 };
 
 impl Resting {
     /// Returns half the acceleration at the start of the step, and the polynomials of the rest of a ball's trajectory.
-    pub fn course(&self, ball: usize) -> (DVec2, Curve) {
+    pub fn course(&self, ball: usize) -> (DVec2, Option<Box<Course>>) {
         let h = self.step;
         let (p0, p1) = (&self.begin[ball], &self.end[ball]);
         let (a0, a1) = (self.first.linear[ball], self.last.linear[ball]);
@@ -34,7 +34,7 @@ impl Resting {
         let (w0, w1) = (self.first.angular[ball], self.last.angular[ball]);
         let mean = (p1.spin - p0.spin) / h;
         let spin = [w0, (3.0 * mean - 2.0 * w0 - w1) / h, (w0 + w1 - 2.0 * mean) / (h * h)];
-        (0.5 * a0, Curve { position, spin })
+        (0.5 * a0, Some(Box::new(Course::Contact(Curve { position, spin }))))
     }
 
     /// Whether no member moves or rolls at the end of this step. A ball that only spins about the vertical counts as still: if it presses,

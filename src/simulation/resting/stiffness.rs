@@ -27,10 +27,10 @@ impl Resting {
     /// Returns the stiff slips of a step of `length` in rescaled time; `None` if an explicit step is sufficient.
     pub(super) fn stiff(&self, table: &Table, from: &Trial, length: f64) -> Option<Stiff> {
         let balls = &from.step.end.balls;
-        let length = length * self.time_rate(table.radius, balls);
+        let length = length * self.time_rate(balls);
         let mut slips = Vec::new();
         let mut stiffest = 0.0_f64;
-        self.slips(table.radius, balls, &from.forces, |place, slip, _| {
+        self.slips(balls, &from.forces, |place, slip, _| {
             let (friction, does) = match place {
                 SlipLocation::Contact(index) => {
                     let limit = from.forces.friction_limit(table, &self.contacts, index);
@@ -81,7 +81,7 @@ impl Resting {
                 }
             }
         }
-        let slope = |forces: &Forces| self.slope(table.radius, balls, (&forces.linear, &forces.angular));
+        let slope = |forces: &Forces| self.slope(balls, &forces.linear, &forces.angular);
         let turned = self.forces(Scene { set: &set, ..self.scene(table, balls) }, &from.forces);
         let mut column = Phase::ZERO;
         if !turned.converged {

@@ -95,7 +95,7 @@ impl Resting {
                 if late.abs() <= 4.0 * f64::EPSILON * time {
                     break;
                 }
-                let rate = self.time_rate(table.radius, &trial.step.end.balls);
+                let rate = self.time_rate(&trial.step.end.balls);
                 if rate < SPENT {
                     break;
                 }
