@@ -9,7 +9,7 @@ use super::{
     Constants, Rail, Segment,
     ball_ball::Triangle,
     hops::{Arc, Hops},
-    predict::{Prediction, lesser, polynomial_closes, shifted, squared_gap, travel},
+    predict::{lesser, polynomial_closes, shifted, squared_gap, travel},
     roots::first_crossing,
     savings::Savings,
 };
@@ -67,12 +67,9 @@ impl Nose {
             -climb * gravity,
             0.25 * gravity * gravity,
         ];
-        let scale = 2.0 * radius;
-        let ahead = polynomial_closes(tolerance, &c, scale, duration);
-        if let Prediction::Impact(time) = ahead
-            && beside > approach * time
-        {
-            return Some(time);
+        let ahead = polynomial_closes(tolerance, &c, 2.0 * radius, duration);
+        if ahead.is_some_and(|time| beside > approach * time) {
+            return ahead;
         }
         // The ball passes over the nose and lands behind it.
         let above = climb * climb - 2.0 * gravity * (below + radius);
@@ -196,9 +193,9 @@ pub fn next_collision_in_space<S: Savings>(
     balls: [&Segment; 2],
     now: f64,
     horizon: f64,
-) -> Prediction {
+) -> Option<f64> {
     if S::SEPARATED_COURSES && passes_by(constants, balls, now, horizon) {
-        return Prediction::Nothing;
+        return None;
     }
     let mut balls = balls.map(|segment| Pieces::new(segment, now));
     let mut after = 0.0;
@@ -208,14 +205,14 @@ pub fn next_collision_in_space<S: Savings>(
         let rest = horizon - after;
         let reach = one.farthest(rest) + other.farthest(rest);
         if d[0].truncate().length() - constants.diameter > constants.tolerance.certain_gap + reach {
-            return Prediction::Nothing;
+            return None;
         }
         let ends = one.ends.min(other.ends).min(horizon);
-        if let Prediction::Impact(time) = meet(constants, &d, ends - after) {
-            return Prediction::Impact(after + time);
+        if let Some(time) = meet(constants, &d, ends - after) {
+            return Some(after + time);
         }
         if ends >= horizon || balls.iter().any(|ball| ball.flight.is_some_and(|(_, count)| count >= MAX_LANDINGS)) {
-            return Prediction::Nothing;
+            return None;
         }
         for (ball, its) in balls.iter_mut().zip([one.ends, other.ends]) {
             if its <= ends
@@ -226,16 +223,16 @@ pub fn next_collision_in_space<S: Savings>(
         }
         after = ends.max(after);
     }
-    Prediction::Nothing
+    None
 }
 
 /// Returns when two balls with the distance vector `d[0] + t d[1] + …` collide within `horizon` seconds.
-fn meet(constants: &Constants, d: &[DVec3; 6], horizon: f64) -> Prediction {
+fn meet(constants: &Constants, d: &[DVec3; 6], horizon: f64) -> Option<f64> {
     let (diameter, tolerance) = (constants.diameter, &constants.tolerance);
     let scale = 2.0 * diameter;
     let closing = d[0].length() - diameter;
     if horizon <= 0.0 || closing > tolerance.certain_gap + travel(&d.map(DVec3::length), horizon) {
-        return Prediction::Nothing;
+        return None;
     }
     if d[3..].iter().all(|c| *c == DVec3::ZERO) {
         let [d, v, k, ..] = *d;
@@ -247,7 +244,7 @@ fn meet(constants: &Constants, d: &[DVec3; 6], horizon: f64) -> Prediction {
         let slope = [c[0], 2.0 * c[1], 3.0 * c[2], 4.0 * c[3]];
         let value = |t: f64| (d + t * (v + t * k)).length_squared() - diameter * diameter;
         let rounding = f64::EPSILON * diameter * diameter;
-        return first_crossing(value, &slope, horizon, rounding).map_or(Prediction::Nothing, Prediction::Impact);
+        return first_crossing(value, &slope, horizon, rounding);
     }
     polynomial_closes(tolerance, &squared_gap(d, DVec3::dot, diameter), scale, horizon)
 }

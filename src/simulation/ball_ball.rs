@@ -25,7 +25,7 @@ pub fn next_collision<S: Savings>(
 ) -> Prediction {
     if first.course.is_some() || second.course.is_some() {
         return if first.motion == Motion::Flying || second.motion == Motion::Flying {
-            next_collision_in_space::<S>(constants, [first, second], now, horizon)
+            next_collision_in_space::<S>(constants, [first, second], now, horizon).into()
         } else {
             next_collision_on_curve(constants, first, second, now, horizon, may_rest)
         };
@@ -62,7 +62,7 @@ fn approach(
         return next_collision_of_touching(tolerance, d, dv, dk, diameter, horizon, may_rest);
     }
     if rolls_straight {
-        return next_straight_collision(d, dv, dk, gap, diameter, horizon);
+        return next_straight_collision(d, dv, dk, gap, diameter, horizon).into();
     }
     let c1 = 2.0 * d.dot(dv);
     let c2 = dv.length_squared() + 2.0 * d.dot(dk);
@@ -71,7 +71,7 @@ fn approach(
     let derivative = [c1, 2.0 * c2, 3.0 * c3, 4.0 * c4];
     let value = |t: f64| (d + t * (dv + t * dk)).length_squared() - diameter * diameter;
     let rounding = f64::EPSILON * diameter * diameter;
-    first_crossing(value, &derivative, horizon, rounding).map_or(Prediction::Nothing, Prediction::Impact)
+    first_crossing(value, &derivative, horizon, rounding).into()
 }
 
 /// A triangle that contains a part of a trajectory: the control points of a parabola, or the range of positions for all velocities between
@@ -138,39 +138,39 @@ fn next_collision_of_touching(
     let gap = [0.0, c1, c2, c3, c4];
     let falls = polynomial_closes(tolerance, &gap, 2.0 * diameter, horizon);
     if separation > tolerance.opening {
-        return falls;
+        return falls.into();
     }
     // Pressing balls collide as soon as they close at a significant speed: until a gap at rounding level closes, their slips would change
     // too much.
     let speed = [c1 + 4.0 * diameter * tolerance.opening, 2.0 * c2, 3.0 * c3, 4.0 * c4];
-    let horizon = if let Prediction::Impact(time) = falls { time } else { horizon };
+    let horizon = falls.unwrap_or(horizon);
     let steepness = [speed[1], 2.0 * speed[2], 3.0 * speed[3]];
     let rounding = f64::EPSILON * speed[0].abs();
     match first_crossing(|t| horner(&speed, t), &steepness, horizon, rounding) {
         Some(time) if horner(&gap, time) <= 2.0 * diameter * tolerance.touching => Prediction::Impact(time),
-        _ => falls,
+        _ => falls.into(),
     }
 }
 
 /// Prediction for a ball that rolls straight towards one at rest: where the line enters the circle of radius `diameter`, and when.
-fn next_straight_collision(d: DVec2, dv: DVec2, dk: DVec2, gap: f64, diameter: f64, horizon: f64) -> Prediction {
+fn next_straight_collision(d: DVec2, dv: DVec2, dk: DVec2, gap: f64, diameter: f64, horizon: f64) -> Option<f64> {
     let speed = dv.length();
     let direction = dv / speed;
     let along = -d.dot(direction);
     let beside = d.perp_dot(direction);
     let half_chord_squared = diameter * diameter - beside * beside;
     if along <= 0.0 || half_chord_squared < 0.0 {
-        return Prediction::Nothing;
+        return None;
     }
     // The nearer of the two crossings, computed as the product of both divided by the farther one, without cancellation.
     let distance = gap / (along + half_chord_squared.sqrt());
     let half_deceleration = -dk.dot(direction);
     let discriminant = speed * speed - 4.0 * half_deceleration * distance;
     if discriminant < 0.0 {
-        return Prediction::Nothing;
+        return None;
     }
     let time = 2.0 * distance / (speed + discriminant.sqrt());
-    if time <= horizon { Prediction::Impact(time) } else { Prediction::Nothing }
+    (time <= horizon).then_some(time)
 }
 
 #[cfg(test)]

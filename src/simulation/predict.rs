@@ -22,6 +22,12 @@ pub enum Prediction {
     Pressed,
 }
 
+impl From<Option<f64>> for Prediction {
+    fn from(impact: Option<f64>) -> Self {
+        impact.map_or(Self::Nothing, Self::Impact)
+    }
+}
+
 /// Returns the lesser of two numbers; `f64::min` would spend time on NaN.
 #[inline(always)]
 pub fn lesser(a: f64, b: f64) -> f64 {
@@ -47,7 +53,7 @@ pub fn next_cushion_impact_on_curve(
         if gap[0] > tolerance.touching + travel(&gap.map(f64::abs), earliest) {
             continue;
         }
-        if let Prediction::Impact(time) = polynomial_closes(tolerance, &gap, 1.0, earliest) {
+        if let Some(time) = polynomial_closes(tolerance, &gap, 1.0, earliest) {
             earliest = time;
             nearest = (Prediction::Impact(time), rail);
         }
@@ -78,7 +84,7 @@ pub fn next_collision_on_curve(
     if may_rest && stays && gap[2] < -diameter * tolerance.pressing {
         return Prediction::Pressed;
     }
-    polynomial_closes(tolerance, &gap, 2.0 * diameter, horizon)
+    polynomial_closes(tolerance, &gap, 2.0 * diameter, horizon).into()
 }
 
 /// Returns the coefficients of the squared distance of two balls less that of touching ones, for a distance vector `d[0] + t d[1] + …`.
@@ -98,10 +104,10 @@ pub fn travel(sizes: &[f64; 6], time: f64) -> f64 {
     sizes[1..].iter().rev().fold(0.0, |sum, size| (sum + size) * time)
 }
 
-/// Returns when the gap with these coefficients, in units of `scale` times metres, closes. The gap of touching balls is divided by the
+/// Returns when the gap with these coefficients, in units of `scale` times metres, closes within `horizon` seconds. The gap of touching balls is divided by the
 /// time, because its root at zero is the present contact. If they stay together for now, they collide when the gap has closed by more than
 /// the touching tolerance, or by more than the coupled gap if it closes too slowly for an impact.
-pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], scale: f64, horizon: f64) -> Prediction {
+pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], scale: f64, horizon: f64) -> Option<f64> {
     let mut work = [0.0; MAX_DEGREE + 1];
     let mut count = gap.len();
     work[..count].copy_from_slice(gap);
@@ -109,7 +115,7 @@ pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], scale: f64, horizon
     if gap[0] <= scale * tolerance.touching {
         let opening = gap[1] / scale;
         if opening < -tolerance.opening {
-            return Prediction::Impact(0.0);
+            return Some(0.0);
         }
         if opening > tolerance.opening {
             work.copy_within(1.., 0);
@@ -127,7 +133,7 @@ pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], scale: f64, horizon
         work[0] = scale * tolerance.coupled_gap;
         time = closes(work);
     }
-    time.map_or(Prediction::Nothing, Prediction::Impact)
+    time
 }
 
 /// Returns a segment's coefficients about the time `now`.
@@ -186,10 +192,7 @@ mod tests {
     fn gap_that_hardly_closes_may_become_a_coupled_gap() {
         let tolerance = Tolerance::of(&Table::preset("thesis").unwrap());
         let gap_at_impact = |acceleration: f64| {
-            let Prediction::Impact(time) = polynomial_closes(&tolerance, &[0.0, 0.0, -0.5 * acceleration], 1.0, 1e3)
-            else {
-                panic!("no impact")
-            };
+            let time = polynomial_closes(&tolerance, &[0.0, 0.0, -0.5 * acceleration], 1.0, 1e3).expect("an impact");
             0.5 * acceleration * time * time
         };
         assert!((gap_at_impact(1e-14) / tolerance.coupled_gap - 1.0).abs() < 1e-9);
