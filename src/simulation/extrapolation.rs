@@ -38,13 +38,9 @@ pub struct Step {
 const COUNTS: [usize; ROUNDS] = [2, 4, 6, 8, 10, 12, 14, 16];
 const STIFF_COUNTS: [usize; ROUNDS] = [2, 6, 10, 14, 18, 22, 26, 30];
 
-/// Fast decaying modes of the equation: a deviation of the state is measured by a row and changes the slope by a column. The stiff part of
+/// A fast decaying mode of the equation: a deviation of the state is measured by a row and changes the slope by a column. The stiff part of
 /// the Jacobian is the sum of all products of columns and rows. The rest of the Jacobian does not affect the accuracy, only the step
 /// length.
-#[derive(Clone, Debug, Default)]
-pub struct Stiff(pub Vec<Mode>);
-
-/// A single mode.
 #[derive(Clone, Copy, Debug)]
 pub struct Mode {
     /// Measures the deviation, as a scalar product with velocities and spins.
@@ -53,20 +49,17 @@ pub struct Mode {
     pub column: Phase,
 }
 
-impl Stiff {
-    /// Returns a function that multiplies a change by `(1 - h J)⁻¹`, with the Jacobian `J` of these modes.
-    fn damper(&self, h: f64) -> impl Fn(&Phase) -> Phase {
-        let count = self.0.len();
-        let mut matrix: Vec<f64> =
-            self.0.iter().flat_map(|a| self.0.iter().map(|b| -h * a.row.dot(&b.column))).collect();
-        (0..count).for_each(|index| matrix[index * (count + 1)] += 1.0);
-        let mut pivots = vec![0; count];
-        factorize(&mut matrix, &mut pivots);
-        move |change| {
-            let mut sizes: Vec<f64> = self.0.iter().map(|mode| mode.row.dot(change)).collect();
-            substitute(&matrix, &pivots, &mut sizes);
-            self.0.iter().zip(sizes).fold(*change, |sum, (mode, size)| plus(&sum, &mode.column, h * size))
-        }
+/// Returns a function that multiplies a change by `(1 - h J)⁻¹`, with the Jacobian `J` of these modes.
+fn damper(modes: &[Mode], h: f64) -> impl Fn(&Phase) -> Phase {
+    let count = modes.len();
+    let mut matrix: Vec<f64> = modes.iter().flat_map(|a| modes.iter().map(|b| -h * a.row.dot(&b.column))).collect();
+    (0..count).for_each(|index| matrix[index * (count + 1)] += 1.0);
+    let mut pivots = vec![0; count];
+    factorize(&mut matrix, &mut pivots);
+    move |change| {
+        let mut sizes: Vec<f64> = modes.iter().map(|mode| mode.row.dot(change)).collect();
+        substitute(&matrix, &pivots, &mut sizes);
+        modes.iter().zip(sizes).fold(*change, |sum, (mode, size)| plus(&sum, &mode.column, h * size))
     }
 }
 
@@ -119,12 +112,12 @@ fn is_hopeless(error: f64, error_before: f64, rounds: usize, tolerance: f64) -> 
 
 /// Integrates one step of `length` from `begin`, whose slope is `first`, with as many stages as bring the error below `tolerance`, or until
 /// success is unlikely. `radius` is the balls' radius, m; the slope of balls that do not take part is zero. `stiff` contains the fast
-/// decaying modes, if there are any.
+/// decaying modes; without any, the step is explicit.
 pub fn extrapolate(
     begin: &Phase,
     first: &Phase,
     mut slope: impl FnMut(&Phase) -> Phase,
-    stiff: Option<&Stiff>,
+    stiff: &[Mode],
     length: f64,
     (radius, tolerance): (f64, f64),
 ) -> Step {
@@ -132,14 +125,15 @@ pub fn extrapolate(
     let mut row = [Phase::ZERO; ROUNDS];
     let mut best = Step { end: *begin, error: f64::INFINITY, best_length: MIN_GROWTH * length };
     let (mut least_work, mut done) = (f64::INFINITY, 0.0);
-    let counts = if stiff.is_some() { STIFF_COUNTS } else { COUNTS };
+    let counts = if stiff.is_empty() { COUNTS } else { STIFF_COUNTS };
     for (round, &count) in counts.iter().enumerate() {
         let h = length / count as f64;
         let error_before = best.error;
         done += count as f64;
-        row[round] = match stiff {
-            Some(stiff) => semi_implicit_midpoint(begin, first, &mut slope, stiff, (count, h)),
-            None => modified_midpoint(begin, first, &mut slope, (count, h)),
+        row[round] = if stiff.is_empty() {
+            modified_midpoint(begin, first, &mut slope, (count, h))
+        } else {
+            semi_implicit_midpoint(begin, first, &mut slope, stiff, (count, h))
         };
         for column in (0..round).rev() {
             let ratio = count as f64 / counts[column] as f64;
@@ -197,10 +191,10 @@ fn semi_implicit_midpoint(
     begin: &Phase,
     first: &Phase,
     slope: &mut impl FnMut(&Phase) -> Phase,
-    stiff: &Stiff,
+    stiff: &[Mode],
     (count, h): (usize, f64),
 ) -> Phase {
-    let damped = stiff.damper(h);
+    let damped = damper(stiff, h);
     let mut change = damped(&plus(&Phase::ZERO, first, h));
     let mut now = plus(begin, &change, 1.0);
     for _ in 1..count {
@@ -244,7 +238,7 @@ mod tests {
             time: 1.0,
         };
         let begin = Phase { balls: [BallState::at_rest(DVec2::X); BALLS], time: 0.0 };
-        let step = extrapolate(&begin, &slope(&begin), slope, None, 0.5, (1.0, 1e-14));
+        let step = extrapolate(&begin, &slope(&begin), slope, &[], 0.5, (1.0, 1e-14));
         assert!((step.end.balls[1].position.x - 0.5_f64.cos()).abs() < 1e-14, "{step:?}");
         assert!((step.end.balls[2].velocity.x + 0.5_f64.sin()).abs() < 1e-14);
         assert!(step.error <= 1e-14 && step.best_length > 0.1 && (step.end.time - 0.5).abs() < 1e-15);
@@ -260,7 +254,7 @@ mod tests {
         };
         let first =
             Phase { balls: [BallState { velocity: DVec2::X, ..BallState::at_rest(DVec2::X) }; BALLS], time: 1.0 };
-        let step = extrapolate(&Phase::ZERO, &first, kinked, None, 0.5, (1.0, 1e-12));
+        let step = extrapolate(&Phase::ZERO, &first, kinked, &[], 0.5, (1.0, 1e-12));
         assert!(step.error > 1e-12 && step.best_length < 0.5, "{step:?}");
         // All stages need 72.
         assert!(slopes < 30, "{slopes}");
@@ -283,14 +277,13 @@ mod tests {
         begin.balls[1].velocity = wanted(0.0);
         row.balls[1].velocity = DVec2::X;
         column.balls[1].velocity = DVec2::NEG_X * RATE;
-        let stiff = Stiff(vec![Mode { row, column }]);
-        let played = |stiff| extrapolate(&begin, &slope(&begin), slope, stiff, 0.2, (1.0, 1e-12));
-        let step = played(Some(&stiff));
+        let played = |stiff: &[Mode]| extrapolate(&begin, &slope(&begin), slope, stiff, 0.2, (1.0, 1e-12));
+        let step = played(&[Mode { row, column }]);
         assert!(step.error <= 1e-12 && step.end.balls[1].velocity.distance(wanted(0.2)) < 1e-12, "{step:?}");
         // The error that the fast mode leaves in its integral is not part of the estimate: a ten-thousandth of its time constant times the
         // squared step.
         assert!((step.end.balls[1].position.x - 0.2_f64.sin()).abs() < 1e-10);
-        let explicit = played(None).error;
+        let explicit = played(&[]).error;
         assert!(explicit.is_nan() || explicit > 1.0, "{explicit}");
     }
 }

@@ -19,13 +19,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     #[cold]
     pub(super) fn continue_resting(&mut self, now: f64) -> ControlFlow<()> {
         let Some(mut resting) = self.resting.take() else { return ControlFlow::Continue(()) };
+        let members = resting.members;
         if self.is_out_of_reach(|index| self.state(index, now)) {
             return ControlFlow::Break(());
         }
         if !self.is_exhausted() && resting.continue_step(self.table) {
             self.effort.absorb(&resting.effort);
             self.observer.contact_step()?;
-            let members = resting.members;
             self.resting = Some(resting);
             for index in (0..BALLS).filter(|&index| members[index]) {
                 self.rest(index, now);
@@ -34,10 +34,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             return ControlFlow::Continue(());
         }
         // A ball that another one strikes repeatedly is this slow only between two impacts.
-        if resting.is_still() && !self.is_touched(now, resting.members) {
+        if resting.is_still() && !self.is_touched(now, members) {
             resting.come_to_rest();
         }
-        let members = resting.members;
         self.relaunch(now, members, &resting.end);
         // Whether they continue to rest is decided for all contacts together.
         self.pressed = true;

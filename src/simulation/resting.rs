@@ -341,7 +341,7 @@ impl Resting {
         let first = self.slope(&begin.balls, &from.forces.linear, &from.forces.angular);
         let (length, tolerance) = (span - from.span, self.constants.tolerance.step_error);
         let stiff = self.stiff(table, from, length);
-        let mut step = extrapolate(begin, &first, slope, stiff.as_ref(), length, (table.radius, tolerance));
+        let mut step = extrapolate(begin, &first, slope, &stiff, length, (table.radius, tolerance));
         let forces = self.forces(self.scene(table, &step.end.balls), &from.forces);
         // If a friction yields, forces are at the edge of the laws and rarely converge to rounding; only the error of the step counts then.
         if has_no_forces || !yields && !forces.converged {

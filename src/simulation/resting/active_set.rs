@@ -42,14 +42,6 @@ impl Resting {
     }
 }
 
-/// State without the slips that end, and the resulting active set.
-struct Stopped {
-    begin: State,
-    resolved: Resolved,
-    /// Whether a slip begins again that was treated as ended.
-    departs: bool,
-}
-
 /// Finds the state without the slips that end here, and the resulting active set. `None` if no contact presses on a moving ball. `balls`
 /// become their states if they stay free, and `contacts` those that may rest.
 ///
@@ -74,6 +66,7 @@ pub fn find_active_set(
         previous.is_none_or(|previous| !previous.contacts.contains(contact))
             || contact.slip(table.radius, balls).length() > tolerance.ending_slip
     });
+    // The state without the slips that end, the resulting active set, and whether a slip begins again that was treated as ended.
     let stopped = |none: f64, balls: &State, contacts: &[Contact]| {
         let mut begin = *balls;
         if grips {
@@ -95,7 +88,7 @@ pub fn find_active_set(
         };
         let mut resolved = resolve(&begin, &set)?;
         if resolved.is_paradox() {
-            return Some(Stopped { begin, resolved, departs: false });
+            return Some((begin, resolved, false));
         }
         if let Some(sticking) = resolved.sticking {
             set = sticking;
@@ -106,16 +99,16 @@ pub fn find_active_set(
             let starts = |f: &Friction| matches!(f, Friction::Slips(start) if *start != DVec2::ZERO);
             resolved.set.cloth.iter().chain(&resolved.set.roll).chain(&resolved.set.contact).any(starts)
         };
-        Some(Stopped { begin, resolved, departs })
+        Some((begin, resolved, departs))
     };
     let (mut pressing, mut now) = (*contacts, *balls);
     loop {
         if pressing.is_empty() {
             return None;
         }
-        let ended = stopped(tolerance.ending_slip, &now, &pressing)?;
-        if ended.resolved.is_paradox() {
-            let marked = pressing.iter().zip(ended.resolved.paradox).filter(|(_, is_paradox)| *is_paradox);
+        let (mut begin, mut resolved, departs) = stopped(tolerance.ending_slip, &now, &pressing)?;
+        if resolved.is_paradox() {
+            let marked = pressing.iter().zip(resolved.paradox).filter(|(_, is_paradox)| *is_paradox);
             let parted: Vec<Contact> = marked.map(|(contact, _)| *contact).collect();
             for contact in &parted {
                 separate(&mut now, contact, tolerance.first_bounce);
@@ -129,12 +122,13 @@ pub fn find_active_set(
         let still = |(ball, state): (usize, &BallState)| {
             !pressing.involve(ball) || (state.velocity == DVec2::ZERO && state.spin == glam::DVec3::ZERO)
         };
-        if !ended.departs && ended.begin.iter().enumerate().all(still) {
+        if !departs && begin.iter().enumerate().all(still) {
             return None;
         }
-        // A slip that would begin again immediately has not ended.
-        let Stopped { begin, resolved, .. } =
-            if ended.departs { stopped(tolerance.slip, &now, &pressing)? } else { ended };
+        if departs {
+            // A slip that would begin again immediately has not ended.
+            (begin, resolved, _) = stopped(tolerance.slip, &now, &pressing)?;
+        }
         // A contact that does not push holds nothing: it is not part of the step, and its opening continues.
         if resolved.contacts.len() == pressing.len() {
             return Some((begin, resolved));

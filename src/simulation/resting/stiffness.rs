@@ -9,7 +9,7 @@ use glam::DVec2;
 use super::{Phase, Resting, STIFF, SlipLocation, Trial};
 use crate::{
     physics::{Forces, Friction, Scene},
-    simulation::extrapolation::{Mode, Stiff},
+    simulation::extrapolation::Mode,
     table::Table,
 };
 
@@ -24,8 +24,8 @@ const TURN: f64 = 1e-4;
 const RESPONSE: f64 = 3.5;
 
 impl Resting {
-    /// Returns the stiff slips of a step of `length` in rescaled time; `None` if an explicit step is sufficient.
-    pub(super) fn stiff(&self, table: &Table, from: &Trial, length: f64) -> Option<Stiff> {
+    /// Returns the stiff slips of a step of `length` in rescaled time; none if an explicit step is sufficient.
+    pub(super) fn stiff(&self, table: &Table, from: &Trial, length: f64) -> Vec<Mode> {
         let balls = &from.step.end.balls;
         let length = length * self.time_rate(balls);
         let mut slips = Vec::new();
@@ -46,8 +46,10 @@ impl Resting {
                 slips.push((place, slip));
             }
         });
-        let mode = |(place, slip)| self.mode(table, from, place, slip);
-        (stiffest > STIFF).then(|| Stiff(slips.into_iter().map(mode).collect()))
+        if stiffest <= STIFF {
+            return Vec::new();
+        }
+        slips.into_iter().map(|(place, slip)| self.mode(table, from, place, slip)).collect()
     }
 
     /// Returns the deviation of one slip's direction, and the effect of turning its friction.
