@@ -264,11 +264,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Returns the next collision time of two balls, at least one of which is in the air, s: it may throw others back into the contacts
     /// that they have left.
     fn next_meeting_aloft(&self) -> f64 {
-        let meets = |(pair, &(first, second)): (usize, &(usize, usize))| {
-            let on_cloth = self.is_on_cloth(first) && self.is_on_cloth(second);
-            if on_cloth { f64::INFINITY } else { self.times[BALLS + pair] }
-        };
-        PAIRS.iter().enumerate().map(meets).fold(f64::INFINITY, f64::min)
+        let pairs = PAIRS.into_iter().zip(&self.times[BALLS..]);
+        let aloft = pairs.filter(|&((first, second), _)| !self.is_on_cloth(first) || !self.is_on_cloth(second));
+        aloft.fold(f64::INFINITY, |soonest, (_, time)| soonest.min(*time))
     }
 
     /// Returns the states of all balls now, some of them as `given`.

@@ -104,9 +104,9 @@ pub fn travel(sizes: &[f64; 6], time: f64) -> f64 {
     sizes[1..].iter().rev().fold(0.0, |sum, size| (sum + size) * time)
 }
 
-/// Returns when the gap with these coefficients, in units of `scale` times metres, closes within `horizon` seconds. The gap of touching balls is divided by the
-/// time, because its root at zero is the present contact. If they stay together for now, they collide when the gap has closed by more than
-/// the touching tolerance, or by more than the coupled gap if it closes too slowly for an impact.
+/// Returns when the gap with these coefficients, in units of `scale` times metres, closes within `horizon` seconds. The gap of touching
+/// balls is divided by the time, because its root at zero is the present contact. If they stay together for now, they collide when the gap
+/// has closed by more than the touching tolerance, or by more than the coupled gap if it closes too slowly for an impact.
 pub fn polynomial_closes(tolerance: &Tolerance, gap: &[f64], scale: f64, horizon: f64) -> Option<f64> {
     let mut work = [0.0; MAX_DEGREE + 1];
     let mut count = gap.len();

@@ -456,7 +456,7 @@ impl Resting {
 
     /// Whether these two balls press each other.
     pub fn presses_together(&self, (first, second): (usize, usize)) -> bool {
-        self.contacts.iter().any(|contact| *contact == Contact::of_balls(first, second))
+        self.contacts.contains(&Contact::of_balls(first, second))
     }
 
     /// Whether this cushion holds the ball.

@@ -85,7 +85,7 @@ fn each_rail_has_its_own_constants() {
             assert_eq!(course.events[hit].kind, EventKind::BallRail(0, rail));
             let at = course.events[hit].time;
             let before = course.pieces.iter().find(|(_, end)| *end == at).unwrap();
-            let state = before.0.state_after(&super::Constants::of(&table), at - before.0.start);
+            let state = before.0.state_after(&Constants::of(&table), at - before.0.start);
             let speed = state.velocity.length();
             let slip = DVec2::new(state.spin.z, state.spin.truncate().dot(rail.normal().perp()));
             let after = course.pieces.iter().find(|(piece, _)| piece.start == at).unwrap().0.velocity;
@@ -172,7 +172,7 @@ fn course_on_a_slope_is_continuous_and_ends_at_rest() {
         let table = Table { tilt: DVec2::new(-6e-4, 8e-4), ..Table::preset(name).unwrap() };
         let (velocity, spin) = (DVec2::new(0.9, 0.1), DVec3::new(20.0, -10.0, 30.0));
         let (course, _) = played(&table, DVec2::new(-1.2, -0.3), velocity, spin, None);
-        let constants = super::Constants::of(&table);
+        let constants = Constants::of(&table);
         for pair in course.pieces.windows(2) {
             let ((one, end), (other, _)) = (&pair[0], &pair[1]);
             assert!(one.position_after(end - one.start).distance(other.position) < 1e-14);
@@ -219,7 +219,7 @@ fn on_a_slope_no_energy_is_gained() {
     // With 1 mm/s² as filmed, and with ten times as much.
     for (name, tilt) in [("match", DVec2::new(-6e-4, 8e-4)), ("textbook", DVec2::new(6e-3, 8e-3))] {
         let table = Table { tilt, ..Table::preset(name).unwrap() };
-        let constants = super::Constants::of(&table);
+        let constants = Constants::of(&table);
         for (from, velocity, spin, _) in shots() {
             let (course, _) = played(&table, from, velocity, spin, None);
             // Until a collision with another ball transfers energy.
@@ -229,8 +229,7 @@ fn on_a_slope_no_energy_is_gained() {
             let energies = pieces.flat_map(|(piece, end)| {
                 [0.0, end - piece.start].map(|time| {
                     let state = piece.state_after(&constants, time.min(1e9));
-                    let turning = table.radius * table.radius * state.spin.length_squared() / 5.0;
-                    0.5 * state.velocity.length_squared() + turning - tilt.dot(state.position)
+                    state.specific_energy(table.radius) - tilt.dot(state.position)
                 })
             });
             let mut last = f64::INFINITY;

@@ -78,7 +78,10 @@ impl Scene<'_> {
         let mut problem = Problem::new(self);
         let guess = similar.map_or(ZERO_VALUES, |similar| similar.values(&problem));
         let mut solution = solve(&problem, &guess, attempts, effort);
-        let reaches_its_limit = |(unknown, branch): (&Unknown, &Branch)| matches!((unknown.kind, branch), (ForceKind::Contact(index), Branch::Limited(_)) if contacts[index].never_slips(table));
+        let reaches_its_limit = |(unknown, branch): (&Unknown, &Branch)| match unknown.kind {
+            ForceKind::Contact(index) => matches!(branch, Branch::Limited(_)) && contacts[index].never_slips(table),
+            _ => false,
+        };
         if problem.unknowns.iter().zip(&solution.branches).any(reaches_its_limit) {
             problem.grip(contacts);
             let gripped = solve(&problem, &solution.values, 1, effort);
