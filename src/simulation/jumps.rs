@@ -171,6 +171,7 @@ mod tests {
             ("0,-0.2 0.6,0.3 0.9,0.3", "0,0,30,270,9", Rail::Bottom),
         ] {
             let shot = play(layout, cue);
+            assert!(shot.events().iter().any(|event| event.kind == EventKind::LeavesTable(0)), "{:?}", shot.events());
             let [white, yellow, red] = shot.left_table(&table);
             let white = white.unwrap();
             assert_eq!((white.over, yellow, red), (over, None, None));

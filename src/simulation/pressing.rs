@@ -62,11 +62,10 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// known. Returns the states of all members.
     #[cold]
     pub(super) fn release(&mut self, now: f64, changed: [bool; BALLS]) -> Option<[BallState; BALLS]> {
-        let resting = self.resting.as_ref()?;
-        if !(0..BALLS).any(|index| changed[index] && resting.members[index]) {
+        let members = self.resting_members();
+        if !(0..BALLS).any(|index| changed[index] && members[index]) {
             return None;
         }
-        let members = resting.members;
         self.end_step(now);
         let states = self.resting.as_ref()?.end;
         self.relaunch(now, std::array::from_fn(|index| members[index] && !changed[index]), &states);
@@ -206,18 +205,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     #[cold]
     pub(super) fn rest(&mut self, index: usize, now: f64) {
         let Some(resting) = &self.resting else { return };
-        let state = &resting.begin[index];
+        let BallState { position, velocity, spin } = resting.begin[index];
         let (half_acceleration, course) = resting.course(index);
         let step = resting.step;
-        let segment = Segment {
-            start: now,
-            position: state.position,
-            velocity: state.velocity,
-            half_acceleration,
-            spin: state.spin,
-            motion: Motion::Resting,
-            course,
-        };
+        let motion = Motion::Resting;
+        let segment = Segment { start: now, position, velocity, half_acceleration, spin, motion, course };
         if self.balls[index].segment.start < now {
             self.end_segment(index, now);
         }

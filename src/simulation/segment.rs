@@ -76,15 +76,7 @@ impl Segment {
         let u = slip(radius, state.velocity, state.spin);
         let slip_squared = u.length_squared();
         let speed_squared = state.velocity.length_squared();
-        let mut segment = Self {
-            start,
-            position: state.position,
-            velocity: state.velocity,
-            half_acceleration: DVec2::ZERO,
-            spin: state.spin,
-            motion: Motion::Stationary,
-            course: None,
-        };
+        let mut segment = Self { start, velocity: state.velocity, spin: state.spin, ..Self::at_rest(state.position) };
         let spin_squared = radius * radius * state.spin.truncate().length_squared();
         if slip_squared > SLIP_ROUNDING * SLIP_ROUNDING * (speed_squared + spin_squared) {
             let speed = slip_squared.sqrt();

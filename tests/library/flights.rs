@@ -97,11 +97,3 @@ fn level_strokes_give_the_same_bits_with_and_without_flight() {
         assert!(lifted < 300, "only much follow climbs a nose: {lifted}");
     }
 }
-
-#[test]
-fn a_ball_shot_over_the_rail_leaves_the_table() {
-    let table = flying("match");
-    let shot = play(&table, "0.9,0 0,0.3 0,-0.3", "0,0,30,0,9");
-    assert!(kinds(&shot).contains(&EventKind::LeavesTable(0)), "{:?}", kinds(&shot));
-    assert_eq!(shot.motion(0, shot.duration()), Motion::OffTable);
-}
