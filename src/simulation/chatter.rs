@@ -14,7 +14,7 @@ use super::{
     contacts::{PAIRS_OF, contacts_where},
 };
 use crate::{
-    physics::{ActiveSet, BallState, Contact, Contacts, Effort, Partner, Scene, slip},
+    physics::{ActiveSet, BallState, Contact, Effort, Partner, Scene, involve, slip},
     table::{BALLS, PAIRS, Table},
 };
 
@@ -143,15 +143,13 @@ pub fn chatter_end(
     on_cloth: [bool; BALLS],
     (restitution, flight_ratio): (f64, f64),
     effort: &Effort,
-) -> Option<(Contacts, f64)> {
+) -> Option<(Vec<Contact>, f64)> {
     let tolerance = &constants.tolerance;
     let speed = contact.opening_speed(balls);
     // Bounces without loss never fade.
     let slowest = if restitution < 1.0 { tolerance.slowest_bounce } else { tolerance.slowest_lossless_bounce };
     if speed <= slowest {
-        let mut alone = Contacts::NONE;
-        alone.push(*contact);
-        return Some((alone, 0.0));
+        return Some((vec![*contact], 0.0));
     }
     // While a contact chatters, the contacts that are coupled to it count as closed, and slips as small as its bounces cause count as zero.
     // A contact in flight does not press, and could only be stopped by pulling.
@@ -170,7 +168,7 @@ pub fn chatter_end(
     let slips = balls
         .iter()
         .enumerate()
-        .filter(|(ball, _)| contacts.involve(*ball))
+        .filter(|(ball, _)| involve(&contacts, *ball))
         .map(|(_, state)| slip(table.radius, state.velocity, state.spin).length());
     let (mut slide, mut made) = (f64::INFINITY, false);
     for slip in slips {
@@ -226,7 +224,7 @@ fn meets_another(
     constants: &Constants,
     balls: &[BallState; BALLS],
     on_cloth: [bool; BALLS],
-    contacts: &Contacts,
+    contacts: &[Contact],
     time: f64,
 ) -> bool {
     let meets = |gap: f64, other: &Contact| {
@@ -327,7 +325,6 @@ mod tests {
             chatter_end(&table, &constants, &contact, &balls, [true; BALLS], bounces, &Effort::default())
                 .expect("the chatter ends")
                 .0
-                .to_vec()
         };
         let other = Contact::with_cushion(0, Rail::Top);
         assert_eq!(ends(3e-9), [contact]);

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::{Constants, Rail, extrapolation::State};
 use crate::{
-    physics::{Contact, Contacts, Partner},
+    physics::{Contact, Partner},
     table::{BALLS, PAIRS},
 };
 
@@ -17,7 +17,7 @@ pub fn touching(
     balls: &State,
     on_cloth: [bool; BALLS],
     wanted: impl Fn(f64) -> bool,
-) -> Contacts {
+) -> Vec<Contact> {
     contacts_where(constants, balls, on_cloth, |gap, contact| {
         gap <= constants.tolerance.touching && wanted(contact.opening_speed(balls))
     })
@@ -35,16 +35,15 @@ pub fn contacts_where(
     balls: &State,
     on_cloth: [bool; BALLS],
     wanted: impl Fn(f64, &Contact) -> bool,
-) -> Contacts {
-    let mut contacts = Contacts::NONE;
+) -> Vec<Contact> {
     let with_cushions = (0..BALLS).flat_map(|ball| Rail::ALL.map(|rail| Contact::with_cushion(ball, rail)));
-    for contact in with_cushions.chain(PAIRS.map(|(first, second)| Contact::of_balls(first, second))) {
-        let is_on_cloth = on_cloth[contact.first] && contact.second().is_none_or(|second| on_cloth[second]);
-        if is_on_cloth && wanted(gap(constants, balls, &contact), &contact) {
-            contacts.push(contact);
-        }
-    }
-    contacts
+    let all = with_cushions.chain(PAIRS.map(|(first, second)| Contact::of_balls(first, second)));
+    all.filter(|contact| {
+        on_cloth[contact.first]
+            && contact.second().is_none_or(|second| on_cloth[second])
+            && wanted(gap(constants, balls, contact), contact)
+    })
+    .collect()
 }
 
 /// Returns the distance of a contact's surfaces, m.

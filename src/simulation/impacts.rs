@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     physics::{
-        ActiveSet, BallState, Contact, Contacts, ImpactImpulse, MAX_CONTACTS, Motion, Partner, collide_together,
+        ActiveSet, BallState, Contact, ImpactImpulse, MAX_CONTACTS, Motion, Partner, collide_together, involve,
         stop_by_impulses,
     },
     table::{BALLS, PAIRS},
@@ -177,14 +177,14 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if contacts.len() < 2 {
             return ControlFlow::Continue(false);
         }
-        let changed = std::array::from_fn(|ball| contacts.involve(ball));
+        let changed = std::array::from_fn(|ball| involve(&contacts, ball));
         // In a micro-collision, a ball crosses a small gap before it bounces again; a jammed ball gets room behind the cushion.
         let room = match self.micro_collisions {
             Some(_) => c.tolerance.micro_gap,
             None if self.rounds > JAMMED_ROUNDS => -ROOM_FOR_JAMMED * c.tolerance.touching,
             None => 0.0,
         };
-        for contact in contacts.iter() {
+        for contact in &contacts {
             // Exactly at the cushion, as in a single impact.
             if let Partner::Cushion(rail) = contact.partner {
                 let (n, ball) = (rail.normal(), &mut states[contact.first]);
@@ -249,7 +249,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         freed: Option<&[BallState; BALLS]>,
         contact: &Contact,
         bounced: &[(usize, BallState)],
-    ) -> Option<Contacts> {
+    ) -> Option<Vec<Contact>> {
         if self.micro_collisions.is_some() {
             return None;
         }
@@ -286,7 +286,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         balls
     }
 
-    /// Ends a chatter with one inelastic impact of all contacts that rest from now on; `before` are the balls of the contact that has
+    /// Ends a chatter with one inelastic impact of all `contacts` that rest from now on; `before` are the balls of the contact that has
     /// closed.
     #[cold]
     pub(super) fn end_chatter(
@@ -294,13 +294,12 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         now: f64,
         freed: Option<[BallState; BALLS]>,
         before: &[(usize, BallState)],
-        rests: &Contacts,
+        contacts: &[Contact],
         impact: EventKind,
         reported: bool,
     ) -> ControlFlow<()> {
         let mut states = self.states_with(now, freed.as_ref(), before);
         let c = self.constants;
-        let contacts: &[Contact] = rests;
         close_gaps(&c, &mut states, contacts);
         let law = self.law.with_restitution(0.0);
         let mut given = [0.0; MAX_CONTACTS];
@@ -314,7 +313,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             given.iter_mut().zip(impulses).for_each(|(given, impulse)| *given += impulse.normal);
         }
         // A push from one contact to another is a bounce, too, unless it is too fast to be omitted.
-        let (mut ended, mut given_there) = (Contacts::NONE, [0.0; MAX_CONTACTS]);
+        let (mut ended, mut given_there) = (Vec::new(), [0.0; MAX_CONTACTS]);
         for (contact, given) in contacts.iter().zip(given) {
             if contact.opening_speed(&states) < c.tolerance.slowest_coupled_bounce {
                 given_there[ended.len()] = given;
@@ -322,7 +321,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             }
         }
         stop_by_impulses(self.table, &mut states, &ended, &ActiveSet::SLIPPING, &given_there);
-        let changed = std::array::from_fn(|ball| rests.involve(ball));
+        let changed = std::array::from_fn(|ball| involve(contacts, ball));
         self.relaunch(now, changed, &states);
         self.report_impact(now, impact, reported)?;
         let pushed = contacts.iter().zip(given).filter(|(_, given)| *given > 0.0);

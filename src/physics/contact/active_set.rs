@@ -1,7 +1,5 @@
 //! The active set: contacts that push and modes of the frictions, which stay constant between two transitions.
 
-use std::ops::Deref;
-
 use glam::DVec2;
 
 use super::{
@@ -10,51 +8,11 @@ use super::{
 };
 use crate::{
     physics::{BallState, slip},
-    table::{BALLS, Rail, Table},
+    table::{BALLS, Table},
 };
 
 /// Largest number of contacts of three balls: with each other, and with two cushions each.
 pub const MAX_CONTACTS: usize = 9;
-
-/// A list of contacts in a fixed order.
-#[derive(Clone, Copy, Debug)]
-pub struct Contacts {
-    list: [Contact; MAX_CONTACTS],
-    count: usize,
-}
-
-impl Contacts {
-    /// The empty list.
-    pub const NONE: Self = Self { list: [Contact::with_cushion(0, Rail::Left); MAX_CONTACTS], count: 0 };
-
-    /// Appends a contact. Ignored if the list is full: three balls cannot have more contacts.
-    pub fn push(&mut self, contact: Contact) {
-        if self.count < MAX_CONTACTS {
-            self.list[self.count] = contact;
-            self.count += 1;
-        }
-    }
-
-    /// Keeps only the contacts for which `wanted` returns true.
-    pub fn retain(&mut self, wanted: impl Fn(&Contact) -> bool) {
-        for contact in std::mem::replace(self, Self::NONE).iter().filter(|contact| wanted(contact)) {
-            self.push(*contact);
-        }
-    }
-
-    /// Whether `ball` takes part in any contact.
-    pub fn involve(&self, ball: usize) -> bool {
-        self.iter().any(|contact| contact.involves(ball))
-    }
-}
-
-impl Deref for Contacts {
-    type Target = [Contact];
-
-    fn deref(&self) -> &[Contact] {
-        &self.list[..self.count]
-    }
-}
 
 /// Mode of a friction.
 #[derive(Clone, Copy, Debug, PartialEq)]

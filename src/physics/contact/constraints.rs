@@ -29,7 +29,7 @@ use self::joint::{Joint, Movement, Response, Triple};
 use self::sticking::{ClothMode, Sticking};
 pub use self::stopping::stop_by_impulses;
 use super::{
-    ActiveSet, Contact, Forces, Friction, MAX_CONTACTS, Scene,
+    ActiveSet, Contact, Forces, Friction, MAX_CONTACTS, Scene, involve,
     linear::{PROXIMITY, eliminate, factorize, substitute},
     problem::{coefficient, rolling_resistance},
 };
@@ -92,7 +92,7 @@ impl<const ROOM: usize> ConstraintSystem<ROOM> {
             joints,
             contacts: contacts.len().min(ROOM),
             sticking: std::array::from_fn(|ball| Sticking::of(set, ball)),
-            members: std::array::from_fn(|ball| scene.involves(ball)),
+            members: std::array::from_fn(|ball| involve(contacts, ball)),
             values: [[0.0; 3]; ROOM],
             redundant: false,
             inconsistent: 0.0,

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::{
-    ActiveSet, Contact, Contacts, Effort, Friction, MAX_CONTACTS, Scene,
+    ActiveSet, Contact, Effort, Friction, MAX_CONTACTS, Scene,
     margin::{rates, with_margin},
     problem::{ForceKind, GYRATION, Limit, Problem, Row, Unknown, Values, ZERO_VALUES, coefficient},
     solve::{ATTEMPTS, Branch, Solution, solve},
@@ -49,7 +49,7 @@ pub struct Forces {
 #[derive(Clone, Debug)]
 pub struct Resolved {
     /// Contacts that push.
-    pub contacts: Contacts,
+    pub contacts: Vec<Contact>,
     /// Modes of their frictions.
     pub set: ActiveSet,
     /// Accelerations and forces.
@@ -105,7 +105,7 @@ impl Scene<'_> {
         let solution = spared.as_ref().unwrap_or(solution);
         let accelerations = problem.accelerations(&solution.values);
         let mut resolved = Resolved {
-            contacts: Contacts::NONE,
+            contacts: Vec::new(),
             set: *set,
             forces: Forces::of(table.radius, problem, solution, &accelerations),
             shared: false,
@@ -281,7 +281,7 @@ impl Forces {
     }
 
     /// Returns the limit of the friction in a contact per ball mass, m/s².
-    pub fn friction_limit(&self, table: &Table, contacts: &Contacts, index: usize) -> f64 {
+    pub fn friction_limit(&self, table: &Table, contacts: &[Contact], index: usize) -> f64 {
         coefficient(table, &contacts[index]) * self.normal[index]
     }
 

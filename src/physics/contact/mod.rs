@@ -21,7 +21,7 @@ use glam::{DVec2, DVec3};
 
 use super::BallState;
 use crate::table::{BALLS, Rail, Table};
-pub use active_set::{ActiveSet, Contacts, Friction, MAX_CONTACTS};
+pub use active_set::{ActiveSet, Friction, MAX_CONTACTS};
 pub use constraints::stop_by_impulses;
 pub use effort::Effort;
 pub use forces::{Forces, Resolved};
@@ -46,13 +46,6 @@ pub struct Scene<'a> {
     pub set: &'a ActiveSet,
 }
 
-impl Scene<'_> {
-    /// Whether a ball takes part in any contact.
-    fn involves(&self, ball: usize) -> bool {
-        self.contacts.iter().any(|contact| contact.involves(ball))
-    }
-}
-
 /// A ball's contact with a cushion or with another ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
@@ -69,6 +62,11 @@ pub enum Partner {
     Ball(usize),
     /// The cushion of this rail.
     Cushion(Rail),
+}
+
+/// Whether `ball` takes part in any of the contacts.
+pub fn involve(contacts: &[Contact], ball: usize) -> bool {
+    contacts.iter().any(|contact| contact.involves(ball))
 }
 
 impl Contact {

@@ -6,7 +6,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{ActiveSet, Contact, Friction, MAX_CONTACTS, Partner, Scene};
+use super::{ActiveSet, Contact, Friction, MAX_CONTACTS, Partner, Scene, involve};
 use crate::{
     physics::{BallState, Rolling, slip},
     table::{BALLS, Table},
@@ -180,7 +180,7 @@ impl Problem {
             problem.push(ForceKind::Contact(index), Limit::Coulomb(mu, index), &rows, [0.0, turning]);
         }
         for (ball, state) in balls.iter().enumerate() {
-            if scene.involves(ball) {
+            if involve(contacts, ball) {
                 problem.lay_on_cloth(table, ball, state, set);
             }
         }

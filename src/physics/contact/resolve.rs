@@ -10,6 +10,7 @@ use glam::DVec2;
 use super::{
     Effort, Forces, Friction, Scene,
     forces::{DEPARTING, Resolved},
+    involve,
     margin::rates,
     problem::{ForceKind, Problem},
     solve::{ATTEMPTS, Branch, Solution, solve},
@@ -44,7 +45,7 @@ impl Scene<'_> {
     ) -> Option<Resolved> {
         let Self { table, balls, set, .. } = self;
         let rolls = |ball: usize| set.cloth[ball] == Friction::Sticks && matches!(set.roll[ball], Friction::Slips(_));
-        for ball in (0..BALLS).filter(|&ball| self.involves(ball) && rolls(ball) && !set.yields()) {
+        for ball in (0..BALLS).filter(|&ball| involve(self.contacts, ball) && rolls(ball) && !set.yields()) {
             if !begins_to_slide(table, problem, solution, ball) {
                 continue;
             }

@@ -21,7 +21,7 @@ use glam::DVec2;
 
 use super::{BallImpact, BallState, Cushion, ImpactImpulse, contact_twist};
 use crate::{
-    physics::{Contact, MAX_CONTACTS, Partner},
+    physics::{Contact, MAX_CONTACTS, Partner, involve},
     table::{BALLS, Rail, Table},
 };
 
@@ -156,7 +156,7 @@ fn apply_impulses(
     };
     // Only of the balls that take part: next to the energy of another fast ball, rounding would hide a gain by slow ones.
     let energy = |balls: &[BallState; BALLS]| {
-        let members = (0..BALLS).filter(|&ball| contacts.iter().any(|contact| contact.involves(ball)));
+        let members = (0..BALLS).filter(|&ball| involve(contacts, ball));
         members.map(|ball| balls[ball].specific_energy(radius)).sum::<f64>()
     };
     let (before, half, whole) = (energy(balls), energy(&with_friction(0.5)), energy(&with_friction(1.0)));

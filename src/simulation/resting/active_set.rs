@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     physics::{
-        ActiveSet, BallState, Contact, Contacts, Effort, Friction, MAX_CONTACTS, Resolved, Scene, rolling_spin, slip,
+        ActiveSet, BallState, Contact, Effort, Friction, MAX_CONTACTS, Resolved, Scene, involve, rolling_spin, slip,
         stop_by_impulses,
     },
     table::{BALLS, Table},
@@ -52,7 +52,7 @@ pub fn find_active_set(
     table: &Table,
     constants: &Constants,
     balls: &mut State,
-    contacts: &mut Contacts,
+    contacts: &mut Vec<Contact>,
     previous: Option<&Resting>,
     effort: &Effort,
 ) -> Option<(State, Resolved)> {
@@ -101,7 +101,7 @@ pub fn find_active_set(
         };
         Some((begin, resolved, departs))
     };
-    let (mut pressing, mut now) = (*contacts, *balls);
+    let (mut pressing, mut now) = (contacts.clone(), *balls);
     loop {
         if pressing.is_empty() {
             return None;
@@ -120,7 +120,7 @@ pub fn find_active_set(
         }
         // Balls at rest may continue to push each other, held by the cloth; this has no effect.
         let still = |(ball, state): (usize, &BallState)| {
-            !pressing.involve(ball) || (state.velocity == DVec2::ZERO && state.spin == glam::DVec3::ZERO)
+            !involve(&pressing, ball) || (state.velocity == DVec2::ZERO && state.spin == glam::DVec3::ZERO)
         };
         if !departs && begin.iter().enumerate().all(still) {
             return None;
@@ -133,7 +133,7 @@ pub fn find_active_set(
         if resolved.contacts.len() == pressing.len() {
             return Some((begin, resolved));
         }
-        for ball in (0..BALLS).filter(|&ball| pressing.involve(ball) && !resolved.contacts.involve(ball)) {
+        for ball in (0..BALLS).filter(|&ball| involve(&pressing, ball) && !involve(&resolved.contacts, ball)) {
             // The slip has also ended for a ball that nothing holds; if it rolls, it continues to roll.
             let ends = slip(table.radius, now[ball].velocity, now[ball].spin).length() <= tolerance.ending_slip;
             if resolved.set.cloth[ball] == Friction::Sticks && slides(table.radius, &now[ball]) && ends {
@@ -169,7 +169,7 @@ fn stop_slips(table: &Table, balls: &mut State, contacts: &[Contact]) {
 /// Returns the pressing acceleration that is negligible until the slips that cause it end, m/s². It changes no speed by more than its zero
 /// tolerance, or it is within the rounding of the slip directions. A direction is less accurate the smaller the slip is compared with the
 /// speeds whose difference it is.
-fn transient_pressing(constants: &Constants, balls: &State, contacts: &Contacts) -> f64 {
+fn transient_pressing(constants: &Constants, balls: &State, contacts: &[Contact]) -> f64 {
     let idle = |ball: &BallState| {
         let slip = slip(constants.radius, ball.velocity, ball.spin).length();
         if slip <= constants.tolerance.ending_slip {
@@ -179,26 +179,26 @@ fn transient_pressing(constants: &Constants, balls: &State, contacts: &Contacts)
         let rounding = 32.0 * f64::EPSILON * speeds / slip * constants.sliding;
         rounding.max(constants.tolerance.opening / (slip * constants.slide_time))
     };
-    let members = balls.iter().enumerate().filter(|(ball, _)| contacts.involve(*ball));
+    let members = balls.iter().enumerate().filter(|(ball, _)| involve(contacts, *ball));
     members.map(|(_, ball)| idle(ball)).fold(0.0, f64::max)
 }
 
 /// Whether the balls of contacts are at rest on a table that is not level: the slope presses the upper ball on the lower one, but nothing
 /// moves.
-fn stand_on_slope(constants: &Constants, balls: &State, contacts: &Contacts) -> bool {
+fn stand_on_slope(constants: &Constants, balls: &State, contacts: &[Contact]) -> bool {
     let none = constants.tolerance.still;
     let stands = |ball: &BallState| {
         ball.velocity.length() < none && constants.radius * ball.spin.truncate().length() < none && ball.spin.z == 0.0
     };
-    !constants.level && (0..BALLS).all(|ball| !contacts.involve(ball) || stands(&balls[ball]))
+    !constants.level && (0..BALLS).all(|ball| !involve(contacts, ball) || stands(&balls[ball]))
 }
 
 /// Returns the balls of contacts that do not press, without slips on the cloth that end at once: a ball that counts as rolling in a resting
 /// contact must not slide when it is free.
-pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State, contacts: &Contacts) -> State {
+pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State, contacts: &[Contact]) -> State {
     let set = ActiveSet::of(table, balls, contacts, constants.tolerance.ending_slip);
     let ends = |(ball, state): (usize, &BallState)| {
-        contacts.involve(ball) && set.cloth[ball] == Friction::Sticks && slides(table.radius, state)
+        involve(contacts, ball) && set.cloth[ball] == Friction::Sticks && slides(table.radius, state)
     };
     let mut ended = *balls;
     if balls.iter().enumerate().any(ends) {
@@ -208,7 +208,7 @@ pub fn without_ending_slips(table: &Table, constants: &Constants, balls: &State,
 }
 
 /// Whether a contact closes at a speed that, together with rounding, would be a bounce: a ball that is driven by another is not at rest.
-fn closes(constants: &Constants, balls: &State, contacts: &Contacts) -> bool {
+fn closes(constants: &Constants, balls: &State, contacts: &[Contact]) -> bool {
     contacts.iter().any(|contact| contact.opening_speed(balls) < -0.1 * constants.tolerance.opening)
 }
 
@@ -218,7 +218,7 @@ pub fn remove_rounding(table: &Table, constants: &Constants, balls: &mut State, 
     close_gaps(constants, balls, contacts);
     stop_by_impulses(table, balls, contacts, set, &[0.0; MAX_CONTACTS]);
     for (ball, state) in balls.iter_mut().enumerate() {
-        if !contacts.iter().any(|contact| contact.involves(ball)) {
+        if !involve(contacts, ball) {
             continue;
         }
         if set.spin[ball] == Friction::Sticks {

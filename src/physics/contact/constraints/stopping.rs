@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{ActiveSet, ConstraintSystem, Contact, MAX_CONTACTS, Movement, Scene};
+use super::{ActiveSet, ConstraintSystem, Contact, MAX_CONTACTS, Movement, Scene, involve};
 use crate::{
     physics::BallState,
     table::{BALLS, Table},
@@ -26,7 +26,7 @@ pub fn stop_by_impulses(
     let scene = Scene { table, balls, contacts, set: &set.with_yielding_as_slipping(set) };
     if let Some(stopped) = in_room!(contacts, ROOM => stopped_in::<ROOM>(scene, given)) {
         for (ball, state) in balls.iter_mut().enumerate() {
-            if contacts.iter().any(|contact| contact.involves(ball)) {
+            if involve(contacts, ball) {
                 (state.velocity, state.spin) = (stopped.linear[ball], stopped.angular[ball] / table.radius);
             }
         }
