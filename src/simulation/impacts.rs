@@ -313,13 +313,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             given.iter_mut().zip(impulses).for_each(|(given, impulse)| *given += impulse.normal);
         }
         // A push from one contact to another is a bounce, too, unless it is too fast to be omitted.
-        let (mut ended, mut given_there) = (Vec::new(), [0.0; MAX_CONTACTS]);
-        for (contact, given) in contacts.iter().zip(given) {
-            if contact.opening_speed(&states) < c.tolerance.slowest_coupled_bounce {
-                given_there[ended.len()] = given;
-                ended.push(*contact);
-            }
-        }
+        let slow = |contact: &Contact| contact.opening_speed(&states) < c.tolerance.slowest_coupled_bounce;
+        let (ended, given_there): (Vec<_>, Vec<_>) =
+            contacts.iter().copied().zip(given).filter(|(contact, _)| slow(contact)).unzip();
         stop_by_impulses(self.table, &mut states, &ended, &ActiveSet::SLIPPING, &given_there);
         let changed = std::array::from_fn(|ball| involve(contacts, ball));
         self.relaunch(now, changed, &states);

@@ -59,16 +59,8 @@ pub struct Resolved {
     pub shared: bool,
     /// The set in which yielding frictions stick again, or slip on against their friction; `None` if no yielding friction can.
     pub sticking: Option<ActiveSet>,
-    /// For each requested contact, whether it never slips and cannot rest: the force that prevents its slip separates the balls, which then
-    /// come back.
-    pub paradox: [bool; MAX_CONTACTS],
-}
-
-impl Resolved {
-    /// Whether a contact that never slips cannot rest.
-    pub fn is_paradox(&self) -> bool {
-        self.paradox.contains(&true)
-    }
+    /// Contacts that never slip and cannot rest: the force that prevents their slip separates the balls, which then come back.
+    pub paradoxes: Vec<Contact>,
 }
 
 impl Scene<'_> {
@@ -110,7 +102,7 @@ impl Scene<'_> {
             forces: Forces::of(table.radius, problem, solution, &accelerations),
             shared: false,
             sticking: None,
-            paradox: [false; MAX_CONTACTS],
+            paradoxes: Vec::new(),
         };
         let never_slips = |index: usize| contacts[index].never_slips(table);
         for (index, (unknown, branch)) in problem.unknowns.iter().zip(&solution.branches).enumerate() {
@@ -134,7 +126,7 @@ impl Scene<'_> {
             };
             match unknown.kind {
                 _ if holds => {}
-                ForceKind::Contact(index) if never_slips(index) => resolved.paradox[index] = true,
+                ForceKind::Contact(index) if never_slips(index) => resolved.paradoxes.push(contacts[index]),
                 kind => {
                     if let Some(friction) = resolved.set.friction_mut(kind) {
                         *friction = starts;
@@ -142,13 +134,15 @@ impl Scene<'_> {
                 }
             }
         }
-        let pushes = |index: &usize| resolved.forces.normal[*index] > least_push && !resolved.paradox[*index];
+        let pushes = |index: &usize| {
+            resolved.forces.normal[*index] > least_push && !resolved.paradoxes.contains(&contacts[*index])
+        };
         let mut kept = [Friction::Sticks; MAX_CONTACTS];
         for index in (0..contacts.len()).filter(pushes) {
             kept[resolved.contacts.len()] = resolved.set.contact[index];
             resolved.contacts.push(contacts[index]);
         }
-        if resolved.contacts.is_empty() && !resolved.is_paradox() {
+        if resolved.contacts.is_empty() && resolved.paradoxes.is_empty() {
             return None;
         }
         resolved.set.contact = kept;

@@ -87,7 +87,7 @@ pub fn find_active_set(
             Scene { table, balls, contacts, set }.resolve(least_push, similar.as_ref(), effort)
         };
         let mut resolved = resolve(&begin, &set)?;
-        if resolved.is_paradox() {
+        if !resolved.paradoxes.is_empty() {
             return Some((begin, resolved, false));
         }
         if let Some(sticking) = resolved.sticking {
@@ -107,15 +107,13 @@ pub fn find_active_set(
             return None;
         }
         let (mut begin, mut resolved, departs) = stopped(tolerance.ending_slip, &now, &pressing)?;
-        if resolved.is_paradox() {
-            let marked = pressing.iter().zip(resolved.paradox).filter(|(_, is_paradox)| *is_paradox);
-            let parted: Vec<Contact> = marked.map(|(contact, _)| *contact).collect();
-            for contact in &parted {
+        if !resolved.paradoxes.is_empty() {
+            for contact in &resolved.paradoxes {
                 separate(&mut now, contact, tolerance.first_bounce);
                 separate(balls, contact, tolerance.first_bounce);
             }
-            contacts.retain(|contact| !parted.contains(contact));
-            pressing.retain(|contact| !parted.contains(contact));
+            contacts.retain(|contact| !resolved.paradoxes.contains(contact));
+            pressing.retain(|contact| !resolved.paradoxes.contains(contact));
             continue;
         }
         // Balls at rest may continue to push each other, held by the cloth; this has no effect.

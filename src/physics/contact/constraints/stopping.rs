@@ -21,7 +21,7 @@ pub fn stop_by_impulses(
     balls: &mut [BallState; BALLS],
     contacts: &[Contact],
     set: &ActiveSet,
-    given: &[f64; MAX_CONTACTS],
+    given: &[f64],
 ) {
     let scene = Scene { table, balls, contacts, set: &set.with_yielding_as_slipping(set) };
     if let Some(stopped) = in_room!(contacts, ROOM => stopped_in::<ROOM>(scene, given)) {
@@ -34,7 +34,7 @@ pub fn stop_by_impulses(
 }
 
 /// Returns the corrected motion; `None` if all speeds stay.
-fn stopped_in<const ROOM: usize>(scene: Scene<'_>, given: &[f64; MAX_CONTACTS]) -> Option<Movement> {
+fn stopped_in<const ROOM: usize>(scene: Scene<'_>, given: &[f64]) -> Option<Movement> {
     let Scene { table, balls, .. } = scene;
     // Contacts without a coefficient of friction have no slip friction: the impulses that stop them do not slip.
     let mut system = ConstraintSystem::<ROOM>::new(scene, |contact| !contact.never_slips(table));
@@ -60,7 +60,7 @@ impl<const ROOM: usize> ConstraintSystem<ROOM> {
     }
 
     /// Removes the friction of slipping contacts that pull more than they were `given`. Returns whether there are any.
-    fn remove_friction_of_pulling(&mut self, given: &[f64; MAX_CONTACTS]) -> bool {
+    fn remove_friction_of_pulling(&mut self, given: &[f64]) -> bool {
         let mut any = false;
         for ((joint, values), given) in self.joints[..self.contacts].iter_mut().zip(&self.values).zip(given) {
             if values[0] < -given && joint.slip_friction != DVec2::ZERO {

@@ -16,8 +16,7 @@ fn rubbing(opening: f64) -> (Table, [BallState; BALLS], [Contact; 1]) {
 fn stopped(opening: f64, given: f64) -> f64 {
     let (table, mut balls, contacts) = rubbing(opening);
     let before = balls[0].specific_energy(table.radius);
-    let given = std::array::from_fn(|index| if index == 0 { given } else { 0.0 });
-    stop_by_impulses(&table, &mut balls, &contacts, &ActiveSet::SLIPPING, &given);
+    stop_by_impulses(&table, &mut balls, &contacts, &ActiveSet::SLIPPING, &[given]);
     assert!(contacts[0].opening_speed(&balls).abs() < 1e-18);
     balls[0].specific_energy(table.radius) - before
 }
