@@ -9,13 +9,10 @@
 //! gap, `4 s³ / (3 p² (1 - e³))`. The error in speed, m/s, is half of this, divided by the square of the time in which the direction of
 //! friction turns: this error bound is checked.
 
-use super::{
-    Constants,
-    contacts::{PAIRS_OF, contacts_where},
-};
+use super::{Constants, contacts::contacts_where};
 use crate::{
-    physics::{ActiveSet, BallState, Contact, Effort, Partner, Scene, involve, slip},
-    table::{BALLS, PAIRS, Table},
+    physics::{ActiveSet, BallState, Contact, Effort, Scene, involve, slip},
+    table::{BALLS, Table},
 };
 
 /// Bound on the slip, in units of the bounce speed, that a bounce of two balls or of a ball and a cushion creates.
@@ -43,9 +40,6 @@ const LAST_FLIGHTS: f64 = 8.0;
 /// a ball back repeatedly, its bounces therefore remain one chatter.
 const LONGEST_FLIGHTS: f64 = 2.0;
 
-/// Number of pairs of balls, and of balls with cushions.
-const SLOTS: usize = PAIRS.len() + 4 * BALLS;
-
 /// Record of the slow bounces of one contact.
 #[derive(Clone, Copy, Debug)]
 struct Bounces {
@@ -61,35 +55,33 @@ struct Bounces {
 }
 
 impl Bounces {
+    const NONE: Self =
+        Self { count: 0, last: f64::NEG_INFINITY, flight: f64::INFINITY, longest: 0.0, pause: 0.0, flight_ratio: 0.0 };
+
     /// Returns the longest pause before the next bounce of the same chatter, s.
     fn longest_pause(&self) -> f64 {
         (LAST_FLIGHTS * self.flight).max(LONGEST_FLIGHTS * self.longest.max(self.pause))
     }
 }
 
-/// Records of all slow bounces of a shot.
-#[derive(Clone, Debug)]
-pub struct Chatters([Bounces; SLOTS]);
-
-impl Default for Chatters {
-    /// Creates records without bounces.
-    fn default() -> Self {
-        let (last, flight) = (f64::NEG_INFINITY, f64::INFINITY);
-        Self([Bounces { count: 0, last, flight, longest: 0.0, pause: 0.0, flight_ratio: 0.0 }; SLOTS])
-    }
-}
+/// Records of all slow bounces of a shot, for each contact that has bounced or rested.
+#[derive(Clone, Debug, Default)]
+pub struct Chatters(Vec<(Contact, Bounces)>);
 
 impl Chatters {
-    fn slot(contact: &Contact) -> usize {
-        match contact.partner {
-            Partner::Ball(second) => contact.first + second - 1,
-            Partner::Cushion(rail) => PAIRS.len() + 4 * contact.first + rail as usize,
-        }
+    /// Returns the record of a contact, which is created if there is none.
+    fn of(&mut self, contact: &Contact) -> &mut Bounces {
+        let known = self.0.iter().position(|(known, _)| known == contact);
+        let index = known.unwrap_or_else(|| {
+            self.0.push((*contact, Bounces::NONE));
+            self.0.len() - 1
+        });
+        &mut self.0[index].1
     }
 
     /// Records a slow bounce. Returns whether it is part of a chatter.
     pub fn bounce(&mut self, contact: &Contact, now: f64) -> bool {
-        let bounces = &mut self.0[Self::slot(contact)];
+        let bounces = self.of(contact);
         let flight = now - bounces.last;
         if flight <= bounces.longest_pause() {
             let known = if flight.is_finite() { flight } else { 0.0 };
@@ -104,27 +96,26 @@ impl Chatters {
 
     /// Records that a contact begins to rest; after a pause, this counts as a bounce.
     pub fn begin_rest(&mut self, contact: &Contact, now: f64) {
-        if now > self.0[Self::slot(contact)].last {
+        if now > self.of(contact).last {
             self.bounce(contact, now);
         }
     }
 
     /// Records that a contact has rested until now: its chatter continues from here.
     pub fn rest(&mut self, contact: &Contact, now: f64) {
-        self.0[Self::slot(contact)].last = now;
+        self.of(contact).last = now;
     }
 
-    /// Returns the ratio of a contact's last flight to the one before; NaN after its first bounce.
+    /// Returns the ratio of a contact's last flight to the one before; NaN after its first bounce, zero without any.
     pub fn flight_ratio(&self, contact: &Contact) -> f64 {
-        self.0[Self::slot(contact)].flight_ratio
+        self.0.iter().find(|(known, _)| known == contact).map_or(0.0, |(_, bounces)| bounces.flight_ratio)
     }
 
     /// Returns when each chatter of a ball ends, s, if it does not bounce again, with the index of the other ball, or the ball's own index for
     /// chatters with cushions. Any bounce, reported or not, may be followed by others within `pause`, s.
     pub fn ends(&self, ball: usize, pause: f64) -> impl Iterator<Item = (usize, f64)> {
-        let cushions = (0..4).map(move |rail| (ball, PAIRS.len() + 4 * ball + rail));
-        cushions.chain(PAIRS_OF[ball].map(|(pair, other)| (other, pair))).map(move |(other, slot)| {
-            let bounces = &self.0[slot];
+        self.0.iter().filter(move |(contact, _)| contact.involves(ball)).map(move |(contact, bounces)| {
+            let other = contact.second().map_or(ball, |second| contact.first + second - ball);
             let pause = if bounces.count > REPORTED_BOUNCES { pause.max(bounces.longest_pause()) } else { pause };
             (other, bounces.last + pause)
         })

@@ -143,8 +143,8 @@ pub(super) struct Engine<'a, S, O: ?Sized> {
     pub(super) effort_in_air: Effort,
     /// Law of slow impacts after resting contacts have been disabled.
     pub(super) micro_collisions: Option<Box<ImpactLaw>>,
-    /// Records of slow bounces; `None` before the first one.
-    pub(super) chatters: Option<Box<Chatters>>,
+    /// Records of slow bounces.
+    pub(super) chatters: Chatters,
     savings: PhantomData<S>,
 }
 
@@ -170,7 +170,7 @@ impl<'a, S: Savings, O: Observer + ?Sized> Engine<'a, S, O> {
             effort: Effort::default(),
             effort_in_air: Effort::default(),
             micro_collisions: None,
-            chatters: None,
+            chatters: Chatters::default(),
             savings: PhantomData,
         }
     }

@@ -185,7 +185,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
     /// Whether an impact in the air is reported. It is not if it is one of many by which a ball slides off another one or off a nose.
     fn is_reported(&mut self, now: f64, contact: &Contact, approach: f64) -> bool {
-        approach > self.constants.tolerance.slow_bounce || !self.chatters.get_or_insert_default().bounce(contact, now)
+        approach > self.constants.tolerance.slow_bounce || !self.chatters.bounce(contact, now)
     }
 
     /// Makes a ball that reaches the cloth at the moment of an impact land before it: otherwise rounding would decide whether its state is

@@ -231,7 +231,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     #[cold]
     pub(super) fn slow_bounce(&mut self, now: f64, contact: &Contact) -> ControlFlow<(), bool> {
         self.effort.add(if contact.second().is_some() { BALL_BOUNCE_COST } else { RAIL_BOUNCE_COST });
-        if !self.chatters.get_or_insert_default().bounce(contact, now) && self.micro_collisions.is_none() {
+        if !self.chatters.bounce(contact, now) && self.micro_collisions.is_none() {
             return ControlFlow::Continue(true);
         }
         self.observer.contact_step()?;
@@ -253,9 +253,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if self.micro_collisions.is_some() {
             return None;
         }
-        let flight_ratio = self.chatters.as_ref().map_or(0.0, |chatters| chatters.flight_ratio(contact));
         let states = self.states_with(now, freed, bounced);
-        let bounces = (self.law.restitution(contact), flight_ratio);
+        let bounces = (self.law.restitution(contact), self.chatters.flight_ratio(contact));
         let (contacts, duration) =
             chatter_end(self.table, &self.constants, contact, &states, self.on_cloth(), bounces, &self.effort)?;
         (now + duration < self.next_meeting_aloft()).then_some(contacts)

@@ -126,9 +126,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.observer.contact_step()?;
         if let Some(previous) = &previous {
             self.effort.absorb(&previous.effort);
-            if let Some(chatters) = &mut self.chatters {
-                previous.contacts.iter().for_each(|contact| chatters.rest(contact, now));
-            }
+            previous.contacts.iter().for_each(|contact| self.chatters.rest(contact, now));
         }
         let (on_cloth, previous) = (self.on_cloth(), previous.as_deref());
         let (resting, begin, effort) =
@@ -136,8 +134,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         self.effort.absorb(&effort);
         if let Some(resting) = &resting {
             self.next_step = resting.next_step;
-            let chatters = self.chatters.get_or_insert_default();
-            resting.contacts.iter().for_each(|contact| chatters.begin_rest(contact, now));
+            resting.contacts.iter().for_each(|contact| self.chatters.begin_rest(contact, now));
         }
         self.resting = resting;
         let members = self.resting_members();
@@ -185,11 +182,10 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Whether a ball may bounce again before one of its chatters ends: its own next event, or any event of the ball with which it
     /// chatters, is early enough. In micro-collisions, any event may make it bounce again.
     fn may_bounce(&self, index: usize) -> bool {
-        let Some(chatters) = &self.chatters else { return false };
         let own = self.times[index];
         if self.micro_collisions.is_some() {
             let soonest = self.times.into_iter().fold(f64::INFINITY, f64::min);
-            return chatters.ends(index, self.longest_pause()).any(|(_, end)| soonest <= end);
+            return self.chatters.ends(index, self.longest_pause()).any(|(_, end)| soonest <= end);
         }
         let next = |other: usize| {
             if other == index {
@@ -199,7 +195,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 .iter()
                 .fold(own.min(self.times[other]), |next, (pair, _)| next.min(self.times[BALLS + pair]))
         };
-        chatters.ends(index, f64::NEG_INFINITY).any(|(other, end)| next(other) <= end)
+        self.chatters.ends(index, f64::NEG_INFINITY).any(|(other, end)| next(other) <= end)
     }
 
     #[cold]
