@@ -362,14 +362,13 @@ impl<'a> System<'a> {
         let n = self.count;
         let Point { values, rates, .. } = point;
         let response = self.responses[unknown.first];
-        let mut limit = 0.0;
-        match unknown.limit {
-            Limit::Fixed(fixed) => limit = fixed,
+        let limit = match unknown.limit {
+            Limit::Fixed(limit) => limit,
             Limit::Coulomb(mu, contact) => {
-                limit += mu * values[contact];
                 entries[contact] -= mu * direction[axis];
+                mu * values[contact]
             }
-        }
+        };
         entries[unknown.first + axis] += 1.0;
         if unknown.count == 2 {
             let z = |index: usize| values[index] - rates[index] / response;

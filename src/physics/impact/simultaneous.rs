@@ -191,10 +191,8 @@ fn normal_impulses(law: &ImpactLaw, balls: &[BallState; BALLS], contacts: &[Cont
         let shared: f64 = (0..BALLS).map(|ball| sense(&contacts[i], ball) * sense(&contacts[j], ball)).sum();
         shared * normals[i].dot(normals[j])
     };
-    let mut responses = [[0.0; MAX_CONTACTS]; MAX_CONTACTS];
-    for (i, row) in responses[..contacts.len()].iter_mut().enumerate() {
-        row[..contacts.len()].iter_mut().enumerate().for_each(|(j, place)| *place = response(i, j));
-    }
+    let entry = |i: usize, j: usize| if i.max(j) < contacts.len() { response(i, j) } else { 0.0 };
+    let responses: [[f64; MAX_CONTACTS]; MAX_CONTACTS] = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
     let wanted: Vec<f64> =
         contacts.iter().map(|contact| -(1.0 + law.restitution(contact)) * contact.opening_speed(balls)).collect();
     let scale = wanted.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
