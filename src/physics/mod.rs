@@ -11,8 +11,8 @@ mod rolling;
 mod slope;
 
 pub use contact::{
-    ActiveSet, Contact, Effort, FIRST_BOUNCE, Forces, Friction, MAX_CONTACTS, Partner, Resolved, Scene, factorize,
-    involve, stop_by_impulses, substitute,
+    ActiveSet, Contact, Contacts, Effort, FIRST_BOUNCE, Forces, Friction, MAX_CONTACTS, Partner, Resolved, Scene,
+    factorize, involve, stop_by_impulses, substitute,
 };
 pub use cue::{CueDegrees, CueError, CueInputs, Impulse, ImpulseError, level_stroke, signed_angle, squirt, strike};
 #[cfg(test)]

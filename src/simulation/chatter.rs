@@ -11,7 +11,7 @@
 
 use super::{Constants, contacts::contacts_where};
 use crate::{
-    physics::{ActiveSet, BallState, Contact, Effort, Scene, involve, slip},
+    physics::{ActiveSet, BallState, Contact, Contacts, Effort, Scene, involve, slip},
     table::{BALLS, Table},
 };
 
@@ -134,13 +134,13 @@ pub fn chatter_end(
     on_cloth: [bool; BALLS],
     (restitution, flight_ratio): (f64, f64),
     effort: &Effort,
-) -> Option<(Vec<Contact>, f64)> {
+) -> Option<(Contacts, f64)> {
     let tolerance = &constants.tolerance;
     let speed = contact.opening_speed(balls);
     // Bounces without loss never fade.
     let slowest = if restitution < 1.0 { tolerance.slowest_bounce } else { tolerance.slowest_lossless_bounce };
     if speed <= slowest {
-        return Some((vec![*contact], 0.0));
+        return Some((Contacts::from_iter([*contact]), 0.0));
     }
     // While a contact chatters, the contacts that are coupled to it count as closed, and slips as small as its bounces cause count as zero.
     // A contact in flight does not press, and could only be stopped by pulling.
@@ -318,7 +318,7 @@ mod tests {
                 .0
         };
         let other = Contact::with_cushion(0, Rail::Top);
-        assert_eq!(ends(3e-9), [contact]);
+        assert_eq!(ends(3e-9)[..], [contact]);
         assert!(ends(0.0).contains(&contact) && ends(0.0).contains(&other));
     }
 }

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::{Constants, Rail, extrapolation::State};
 use crate::{
-    physics::{Contact, Partner},
+    physics::{Contact, Contacts, Partner},
     table::{BALLS, PAIRS},
 };
 
@@ -17,7 +17,7 @@ pub fn touching(
     balls: &State,
     on_cloth: [bool; BALLS],
     wanted: impl Fn(f64) -> bool,
-) -> Vec<Contact> {
+) -> Contacts {
     contacts_where(constants, balls, on_cloth, |gap, contact| {
         gap <= constants.tolerance.touching && wanted(contact.opening_speed(balls))
     })
@@ -35,7 +35,7 @@ pub fn contacts_where(
     balls: &State,
     on_cloth: [bool; BALLS],
     wanted: impl Fn(f64, &Contact) -> bool,
-) -> Vec<Contact> {
+) -> Contacts {
     let with_cushions = (0..BALLS).flat_map(|ball| Rail::ALL.map(|rail| Contact::with_cushion(ball, rail)));
     let all = with_cushions.chain(PAIRS.map(|(first, second)| Contact::of_balls(first, second)));
     all.filter(|contact| {

@@ -12,8 +12,8 @@ use super::{
 };
 use crate::{
     physics::{
-        ActiveSet, BallState, Contact, ImpactImpulse, MAX_CONTACTS, Motion, Partner, collide_together, involve,
-        stop_by_impulses,
+        ActiveSet, BallState, Contact, Contacts, ImpactImpulse, MAX_CONTACTS, Motion, Partner, collide_together,
+        involve, stop_by_impulses,
     },
     table::{BALLS, PAIRS},
 };
@@ -249,7 +249,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         freed: Option<&[BallState; BALLS]>,
         contact: &Contact,
         bounced: &[(usize, BallState)],
-    ) -> Option<Vec<Contact>> {
+    ) -> Option<Contacts> {
         if self.micro_collisions.is_some() {
             return None;
         }

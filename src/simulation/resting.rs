@@ -21,7 +21,7 @@ use super::{
     guards::{RESTING_BUDGET, STEP_BUDGET, STEP_COST, known_set_cost},
 };
 use crate::{
-    physics::{ActiveSet, BallState, Contact, Effort, Forces, Friction, Resolved, Scene, involve, slip},
+    physics::{ActiveSet, BallState, Contact, Contacts, Effort, Forces, Friction, Resolved, Scene, involve, slip},
     table::{BALLS, Table},
 };
 
@@ -75,7 +75,7 @@ pub struct Resting {
     pub begin: State,
     /// State at its end.
     pub end: State,
-    pub(super) contacts: Vec<Contact>,
+    pub(super) contacts: Contacts,
     pub(super) set: ActiveSet,
     /// The slip that ends first, which defines the rescaled time, and its magnitude at the start, m/s; `None` if no slip ends soon and time
     /// is not rescaled.

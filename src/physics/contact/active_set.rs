@@ -1,5 +1,6 @@
 //! The active set: contacts that push and modes of the frictions, which stay constant between two transitions.
 
+use arrayvec::ArrayVec;
 use glam::DVec2;
 
 use super::{
@@ -13,6 +14,9 @@ use crate::{
 
 /// Largest number of contacts of three balls: with each other, and with two cushions each.
 pub const MAX_CONTACTS: usize = 9;
+
+/// A list of contacts in a fixed order.
+pub type Contacts = ArrayVec<Contact, MAX_CONTACTS>;
 
 /// Mode of a friction.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::{
-    ActiveSet, Contact, Effort, Friction, MAX_CONTACTS, Scene,
+    ActiveSet, Contact, Contacts, Effort, Friction, MAX_CONTACTS, Scene,
     margin::{rates, with_margin},
     problem::{ForceKind, GYRATION, Limit, Problem, Row, Unknown, Values, ZERO_VALUES, coefficient},
     solve::{ATTEMPTS, Branch, Solution, solve},
@@ -49,7 +49,7 @@ pub struct Forces {
 #[derive(Clone, Debug)]
 pub struct Resolved {
     /// Contacts that push.
-    pub contacts: Vec<Contact>,
+    pub contacts: Contacts,
     /// Modes of their frictions.
     pub set: ActiveSet,
     /// Accelerations and forces.
@@ -97,7 +97,7 @@ impl Scene<'_> {
         let solution = spared.as_ref().unwrap_or(solution);
         let accelerations = problem.accelerations(&solution.values);
         let mut resolved = Resolved {
-            contacts: Vec::new(),
+            contacts: Contacts::new(),
             set: *set,
             forces: Forces::of(table.radius, problem, solution, &accelerations),
             shared: false,

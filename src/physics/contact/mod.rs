@@ -21,7 +21,7 @@ use glam::{DVec2, DVec3};
 
 use super::BallState;
 use crate::table::{BALLS, Rail, Table};
-pub use active_set::{ActiveSet, Friction, MAX_CONTACTS};
+pub use active_set::{ActiveSet, Contacts, Friction, MAX_CONTACTS};
 pub use constraints::stop_by_impulses;
 pub use effort::Effort;
 pub use forces::{Forces, Resolved};

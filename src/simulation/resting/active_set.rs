@@ -8,8 +8,8 @@ use super::{
 };
 use crate::{
     physics::{
-        ActiveSet, BallState, Contact, Effort, Friction, MAX_CONTACTS, Resolved, Scene, involve, rolling_spin, slip,
-        stop_by_impulses,
+        ActiveSet, BallState, Contact, Contacts, Effort, Friction, MAX_CONTACTS, Resolved, Scene, involve,
+        rolling_spin, slip, stop_by_impulses,
     },
     table::{BALLS, Table},
 };
@@ -52,7 +52,7 @@ pub fn find_active_set(
     table: &Table,
     constants: &Constants,
     balls: &mut State,
-    contacts: &mut Vec<Contact>,
+    contacts: &mut Contacts,
     previous: Option<&Resting>,
     effort: &Effort,
 ) -> Option<(State, Resolved)> {
