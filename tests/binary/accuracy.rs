@@ -1,28 +1,17 @@
 //! The accuracy study through the real binary: required results, without any requirement on time.
 
-use std::path::Path;
+use std::{path::Path, time::Duration};
 
 use serde_json::Value;
 
-use crate::program::carom_command;
-
-fn carom(arguments: &[&str]) -> std::process::Output {
-    carom_command(arguments).output().unwrap()
-}
-
-fn lines(output: &std::process::Output) -> Vec<Value> {
-    let text = std::str::from_utf8(&output.stdout).unwrap();
-    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
-}
+use crate::program::{carom_command, finished, json_answer, run, stdout};
 
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap()
 }
 
 fn quick(folder: &Path) -> Vec<Value> {
-    let output = carom(&["accuracy", "--quick", "--shots", "48", "--json", "--out", folder.to_str().unwrap()]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    lines(&output)
+    run(&["accuracy", "--quick", "--shots", "48", "--json", "--out", folder.to_str().unwrap()]).ok().json()
 }
 
 #[test]
@@ -69,9 +58,7 @@ fn the_quick_study_meets_the_expected_accuracy() {
 
 #[test]
 fn the_study_can_judge_a_named_table() {
-    let output = carom(&["accuracy", "--quick", "--shots", "48", "--table", "match", "--json"]);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let rows = lines(&output);
+    let rows = run(&["accuracy", "--quick", "--shots", "48", "--table", "match", "--json"]).ok().json();
     let summary = rows.iter().find(|row| row.get("judged").is_some()).unwrap();
     assert_eq!(summary["judged"]["count"], 48, "{summary}");
     assert!(number(&summary["truth_energy"]["worst"]) < 1e-29, "{summary}");
@@ -88,8 +75,8 @@ fn the_study_can_judge_a_named_table() {
 #[test]
 fn the_same_seed_gives_the_same_errors() {
     let errors = || -> Vec<String> {
-        let output = carom(&["accuracy", "--quick", "--shots", "3", "--seed", "5", "--table", "textbook", "--json"]);
-        lines(&output).iter().map(|row| format!("{} {} {}", row["method"], row["rest_m"], row["time_s"])).collect()
+        let output = run(&["accuracy", "--quick", "--shots", "3", "--seed", "5", "--table", "textbook", "--json"]);
+        output.json().iter().map(|row| format!("{} {} {}", row["method"], row["rest_m"], row["time_s"])).collect()
     };
     assert_eq!(errors(), errors());
 }
@@ -101,11 +88,9 @@ fn invalid_input_exits_with_two_and_names_accepted_values() {
         (vec!["simulate", "--shot", "0,0,0,0,3", "--dt", "0.1"], "--method steps"),
         (vec!["simulate", "--shot", "0,0,0,0,3", "--method", "steps", "--dt", "7"], "accepted is 3e-7 to 1 s"),
     ] {
-        let output = carom(&arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(output.stdout.is_empty());
-        let text = String::from_utf8(output.stderr).unwrap();
-        assert!(text.contains(words), "{text}");
+        let output = run(&arguments);
+        assert_eq!(output.code, Some(2), "{arguments:?}");
+        assert!(output.out.is_empty() && output.err.contains(words), "{}", output.err);
     }
 }
 
@@ -113,10 +98,9 @@ fn invalid_input_exits_with_two_and_names_accepted_values() {
 fn a_folder_that_cannot_be_created_is_named() {
     let file = tempfile::NamedTempFile::new().unwrap();
     let folder = file.path().join("inside");
-    let output =
-        carom(&["accuracy", "--quick", "--shots", "1", "--table", "textbook", "--out", folder.to_str().unwrap()]);
-    assert_eq!(output.status.code(), Some(1));
-    assert!(String::from_utf8(output.stderr).unwrap().contains("accuracy.csv"));
+    let folder = folder.to_str().unwrap();
+    let output = run(&["accuracy", "--quick", "--shots", "1", "--table", "textbook", "--out", folder]);
+    assert!(output.code == Some(1) && output.err.contains("accuracy.csv"), "{}", output.err);
 }
 
 /// Regression test: the problem was reported only after all measurements, after three minutes or an hour.
@@ -131,28 +115,26 @@ fn an_unwritable_output_folder_is_reported_before_measuring() {
         &["reproduce", "--figure", "29", "--episodes", "100000000"],
     ] {
         let mut command = carom_command(&[arguments, &["--out", out]].concat());
-        let output = command.timeout(std::time::Duration::from_secs(20)).output().unwrap();
-        let message = String::from_utf8(output.stderr).unwrap();
-        assert_eq!((output.status.code(), message.lines().count()), (Some(1), 1), "{arguments:?}: {message}");
-        assert!(message.contains(out) && message.contains("is not a folder") && output.stdout.is_empty(), "{message}");
+        let output = finished(command.timeout(Duration::from_secs(20)));
+        let message = output.err;
+        assert_eq!((output.code, message.lines().count()), (Some(1), 1), "{arguments:?}: {message}");
+        assert!(message.contains(out) && message.contains("is not a folder") && output.out.is_empty(), "{message}");
     }
 }
 
 #[test]
 fn fit_is_refused_with_options_that_would_skip_it() {
     for more in [&["--quick"][..], &["--stability", "--quick"], &["--shots", "1"], &["--filmed", "--out", "here"]] {
-        let output = carom_command(&[&["accuracy", "--fit"], more].concat())
-            .timeout(std::time::Duration::from_secs(20))
-            .output();
-        let output = output.unwrap();
-        assert!(output.status.code() == Some(2) && output.stdout.is_empty(), "{more:?}");
+        let mut command = carom_command(&[&["accuracy", "--fit"], more].concat());
+        let output = finished(command.timeout(Duration::from_secs(20)));
+        assert!(output.code == Some(2) && output.out.is_empty(), "{more:?}");
     }
 }
 
 #[test]
 fn simulate_shows_the_errors_of_fixed_time_steps() {
     let shot = ["simulate", "--shot", "0,0.2,5,12.5,3", "--json"];
-    let play = |more: &[&str]| lines(&carom(&[&shot[..], more].concat())).remove(0);
+    let play = |more: &[&str]| json_answer(&[&shot[..], more].concat());
     let (exact, coarse) = (play(&[]), play(&["--method", "steps", "--dt", "0.01"]));
     let located = play(&["--method", "steps", "--dt", "0.01", "--locate"]);
     let apart = |one: &Value, other: &Value| {
@@ -161,6 +143,6 @@ fn simulate_shows_the_errors_of_fixed_time_steps() {
     };
     assert!(apart(&exact, &coarse) > 1e-3 && apart(&exact, &located) < 1e-10);
     assert!(number(&coarse["deepest_overlap"]) > 1e-3 && coarse["at_rest"] == true && exact.get("steps").is_none());
-    let text = carom(&["simulate", "--shot", "0,0.2,5,12.5,3", "--method", "steps", "--dt", "0.01"]);
-    assert!(String::from_utf8(text.stdout).unwrap().contains("deepest overlap"));
+    let text = stdout(&["simulate", "--shot", "0,0.2,5,12.5,3", "--method", "steps", "--dt", "0.01"]);
+    assert!(text.contains("deepest overlap"));
 }

@@ -1,21 +1,13 @@
 //! What `carom accuracy` and the simulation methods accept and refuse, and which names they accept.
 
-use std::{fs, path::PathBuf, process::Output, time::Duration};
+use std::{fs, path::PathBuf, time::Duration};
 
 use carom::table::Table;
 
-use crate::program::carom_command;
+use crate::program::{Outcome, carom_command, finished};
 
-fn carom(arguments: &[&str]) -> Output {
-    carom_command(arguments).timeout(Duration::from_secs(60)).output().unwrap()
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).unwrap()
-}
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).unwrap()
+fn carom(arguments: &[&str]) -> Outcome {
+    finished(carom_command(arguments).timeout(Duration::from_secs(60)))
 }
 
 /// Returns a folder with a file of the `match` table with these replacements, and the path of the file.
@@ -33,27 +25,22 @@ fn own_table(file: &str, exchanged: &[(&str, &str)]) -> (tempfile::TempDir, Path
 
 #[test]
 fn a_partial_study_skips_the_verdict() {
-    let output = carom(&["accuracy", "--table", "textbook", "--shots", "1"]);
-    assert!(output.status.success(), "{}", stderr(&output));
-    assert!(
-        stdout(&output).contains("steps, dt 1e-6 s") && !stdout(&output).contains("verdict"),
-        "{}",
-        stdout(&output)
-    );
-    assert!(stderr(&output).contains("--stability"), "{}", stderr(&output));
+    let output = carom(&["accuracy", "--table", "textbook", "--shots", "1"]).ok();
+    assert!(output.out.contains("steps, dt 1e-6 s") && !output.out.contains("verdict"), "{}", output.out);
+    assert!(output.err.contains("--stability"), "{}", output.err);
 }
 
 #[test]
 fn the_time_step_named_in_a_refusal_is_accepted() {
     let step = |shot: &str, dt: &str| carom(&["simulate", "--shot", shot, "--method", "steps", "--dt", dt]);
-    let stderr_of = |dt: &str| stderr(&step("0,0,0,0,3", dt));
+    let stderr_of = |dt: &str| step("0,0,0,0,3", dt).err;
     let refused = stderr_of("0.00003");
     let named = refused.split("accepted is ").nth(1).and_then(|rest| rest.split(" s or more").next()).expect(&refused);
     // This takes seconds in a build without optimisation; only acceptance matters here.
     assert!(!stderr_of(named).contains("steps; accepted"), "{named}: {}", stderr_of(named));
     let least = stderr_of("1e-320");
     assert!(least.contains("dt = 1e-320 s") && least.contains("accepted is 3e-7 to 1 s"), "{least}");
-    assert!(step("0,0,0,0,0.001", "3e-7").status.success(), "{}", stderr(&step("0,0,0,0,0.001", "3e-7")));
+    step("0,0,0,0,0.001", "3e-7").ok();
 }
 
 #[test]
@@ -61,10 +48,9 @@ fn a_table_of_another_size_than_the_films_is_refused() {
     let (_folder, small) = own_table("small.toml", &[("L = 2.84", "L = 2.54")]);
     for more in [&["--table", "thesis"][..], &["--table", "thesis", "--fit"], &["--table", small.to_str().unwrap()]] {
         let output = carom(&[&["accuracy", "--filmed"], more].concat());
-        assert!(output.status.code() == Some(2) && output.stdout.is_empty(), "{more:?}");
-        let stderr = stderr(&output);
-        assert!(stderr.contains("L = 2.54 m") && stderr.contains("2.84 m"), "{stderr}");
-        assert_eq!(stderr.lines().count(), 1, "{stderr}");
+        assert!(output.code == Some(2) && output.out.is_empty(), "{more:?}");
+        assert!(output.err.contains("L = 2.54 m") && output.err.contains("2.84 m"), "{}", output.err);
+        assert_eq!(output.err.lines().count(), 1, "{}", output.err);
     }
 }
 
@@ -78,12 +64,8 @@ fn an_unsupported_table_ends_the_study_with_the_reason() {
         let out = folder.path().join("report");
         let at = [path.to_str().unwrap(), out.to_str().unwrap()];
         let output = carom(&["accuracy", "--quick", "--shots", "3", "--table", at[0], "--out", at[1]]);
-        assert!(output.status.code() == Some(1) && output.stdout.is_empty(), "{}", stdout(&output));
-        assert!(
-            stderr(&output).contains(reason) && stderr(&output).contains("none of the 3 shots"),
-            "{}",
-            stderr(&output)
-        );
+        assert!(output.code == Some(1) && output.out.is_empty(), "{}", output.out);
+        assert!(output.err.contains(reason) && output.err.contains("none of the 3 shots"), "{}", output.err);
         assert!(!out.join("accuracy.csv").exists());
     }
 }
@@ -93,15 +75,13 @@ fn a_table_name_with_a_comma_stays_one_csv_field() {
     let (folder, path) = own_table("a table.toml", &[("name = \"match\"", "name = \"my \\\"big\\\", table\"")]);
     let out = folder.path().join("report");
     let at = [path.to_str().unwrap(), out.to_str().unwrap()];
-    let output = carom(&["accuracy", "--quick", "--shots", "3", "--table", at[0], "--out", at[1]]);
-    assert!(output.status.success(), "{}", stderr(&output));
+    let output = carom(&["accuracy", "--quick", "--shots", "3", "--table", at[0], "--out", at[1]]).ok();
     let csv = fs::read_to_string(out.join("accuracy.csv")).unwrap();
     let mut columns: Vec<usize> = csv.lines().map(columns_of).collect();
     columns.dedup();
     assert_eq!(columns.len(), 1, "{csv}");
     assert!(csv.contains("\"my \"\"big\"\", table\","), "{csv}");
-    let text = stdout(&output);
-    let again = text.lines().find(|line| line.starts_with("carom simulate")).unwrap();
+    let again = output.out.lines().find(|line| line.starts_with("carom simulate")).unwrap();
     assert!(again.starts_with(&format!("carom simulate --table '{}' --layout=", at[0])), "{again}");
 }
 
@@ -112,10 +92,10 @@ fn columns_of(line: &str) -> usize {
 
 #[test]
 fn extreme_numbers_are_printed_in_scientific_notation() {
-    let late = carom(&["simulate", "--shot", "0,0,0,0,3", "--at", "1e308"]);
-    assert!(late.status.success() && stdout(&late).contains("after 1e308 s:"), "{}", stdout(&late));
+    let late = carom(&["simulate", "--shot", "0,0,0,0,3", "--at", "1e308"]).ok();
+    assert!(late.out.contains("after 1e308 s:"), "{}", late.out);
     let line =
         r#"{"preset":"textbook","layout":[[0,0],[0.5,0],[0,0.4]],"impulse":{"velocity":[1,0,1e-320],"spin":[0,0,0]}}"#;
-    let output = carom_command(&["simulate", "--batch", "-"]).write_stdin(line).output().unwrap();
-    assert!(stdout(&output).contains("impulse.velocity has 1e-320 m/s upwards"), "{}", stdout(&output));
+    let output = finished(carom_command(&["simulate", "--batch", "-"]).write_stdin(line));
+    assert!(output.out.contains("impulse.velocity has 1e-320 m/s upwards"), "{}", output.out);
 }

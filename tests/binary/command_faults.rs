@@ -2,22 +2,19 @@
 
 use serde_json::{Value, json};
 
-use crate::program::{carom as carom_of, carom_command as carom, folder};
-
-/// Returns the standard output of a successful command.
-fn stdout(args: &[&str]) -> String {
-    String::from_utf8(carom(args).assert().success().get_output().stdout.clone()).unwrap()
-}
-
-fn json_output(args: &[&str]) -> Value {
-    serde_json::from_str(&stdout(args)).unwrap()
-}
+use crate::program::{carom as carom_of, carom_command as carom, drill, finished, folder, json_answer, run, stdout};
 
 /// Returns the error message of a refused command.
 fn refusal(args: &[&str]) -> String {
-    let output = carom(args).output().unwrap();
-    assert!(!output.status.success() && output.stdout.is_empty(), "{output:?}");
-    String::from_utf8(output.stderr).unwrap()
+    let output = run(args);
+    assert!(output.code != Some(0) && output.out.is_empty(), "{}", output.out);
+    output.err
+}
+
+/// Returns the answer to one line of a batch.
+fn batch_answer(args: &[&str], line: &str) -> Value {
+    let output = finished(carom(&[args, &["--batch", "-"]].concat()).write_stdin(line)).ok();
+    serde_json::from_str(&output.out).unwrap()
 }
 
 const LAYOUT: &str = "-0.5,0 0,0 0.5,0.03";
@@ -43,13 +40,13 @@ fn a_simulated_shot_is_judged_by_the_requested_rule() {
 
 #[test]
 fn json_output_contains_the_verdict_in_addition_to_events() {
-    let straight = json_output(&simulate(ONE_CUSHION, &["--json"]));
+    let straight = json_answer(&simulate(ONE_CUSHION, &["--json"]));
     let judged = |answer: &Value| json!([answer["rule"], answer["point"], answer["cushions_before_second"]]);
     assert_eq!(judged(&straight), json!(["straight", true, 1]));
     assert!(straight["events"].is_array() && straight["final"].is_array() && straight["duration"].is_number());
-    let three = json_output(&simulate(ONE_CUSHION, &["--json", "--rule", "three-cushion"]));
+    let three = json_answer(&simulate(ONE_CUSHION, &["--json", "--rule", "three-cushion"]));
     assert_eq!(judged(&three), json!(["three-cushion", false, 1]));
-    let missed = json_output(&simulate("0,0,0,90,0.5", &["--json"]));
+    let missed = json_answer(&simulate("0,0,0,90,0.5", &["--json"]));
     assert_eq!((&missed["point"], missed.get("cushions_before_second")), (&json!(false), None));
 }
 
@@ -62,31 +59,25 @@ fn a_stroke_onto_a_touching_ball_is_a_foul() {
     let foul = "the stroke pushes yellow, which touches the cue ball";
     let shot = |shot: &'static str, more: &[&'static str]| [&["simulate", "--shot", shot], &frozen[..], more].concat();
     assert!(stdout(&shot("0,-0.4,5,0,3", &[])).contains(&format!("Foul: {foul} (straight)")));
-    let at_it = json_output(&shot("0,-0.4,5,0,3", &["--json"]));
+    let at_it = json_answer(&shot("0,-0.4,5,0,3", &["--json"]));
     assert_eq!((&at_it["point"], &at_it["foul"]), (&json!(false), &json!(foul)));
     assert_eq!((&at_it["cushions_before_second"], at_it["events"].is_array()), (&json!(0), true));
-    let away = json_output(&shot("0,0,5,180,3", &["--json"]));
+    let away = json_answer(&shot("0,0,5,180,3", &["--json"]));
     assert_eq!((&away["point"], away.get("foul")), (&json!(true), None));
     let batch = json!({"preset": "match", "layout": [[0, 0], [0.0615, 0], [-0.3, 0.02]], "impulse": at_it["impulse"]});
-    let output = carom(&["simulate", "--batch", "-"]).write_stdin(batch.to_string()).assert().success();
-    let given: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
+    let given = batch_answer(&["simulate"], &batch.to_string());
     assert_eq!((&given["point"], &given["foul"]), (&json!(false), &json!(foul)));
-    let drill = |args: &[&str]| {
-        let output = carom(&[&["drill"], args].concat()).env("XDG_DATA_HOME", home.path()).output().unwrap();
-        String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap()
-    };
-    drill(&[&["save", "frozen"], &frozen[..]].concat());
-    let tried = drill(&["try", "frozen", "--shot", "0,-0.4,5,0,3", "--skill", "perfect"]);
+    drill(home.path(), &[&["save", "frozen"], &frozen[..]].concat());
+    let tried = drill(home.path(), &["try", "frozen", "--shot", "0,-0.4,5,0,3", "--skill", "perfect"]).out;
     assert!(tried.contains(&format!("Foul: {foul}")), "{tried}");
 }
 
 /// The printed impulse of the stroke, used as input, plays the same shot; the motion of the balls is reported at any time.
 #[test]
 fn the_impulse_can_be_replayed_and_states_listed_at_times() {
-    let stroke = json_output(&simulate("0,0.4,0,0,2", &["--json", "--at", "0,0.5,100"]));
+    let stroke = json_answer(&simulate("0,0.4,0,0,2", &["--json", "--at", "0,0.5,100"]));
     let line = json!({"preset": "match", "layout": [[-0.5, 0], [0, 0], [0.5, 0.03]], "impulse": stroke["impulse"]});
-    let output = carom(&["simulate", "--batch", "-", "--at", "0.5"]).write_stdin(line.to_string()).assert().success();
-    let replayed: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
+    let replayed = batch_answer(&["simulate", "--at", "0.5"], &line.to_string());
     assert_eq!((&replayed["final"], &replayed["moments"][0]), (&stroke["final"], &stroke["moments"][1]));
     let white = |moment: usize| &stroke["moments"][moment]["balls"][0];
     let speed = |moment: usize| white(moment)["velocity"][0].as_f64().unwrap();
@@ -128,9 +119,8 @@ fn a_batch_line_may_name_its_own_rule() {
         format!(r#"{{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"cue":{cue}{rule}}}"#)
     };
     let input = [line(""), line(r#","rule":"straight""#)].join("\n");
-    let output = carom(&["simulate", "--batch", "-", "--rule", "three-cushion"]).write_stdin(input).assert().success();
-    let output = String::from_utf8(output.get_output().stdout.clone()).unwrap();
-    let rules: Vec<Value> = output.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let args = ["simulate", "--batch", "-", "--rule", "three-cushion"];
+    let rules = finished(carom(&args).write_stdin(input)).ok().json();
     assert_eq!(
         rules.iter().map(|line| (&line["rule"], &line["point"])).collect::<Vec<_>>(),
         [(&json!("three-cushion"), &json!(false)), (&json!("straight"), &json!(true))]
@@ -160,17 +150,17 @@ fn a_refused_line_names_field_value_and_accepted_values() {
         (whole.replacen("match", "match\" \"", 1), &[" is not JSON"]),
         (whole.replacen("\"rule\"", "\"preset\": \"thesis\", \"rule\"", 1), &["\"preset\" occurs twice"]),
     ] {
-        let output = carom(&["simulate", "--batch", "-"]).write_stdin(line.clone()).output().unwrap();
-        let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let output = finished(carom(&["simulate", "--batch", "-"]).write_stdin(line.clone()));
+        let answer: Value = serde_json::from_str(&output.out).unwrap();
         let error = answer["error"].as_str().unwrap();
-        assert!(output.status.code() == Some(2) && error.starts_with("line 1 "), "{error}");
+        assert!(output.code == Some(2) && error.starts_with("line 1 "), "{error}");
         assert!(words.iter().all(|word| error.contains(word)) && error.len() < 600, "{line:.200}: {error}");
         let jargon = ["invalid type", "f64", "array of length", "variant", "EOF"];
         assert!(!jargon.iter().any(|word| error.contains(*word)), "{error}");
     }
     let wrong = json!({"preset": "match", "layout": [[0, 0], [0.5, 0]], "rule": "straight"}).to_string();
-    let output = carom(&["recommend", "--batch", "-"]).write_stdin(wrong).output().unwrap();
-    assert!(String::from_utf8(output.stdout).unwrap().contains("three pairs [x, y]"));
+    let output = finished(carom(&["recommend", "--batch", "-"]).write_stdin(wrong));
+    assert!(output.out.contains("three pairs [x, y]"));
 }
 
 #[test]
@@ -201,18 +191,17 @@ fn directions_are_printed_from_0_to_below_360_degrees() {
         let phi: f64 = other.split(',').nth(3).unwrap().parse().unwrap();
         assert!((0.0..360.0).contains(&phi), "{other}");
     }
-    let save = ["drill", "save", "down", "--replace", "--layout", layout, "--shot", "0,0,2,-30,3"];
+    let save = ["save", "down", "--replace", "--layout", layout, "--shot", "0,0,2,-30,3"];
     let home = tempfile::tempdir().unwrap();
-    carom(&save).env("XDG_DATA_HOME", home.path()).assert().success();
-    let shown = carom(&["drill", "show", "down"]).env("XDG_DATA_HOME", home.path()).output().unwrap().stdout;
-    let shown = String::from_utf8(shown).unwrap();
+    drill(home.path(), &save).ok();
+    let shown = drill(home.path(), &["show", "down"]).out;
     assert!(shown.contains("0.0000,0.0000,2.000,330.000,3.000"), "{shown}");
 }
 
 #[test]
 fn self_play_minutes_may_be_fractional() {
     let args = ["evaluate", "--self-play", "--layouts", "2", "--budget-ms", "20", "--most-points", "1", "--minutes"];
-    let report = json_output(&[&args[..], &["0.3", "--json"]].concat());
+    let report = json_answer(&[&args[..], &["0.3", "--json"]].concat());
     assert_eq!(report["innings"], 2);
     for wrong in ["0", "-1", "NaN"] {
         let minutes = format!("--minutes={wrong}");
@@ -223,8 +212,7 @@ fn self_play_minutes_may_be_fractional() {
 
 #[test]
 fn an_exercise_is_found_by_its_title_or_a_prefix() {
-    let list = stdout(&["drill", "list", "--json"]);
-    let exercises: Vec<Value> = list.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let exercises = run(&["drill", "list", "--json"]).ok().json();
     let text = |exercise: &Value, key: &str| exercise[key].as_str().unwrap().to_owned();
     let (name, title) = (text(&exercises[3], "name"), text(&exercises[3], "title"));
     let by_name = stdout(&["drill", "show", &name]);
@@ -236,8 +224,7 @@ fn an_exercise_is_found_by_its_title_or_a_prefix() {
     assert!(refusal(&["drill", "show", "no such exercise"]).contains("carom drill list"));
     // The record belongs to the exercise, whichever name was used.
     let home = tempfile::tempdir().unwrap();
-    let practise = |args: &[&str]| carom(args).env("XDG_DATA_HOME", home.path()).output().unwrap();
-    assert!(practise(&["drill", "log", &title, "make"]).status.success());
-    let history = String::from_utf8(practise(&["drill", "history", &title, "--json"]).stdout).unwrap();
+    drill(home.path(), &["log", &title, "make"]).ok();
+    let history = drill(home.path(), &["history", &title, "--json"]).out;
     assert!(history.contains("\"made\":1"), "{history}");
 }

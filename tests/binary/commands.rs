@@ -2,25 +2,20 @@
 
 use std::path::Path;
 
-use assert_cmd::Command;
 use serde_json::Value;
 
-use crate::program::carom_command as carom;
+use crate::program::{Outcome, carom_command as carom, finished, json_answer, run, stdout};
 
-fn json(args: &[&str]) -> Value {
-    let output = carom(args).assert().success().get_output().stdout.clone();
-    serde_json::from_slice(&output).unwrap()
-}
-
-fn lines(output: &[u8]) -> Vec<Value> {
-    String::from_utf8_lossy(output).lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+/// Answers lines of a batch.
+fn batch(args: &[&str], lines: impl Into<Vec<u8>>) -> Outcome {
+    finished(carom(&[args, &["--batch", "-"]].concat()).write_stdin(lines))
 }
 
 /// Returns the exit code and the message for input that must leave the standard output empty.
-fn refusal(command: &mut Command) -> (i32, String) {
-    let output = command.output().unwrap();
-    assert!(output.stdout.is_empty(), "nothing may be written for refused input");
-    (output.status.code().unwrap(), String::from_utf8(output.stderr).unwrap())
+fn refusal(args: &[&str]) -> (i32, String) {
+    let output = run(args);
+    assert!(output.out.is_empty(), "nothing may be written for refused input");
+    (output.code.unwrap(), output.err)
 }
 
 const LAYOUT: &str = "-0.5,0 0,0 0.5,0.03";
@@ -28,10 +23,9 @@ const SHOT: &str = "0,0.3,0,1,4";
 
 #[test]
 fn simulate_prints_events_as_text_and_json() {
-    let text = carom(&["simulate", "--layout", LAYOUT, "--shot", SHOT]).assert().success();
-    let text = String::from_utf8_lossy(&text.get_output().stdout).into_owned();
+    let text = stdout(&["simulate", "--layout", LAYOUT, "--shot", SHOT]);
     assert!(text.contains("impulse: V0 = (4.9") && text.contains("ball-ball") && text.contains("all still after"));
-    let answer = json(&["simulate", "--layout", LAYOUT, "--shot", SHOT, "--json"]);
+    let answer = json_answer(&["simulate", "--layout", LAYOUT, "--shot", SHOT, "--json"]);
     assert_eq!(answer["events"][0]["kind"], "ball-ball");
     assert_eq!(answer["events"][0]["balls"], serde_json::json!([0, 1]));
     assert_eq!(answer["final"].as_array().unwrap().len(), 3);
@@ -40,8 +34,8 @@ fn simulate_prints_events_as_text_and_json() {
 
 #[test]
 fn layouts_may_be_given_in_diamonds() {
-    let metres = json(&["simulate", "--layout", "-0.71,0 0.71,0 -0.71,0.355", "--shot", SHOT, "--json"]);
-    let diamonds = json(&["simulate", "--layout", "2d,2d 6d,2d 2d,3d", "--shot", SHOT, "--json"]);
+    let metres = json_answer(&["simulate", "--layout", "-0.71,0 0.71,0 -0.71,0.355", "--shot", SHOT, "--json"]);
+    let diamonds = json_answer(&["simulate", "--layout", "2d,2d 6d,2d 2d,3d", "--shot", SHOT, "--json"]);
     assert_eq!(metres["events"], diamonds["events"]);
 }
 
@@ -51,28 +45,28 @@ fn a_batch_answers_every_line_and_continues_after_errors() {
     let mut input: Vec<&str> = shots.lines().take(3).collect();
     input.insert(1, r#"{"preset": "match", "layout": [[0,0],[0,0.01],[1,0]], "cue": {"a":0,"b":0,"theta_deg":0,"phi_deg":0,"speed":1}}"#);
     input.push("not json");
-    let output = carom(&["simulate", "--batch", "-"]).write_stdin(input.join("\n")).assert().code(2);
-    let answers = lines(&output.get_output().stdout);
-    assert_eq!(answers.len(), 5);
+    let output = batch(&["simulate"], input.join("\n"));
+    let answers = output.json();
+    assert_eq!((output.code, answers.len()), (Some(2), 5));
     let refused = answers[1]["error"].as_str().unwrap();
     assert!(refused.starts_with("line 2: ") && refused.contains("0.0100"), "{refused}");
     assert!(answers[4]["error"].as_str().unwrap().contains("line 5"));
     let expected: Value = serde_json::from_str(shots.lines().next().unwrap()).unwrap();
     let difference = answers[0]["duration"].as_f64().unwrap() - expected["duration"].as_f64().unwrap();
     assert!(difference.abs() < 1e-9);
-    assert!(String::from_utf8_lossy(&output.get_output().stderr).contains("2 of 5 lines"));
+    assert!(output.err.contains("2 of 5 lines"));
 }
 
 #[test]
 fn the_recommended_shot_makes_the_point_when_simulated() {
-    let answer = json(&["recommend", "--layout", LAYOUT, "--json"]);
+    let answer = json_answer(&["recommend", "--layout", LAYOUT, "--json"]);
     assert_eq!(answer["solved"], true);
     let cue = &answer["cue"];
     let number = |key: &str| cue[key].as_f64().unwrap();
     assert!(number("a").powi(2) + number("b").powi(2) <= 0.25);
     let shot =
         format!("{},{},{},{},{}", number("a"), number("b"), number("theta_deg"), number("phi_deg"), number("speed"));
-    let played = json(&["simulate", "--layout", LAYOUT, "--shot", &shot, "--json"]);
+    let played = json_answer(&["simulate", "--layout", LAYOUT, "--shot", &shot, "--json"]);
     let meets = |ball: u64| {
         let pair = serde_json::json!([0, ball]);
         played["events"].as_array().unwrap().iter().any(|event| event["kind"] == "ball-ball" && event["balls"] == pair)
@@ -87,7 +81,7 @@ fn the_recommended_shot_makes_the_point_when_simulated() {
 fn a_recommendation_is_described_in_players_words() {
     let args =
         [&["recommend", "--layout", LAYOUT, "--skill", "club", "--margins"][..], &["--simulations", "4000"]].concat();
-    let answer = json(&[&args[..], &["--json"]].concat());
+    let answer = json_answer(&[&args[..], &["--json"]].concat());
     let words = &answer["words"];
     let sentence = words["sentence"].as_str().unwrap();
     assert!(sentence.contains(" table length") && sentence.contains("cue"), "{sentence}");
@@ -100,8 +94,7 @@ fn a_recommendation_is_described_in_players_words() {
     let text = |settings: &str| {
         std::fs::create_dir_all(home.path().join("carom")).unwrap();
         std::fs::write(home.path().join("carom/config.toml"), settings).unwrap();
-        let printed = carom(&args).env("XDG_CONFIG_HOME", home.path()).env("HOME", home.path()).output().unwrap();
-        String::from_utf8(printed.stdout).unwrap()
+        finished(carom(&args).env("XDG_CONFIG_HOME", home.path()).env("HOME", home.path())).out
     };
     let printed = text("");
     assert_eq!(printed.lines().next(), Some(sentence), "{printed}");
@@ -128,10 +121,7 @@ fn a_recommendation_is_described_in_players_words() {
 
 #[test]
 fn transitions_to_rolling_are_listed_on_request() {
-    let text = |more: &[&str]| {
-        let args = [&["simulate", "--layout", LAYOUT, "--shot", SHOT], more].concat();
-        String::from_utf8(carom(&args).output().unwrap().stdout).unwrap()
-    };
+    let text = |more: &[&str]| stdout(&[&["simulate", "--layout", LAYOUT, "--shot", SHOT], more].concat());
     assert!(!text(&[]).contains("sliding-rolling") && text(&["--rolls"]).contains("sliding-rolling"));
 }
 
@@ -141,7 +131,7 @@ fn a_recommendation_has_interval_margins_maps_and_alternatives() {
     let time = ["--budget-ms", "5000", "--simulations", "20000"];
     let args =
         [&["recommend", "--layout", LAYOUT, "--skill", own, "--margins", "--plan", "--json"][..], &time].concat();
-    let answer = json(&args);
+    let answer = json_answer(&args);
     let [rate, low, high] = [&answer["make_probability"], &answer["make_interval"][0], &answer["make_interval"][1]]
         .map(|n| n.as_f64().unwrap());
     assert!(0.0 < low && low <= rate && rate <= high && high <= 1.0);
@@ -151,26 +141,27 @@ fn a_recommendation_has_interval_margins_maps_and_alternatives() {
     assert_eq!(answer["margins"].as_array().unwrap().len(), 5);
     assert_eq!(answer["maps"][0]["outcomes"][20][20], "point", "the shot is in the middle");
     assert!(answer["aim"]["hit"]["fullness"].is_number());
-    let (code, message) = refusal(&mut carom(&["recommend", "--skill", "a=0.7,b=0.7,theta=0.2,phi=-1,V=0.1"]));
+    let (code, message) = refusal(&["recommend", "--skill", "a=0.7,b=0.7,theta=0.2,phi=-1,V=0.1"]);
     assert!(code == 2 && message.contains("phi = -1") && message.contains("0 to 45 degrees"), "{message}");
 }
 
 #[test]
 fn self_play_counts_points_and_misses() {
     let args = ["evaluate", "--self-play", "--rule", "three-cushion", "--skill", "beginner", "--layouts", "3"];
-    let report = json(&[&args[..], &["--budget-ms", "20", "--most-points", "2", "--json"]].concat());
+    let report = json_answer(&[&args[..], &["--budget-ms", "20", "--most-points", "2", "--json"]].concat());
     let number = |key: &str| report[key].as_u64().unwrap();
     assert_eq!(report["runs"].as_array().unwrap().len(), 3);
     assert_eq!(number("misses") + number("broken_off"), 3);
     assert!(number("longest") <= 2 && number("points") <= 6);
     // With a single turn, the mean must equal the slowest turn. Regression test: the mean included the time to play the shot, too.
-    let turn = json(&["evaluate", "--self-play", "--layouts", "1", "--most-points", "1", "--budget-ms", "9", "--json"]);
+    let turn =
+        json_answer(&["evaluate", "--self-play", "--layouts", "1", "--most-points", "1", "--budget-ms", "9", "--json"]);
     assert_eq!(turn["mean_ms"], turn["slowest_ms"]);
 }
 
 #[test]
 fn policy_only_recommends_without_simulations() {
-    let answer = json(&["recommend", "--policy-only", "--json"]);
+    let answer = json_answer(&["recommend", "--policy-only", "--json"]);
     assert_eq!((&answer["source"], &answer["simulations"]), (&"policy".into(), &0.into()));
 }
 
@@ -180,7 +171,7 @@ fn make_probability_is_omitted_for_networks_trained_without_errors() {
     let is_told = |model: &str, skill| {
         let policy = models.join(model).with_extension("safetensors");
         let policy = ["--rule", "three-cushion", "--policy", policy.to_str().unwrap(), "--skill", skill];
-        json(&[&["recommend", "--policy-only", "--json"][..], &policy].concat())["make_probability"].is_number()
+        json_answer(&[&["recommend", "--policy-only", "--json"][..], &policy].concat())["make_probability"].is_number()
     };
     assert!(is_told("match-three-cushion", "perfect") && !is_told("match-three-cushion", "club"));
     assert!(is_told("context-three-cushion", "club") && !is_told("thesis-three-cushion", "perfect"));
@@ -193,11 +184,9 @@ fn each_recommend_batch_line_has_its_own_rule_and_table() {
 {"preset":"snooker","layout":[[-0.5,0],[0,0],[0.5,0.03]]}
 {"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"rule":"four-cushion"}
 {"layout":[[-0.5,0],[0,0],[0.5,0.03]]}"#;
-    let output = carom(&["recommend", "--batch", "-", "--budget-ms", "5000", "--simulations", "20000"])
-        .write_stdin(input)
-        .assert()
-        .code(2);
-    let answers = lines(&output.get_output().stdout);
+    let output = batch(&["recommend", "--budget-ms", "5000", "--simulations", "20000"], input);
+    let answers = output.json();
+    assert_eq!(output.code, Some(2));
     assert_eq!((&answers[0]["solved"], &answers[1]["solved"]), (&true.into(), &true.into()));
     assert!(answers[2]["error"].as_str().unwrap().contains("snooker"));
     assert!(answers[3]["error"].as_str().unwrap().contains("four-cushion"));
@@ -209,24 +198,21 @@ fn at_timeout_the_best_attempt_is_reported_as_such() {
     // The balls are in three corners and there is time for one batch of simulated shots at most, which finds no three-cushion shot.
     let layout = "-1.38,-0.67 1.38,0.67 1.38,-0.67";
     let args = ["recommend", "--table", "thesis", "--layout", "-1.2,-0.6 1.2,0.6 1.2,-0.6", "--rule", "three-cushion"];
-    let output = carom(&args).args(["--budget-ms", "0", "--json"]).output().unwrap();
-    let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(answer["solved"], false);
-    assert_eq!(output.status.code(), Some(1));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("best attempt"));
+    let output = run(&[&args[..], &["--budget-ms", "0", "--json"]].concat());
+    assert_eq!((&output.json()[0]["solved"], output.code), (&Value::Bool(false), Some(1)));
+    assert!(output.err.contains("best attempt"));
     // The same on the table that has a policy must also end, whatever it finds.
-    carom(&["recommend", "--layout", layout, "--budget-ms", "0"]).output().unwrap();
+    run(&["recommend", "--layout", layout, "--budget-ms", "0"]);
 }
 
 #[test]
 fn an_unmet_first_contact_wish_is_reported() {
     let recommend = |seed: &str| {
         let args = ["recommend", "--first", "cushion", "--simulations", "100", "--seed", seed];
-        let output = carom(&args).output().unwrap();
-        assert_eq!(output.status.code(), Some(1));
-        let text = String::from_utf8(output.stdout).unwrap();
-        assert!(!text.contains("Pattern: "), "{text}");
-        (text.starts_with("Bottom long rail first"), String::from_utf8(output.stderr).unwrap())
+        let output = run(&args);
+        assert_eq!(output.code, Some(1));
+        assert!(!output.out.contains("Pattern: "), "{}", output.out);
+        (output.out.starts_with("Bottom long rail first"), output.err)
     };
     let (keeps_wish, message) = recommend("0");
     assert!(!keeps_wish && message.contains("with cushion first in "), "{message}");
@@ -241,10 +227,9 @@ fn an_unmet_first_contact_wish_is_reported() {
 #[test]
 fn a_game_cannot_open_with_yellow() {
     let args = ["recommend", "--rule", "three-cushion", "--first", "yellow", "--simulations", "100"];
-    let output = carom(&args).output().unwrap();
-    let message = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(1));
-    assert!(message.contains("there is no point with yellow first: a game opens with red"), "{message}");
+    let output = run(&args);
+    assert_eq!(output.code, Some(1));
+    assert!(output.err.contains("there is no point with yellow first: a game opens with red"), "{}", output.err);
 }
 
 #[test]
@@ -266,7 +251,7 @@ fn invalid_input_gets_one_sentence_and_exit_code_two() {
         (&["recommend", "--table", cellar, "--policy-only"], &["cellar", "--policy"]),
     ];
     for (args, words) in cases {
-        let (code, message) = refusal(&mut carom(args));
+        let (code, message) = refusal(args);
         assert_eq!((code, message.lines().count()), (2, 1), "{args:?}: {message}");
         for word in words {
             assert!(message.contains(word), "{args:?} says {message}");
@@ -285,7 +270,7 @@ fn negative_numbers_are_refused_by_range_not_as_options() {
         (&["evaluate", "--layouts", "-2"], &["from 1 to 10000000", "--layouts"]),
         (&["train", "--threads", "-1"], &["from 1 to 1024", "--threads"]),
     ] {
-        let (code, message) = refusal(&mut carom(args));
+        let (code, message) = refusal(args);
         assert_eq!(code, 2, "{args:?}: {message}");
         assert!(
             words.iter().all(|word| message.contains(word)) && !message.contains("unexpected"),
@@ -296,7 +281,7 @@ fn negative_numbers_are_refused_by_range_not_as_options() {
 
 #[test]
 fn without_a_terminal_the_message_names_a_command() {
-    let (code, message) = refusal(&mut carom(&[]));
+    let (code, message) = refusal(&[]);
     assert_eq!(code, 2);
     assert!(message.contains("carom recommend"), "{message}");
 }
@@ -308,30 +293,30 @@ fn a_users_table_is_read_from_toml() {
     let text = include_str!("../../src/table/match.toml").replace("\"match\"", "\"club\"");
     std::fs::write(&path, &text).unwrap();
     let table = path.to_str().unwrap();
-    let own = json(&["simulate", "--table", table, "--layout", LAYOUT, "--shot", SHOT, "--json"]);
-    assert_eq!(own, json(&["simulate", "--layout", LAYOUT, "--shot", SHOT, "--json"]));
+    let own = json_answer(&["simulate", "--table", table, "--layout", LAYOUT, "--shot", SHOT, "--json"]);
+    assert_eq!(own, json_answer(&["simulate", "--layout", LAYOUT, "--shot", SHOT, "--json"]));
     std::fs::write(&path, text.replace("mu_s = 0.2", "mu_s = -1")).unwrap();
-    let (code, message) = refusal(&mut carom(&["simulate", "--table", table, "--shot", SHOT]));
+    let (code, message) = refusal(&["simulate", "--table", table, "--shot", SHOT]);
     assert!(code == 2 && message.contains("mu_s = -1"), "{message}");
 }
 
 #[test]
 fn the_recommender_finds_a_point_on_all_of_two_thousand_layouts() {
-    let report = json(&["evaluate", "--layouts", "2000", "--seed", "11", "--json"]);
+    let report = json_answer(&["evaluate", "--layouts", "2000", "--seed", "11", "--json"]);
     assert_eq!(report["success"]["successes"], 2000);
 }
 
 #[test]
 fn a_table_before_the_subcommand_is_not_silently_ignored() {
-    let (code, message) = refusal(&mut carom(&["--table", "thesis", "recommend"]));
+    let (code, message) = refusal(&["--table", "thesis", "recommend"]);
     assert!(code == 2 && message.contains("--table"), "{message}");
 }
 
 #[test]
 fn batch_errors_name_the_line_number_in_the_file() {
-    let output =
-        carom(&["simulate", "--batch", "-"]).write_stdin(b"\n\n{\"preset\": 3}\n\xff\n".to_vec()).assert().code(2);
-    let answers = lines(&output.get_output().stdout);
+    let output = batch(&["simulate"], b"\n\n{\"preset\": 3}\n\xff\n");
+    let answers = output.json();
+    assert_eq!(output.code, Some(2));
     let error = |index: usize| answers[index]["error"].as_str().unwrap().to_owned();
     assert!(error(0).contains("line 3") && !error(0).contains("line 1"), "{}", error(0));
     assert!(error(1).contains("line 4"), "{}", error(1));
@@ -342,7 +327,7 @@ fn a_modified_table_with_a_bundled_name_has_no_policy() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("match.toml");
     std::fs::write(&path, include_str!("../../src/table/match.toml").replace("L = 2.84", "L = 4.0")).unwrap();
-    let (code, message) = refusal(&mut carom(&["recommend", "--policy-only", "--table", path.to_str().unwrap()]));
+    let (code, message) = refusal(&["recommend", "--policy-only", "--table", path.to_str().unwrap()]);
     assert!(code == 2 && message.contains("no policy is bundled"), "{message}");
 }
 
@@ -353,7 +338,7 @@ fn a_recommendation_includes_the_matching_diamond_system() {
     let args = ["recommend", "--rule", "three-cushion", "--budget-ms", "60000", "--simulations", "20000"];
     let mut counted = 0;
     for seed in ["0", "1", "2"] {
-        let answer = json(&[&args[..], &["--layout", layout, "--seed", seed, "--json"]].concat());
+        let answer = json_answer(&[&args[..], &["--layout", layout, "--seed", seed, "--json"]].concat());
         let system = &answer["system"];
         let number = |name: &str| system[name].as_f64().unwrap();
         match system["name"].as_str() {
@@ -365,9 +350,9 @@ fn a_recommendation_includes_the_matching_diamond_system() {
         }
         if let Some(name) = system["name"].as_str() {
             counted += 1;
-            let text = carom(&[&args[..], &["--layout", layout, "--seed", seed]].concat()).output().unwrap().stdout;
+            let text = run(&[&args[..], &["--layout", layout, "--seed", seed]].concat()).out;
             let line = if name == "parallel-shift" { "Parallel shift: " } else { "aim at " };
-            assert!(String::from_utf8(text).unwrap().contains(line), "{name}");
+            assert!(text.contains(line), "{name}");
         }
     }
     assert!(counted > 0, "no shot of three seeds takes three cushions in a row");
@@ -385,18 +370,16 @@ fn simulate_reports_jumps_and_balls_off_the_table() {
     let folder = tempfile::tempdir().unwrap();
     let table = flying_table(folder.path());
     let jump = ["simulate", "--table", &table, "--layout", "-0.5,0 -0.2,0.3 0.9,0.5", "--shot", "0,0,45,0,3"];
-    let text = carom(&jump).assert().success();
-    let text = String::from_utf8_lossy(&text.get_output().stdout).into_owned();
+    let text = stdout(&jump);
     assert!(text.contains(" mm high, ") && text.contains(" far\n") && text.contains("lands"), "{text}");
-    let answer = json(&[&jump[..], &["--json"]].concat());
+    let answer = json_answer(&[&jump[..], &["--json"]].concat());
     let first = &answer["events"][0];
     assert!(first["kind"] == "jumps" && first["height"].as_f64().unwrap() > 0.02, "{first}");
     assert!(first["distance"].as_f64().unwrap() > 0.1 && answer.get("off_table").is_none(), "{answer}");
     let off = ["simulate", "--table", &table, "--layout", "0.9,0 0.1,0.3 0.1,-0.3", "--shot", "0,0,30,0,9"];
-    let text = carom(&off).assert().success();
-    let text = String::from_utf8_lossy(&text.get_output().stdout).into_owned();
+    let text = stdout(&off);
     assert!(text.contains("Foul: white left the table over the right rail and goes to the "), "{text}");
-    let answer = json(&[&off[..], &["--json"]].concat());
+    let answer = json_answer(&[&off[..], &["--json"]].concat());
     assert_eq!(answer["off_table"], serde_json::json!([{"ball": "white", "rail": "right"}]));
     assert!(answer["point"] == false && answer["final"][0][0].as_f64().unwrap().abs() < 1.0, "{answer}");
     let left = answer["events"].as_array().unwrap().iter().find(|event| event["kind"] == "leaves-table").unwrap();
@@ -413,8 +396,9 @@ fn upward_velocities_need_a_table_with_a_flight_section() {
         format!(r#"{{"preset": {}, "layout": {layout}, "impulse": {impulse}}}"#, Value::from(table))
     };
     let input = [line(&table, 1.0), line("textbook", 1.0), line(&table, -1.0)].join("\n");
-    let output = carom(&["simulate", "--batch", "-"]).write_stdin(input).assert().code(2);
-    let answers = lines(&output.get_output().stdout);
+    let output = batch(&["simulate"], input);
+    let answers = output.json();
+    assert_eq!(output.code, Some(2));
     let height = answers[0]["events"][0]["height"].as_f64().unwrap();
     assert!((height - 1.0 / (2.0 * 9.81)).abs() < 1e-3, "{}", answers[0]);
     let refused = answers[1]["error"].as_str().unwrap();
@@ -424,12 +408,12 @@ fn upward_velocities_need_a_table_with_a_flight_section() {
 
 #[test]
 fn a_stroke_beyond_the_miscue_limit_is_reported() {
-    let miscue = |shot: &str| json(&["simulate", "--layout", LAYOUT, "--shot", shot, "--json"])["miscue"].clone();
+    let miscue =
+        |shot: &str| json_answer(&["simulate", "--layout", LAYOUT, "--shot", shot, "--json"])["miscue"].clone();
     assert_eq!((miscue("0.6,0,0,0,3"), miscue(SHOT)), (Value::Bool(true), Value::Null));
     let line = format!(
         r#"{{"preset": "match", "layout": [[-0.5,0],[0,0],[0.5,0.03]], "cue": {}}}"#,
         r#"{"a": 0.6, "b": 0, "theta_deg": 0, "phi_deg": 0, "speed": 3}"#
     );
-    let output = carom(&["simulate", "--batch", "-"]).write_stdin(line).assert().success();
-    assert_eq!(lines(&output.get_output().stdout)[0]["miscue"], true);
+    assert_eq!(batch(&["simulate"], line).ok().json()[0]["miscue"], true);
 }

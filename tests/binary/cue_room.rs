@@ -4,7 +4,7 @@ use std::{fs, path::PathBuf};
 
 use serde_json::Value;
 
-use crate::program::carom_command as carom;
+use crate::program::{carom_command, finished, run};
 
 const TABLE: &str = "name = \"railed\"\nL = 2.84\nl = 1.42\nR = 0.03075\nm = 0.21\nM = 0.54\nmu_s = 0.2\nmu_r = 0.01\n\
                      mu_sp = 0.0124\ne_ball = 0.95\nmu_b = 0.06\ne_rail = 0.85\nmu_rail = 0.2\ng = 9.81\n\
@@ -26,8 +26,8 @@ fn a_stroke_through_the_rail_is_simulated_with_a_note() {
     let path = path.to_str().unwrap();
     let simulate = |shot: &str, more: &[&str]| {
         let args = ["simulate", "--table", path, "--layout", FROZEN, "--shot", shot];
-        let output = carom(&args).args(more).assert().success().get_output().clone();
-        [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap())
+        let output = run(&[&args[..], more].concat()).ok();
+        [output.out, output.err]
     };
     let [text, note] = simulate("0,0.395,0,90,2", &[]);
     assert!(text.contains("all still after") && note.contains("the bottom rail is in the way"), "{note}");
@@ -50,8 +50,8 @@ fn a_stroke_through_the_rail_is_simulated_with_a_note() {
 fn a_table_without_a_room_section_omits_cue_room() {
     let path = table("free", "");
     let args = ["simulate", "--table", path.to_str().unwrap(), "--layout", FROZEN, "--shot", "0,0.1,0,90,2", "--json"];
-    let output = carom(&args).assert().success().stderr("").get_output().stdout.clone();
-    assert!(serde_json::from_slice::<Value>(&output).unwrap().get("cue_room").is_none());
+    let output = run(&args).ok();
+    assert!(output.err.is_empty() && output.json()[0].get("cue_room").is_none(), "{}", output.err);
 }
 
 #[test]
@@ -60,26 +60,15 @@ fn recommended_strokes_have_room_for_the_cue() {
     let question = serde_json::json!({
         "preset": path, "layout": [[0.0, -0.67925], [-0.5, 0.3], [0.6, 0.1]], "rule": "straight"
     });
-    let output = carom(&["recommend", "--batch", "-", "--budget-ms", "100"])
-        .write_stdin(format!("{question}\n"))
-        .assert()
-        .success()
-        .get_output()
-        .stdout
-        .clone();
-    let advice: Value = serde_json::from_slice(&output).unwrap();
+    let ask = |args: &[&str], question: &Value| {
+        finished(carom_command(args).write_stdin(format!("{question}\n"))).ok().json().remove(0)
+    };
+    let advice = ask(&["recommend", "--batch", "-", "--budget-ms", "100"], &question);
     let question = serde_json::json!({"preset": path, "layout": question["layout"], "cue": advice["cue"]});
-    let output = carom(&["simulate", "--batch", "-"])
-        .write_stdin(format!("{question}\n"))
-        .assert()
-        .success()
-        .get_output()
-        .clone();
-    let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let answer = ask(&["simulate", "--batch", "-"], &question);
     assert_eq!(answer["cue_room"]["has_room"], true, "{advice} {answer}");
 
     let wrong = table("wrong", "[room]\nnose = 0.5\n");
-    let refused = carom(&["table", "check", wrong.to_str().unwrap()]).assert().code(2).get_output().clone();
-    let printed = [refused.stdout, refused.stderr].concat();
-    assert!(String::from_utf8_lossy(&printed).contains("room.nose = 0.5"), "{}", String::from_utf8_lossy(&printed));
+    let refused = run(&["table", "check", wrong.to_str().unwrap()]);
+    assert!(refused.code == Some(2) && refused.err.contains("room.nose = 0.5"), "{}", refused.err);
 }

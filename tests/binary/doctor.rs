@@ -2,12 +2,11 @@
 
 use std::fs;
 
-use crate::program::{carom, carom_command};
+use crate::program::{carom, command, outcome, stdout};
 
 #[test]
 fn the_version_contains_the_commit_and_architecture() {
-    let output = carom_command(&["--version"]).assert().success().get_output().stdout.clone();
-    let text = String::from_utf8(output).unwrap();
+    let text = stdout(&["--version"]);
     assert!(text.starts_with(&format!("carom {} (commit ", env!("CARGO_PKG_VERSION"))), "{text}");
     assert!(text.contains(&format!(", {}-", std::env::consts::ARCH)) && text.trim_end().ends_with(')'), "{text}");
 }
@@ -93,7 +92,7 @@ fn doctor_names_unreadable_calibration_and_session_files() {
 #[test]
 fn doctor_escapes_control_characters_of_environment_variables() {
     let home = tempfile::tempdir().unwrap();
-    let mut command = crate::program::command(home.path(), &["doctor"]);
-    let output = crate::program::outcome(command.env("LANG", "\u{1b}]0;title\u{7}").spawn().unwrap());
+    let mut command = command(home.path(), &["doctor"]);
+    let output = outcome(command.env("LANG", "\u{1b}]0;title\u{7}").spawn().unwrap());
     assert!(!output.out.contains('\u{1b}') && output.out.contains("\\u{1b}"), "{}", output.out);
 }

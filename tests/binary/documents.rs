@@ -15,14 +15,12 @@ use ratatui::{
     style::{Color, Style},
 };
 
-use crate::program::carom_command as carom;
-
-fn stdout(args: &[&str]) -> String {
-    String::from_utf8(carom(args).assert().success().get_output().stdout.clone()).unwrap()
-}
+use crate::program::{carom, run, stdout};
 
 fn stderr(args: &[&str], code: i32) -> String {
-    String::from_utf8(carom(args).assert().code(code).get_output().stderr.clone()).unwrap()
+    let output = run(args);
+    assert_eq!(output.code, Some(code), "{}", output.err);
+    output.err
 }
 
 #[test]
@@ -65,16 +63,10 @@ fn a_users_table_is_listed_and_found_by_name() {
     let shown = stdout(&["table", "show", "match"]);
     std::fs::write(tables.join("mine.toml"), &shown).unwrap();
     std::fs::write(tables.join("bad.toml"), "L = 0").unwrap();
-    let at_home = |args: &[&str]| {
-        let mut command = carom(args);
-        command.env("HOME", home.path()).env("XDG_DATA_HOME", home.path());
-        let done = command.assert().success();
-        [&done.get_output().stdout, &done.get_output().stderr].map(|bytes| String::from_utf8(bytes.clone()).unwrap())
-    };
-    let [listed, notes] = at_home(&["table", "list"]);
-    assert!(listed.contains("mine: 2.84 x 1.42 m") && listed.lines().count() == 4, "{listed}");
-    assert!(notes.starts_with("note: ") && notes.contains("bad.toml"), "{notes}");
-    at_home(&["simulate", "--table", "mine", "--shot", "0,0,0,0,2"]);
+    let listed = carom(home.path(), &["table", "list"]).ok();
+    assert!(listed.out.contains("mine: 2.84 x 1.42 m") && listed.out.lines().count() == 4, "{}", listed.out);
+    assert!(listed.err.starts_with("note: ") && listed.err.contains("bad.toml"), "{}", listed.err);
+    carom(home.path(), &["simulate", "--table", "mine", "--shot", "0,0,0,0,2"]).ok();
     assert!(
         stderr(&["simulate", "--table", "yours", "--shot", "0,0,0,0,2"], 1).contains("one of your own by its name")
     );
@@ -121,33 +113,26 @@ fn packages_get_a_manual_page_for_every_subcommand_and_the_completions() {
 #[test]
 fn the_output_of_config_is_a_valid_settings_file() {
     let home = tempfile::tempdir().unwrap();
-    let config = |args: &[&str]| {
-        let mut command = carom(args);
-        command.env("HOME", home.path()).env("XDG_CONFIG_HOME", home.path().join("config"));
-        command.output().unwrap()
-    };
-    let path = String::from_utf8(config(&["config", "--path"]).stdout).unwrap();
+    let config = |args: &[&str]| carom(home.path(), args);
+    let path = config(&["config", "--path"]).out;
     let path = std::path::Path::new(path.trim());
     assert!(path.starts_with(home.path()));
-    let shown = config(&["config"]).stdout;
+    let shown = config(&["config"]).out;
     std::fs::create_dir_all(path.parent().unwrap()).unwrap();
     std::fs::write(path, &shown).unwrap();
-    assert!(config(&["config", "--check"]).status.success());
-    assert_eq!(config(&["config"]).stdout, shown);
+    config(&["config", "--check"]).ok();
+    assert_eq!(config(&["config"]).out, shown);
     std::fs::write(path, "theme = \"light\"\nspeed = 80\n").unwrap();
     let checked = config(&["config", "--check"]);
-    let message = String::from_utf8(checked.stderr).unwrap();
-    assert_eq!(checked.status.code(), Some(2));
-    assert!(message.contains("line 2: speed = 80; accepted is 0.1, 0.25"), "{message}");
-    assert!(String::from_utf8(config(&["config"]).stdout).unwrap().contains("theme = \"light\""));
+    assert_eq!(checked.code, Some(2));
+    assert!(checked.err.contains("line 2: speed = 80; accepted is 0.1, 0.25"), "{}", checked.err);
+    assert!(config(&["config"]).out.contains("theme = \"light\""));
 }
 
 #[test]
 fn the_settings_page_matches_the_output_of_config() {
     let home = tempfile::tempdir().unwrap();
-    let mut command = carom(&["config"]);
-    command.env("HOME", home.path()).env("XDG_CONFIG_HOME", home.path());
-    let shown = String::from_utf8(command.output().unwrap().stdout).unwrap();
+    let shown = carom(home.path(), &["config"]).out;
     let mut rows = vec!["| key | what it means | accepted | default |\n|---|---|---|---|".to_owned()];
     let mut note = Vec::new();
     for line in shown.lines().take_while(|&line| line != "[keys]") {
@@ -241,18 +226,14 @@ fn the_command_line_page_names_every_json_field() {
         let section =
             page.split_once(&format!("\n## carom {}\n", if name == "play" { "drill" } else { name })).unwrap().1;
         let section = section.split("\n## ").next().unwrap();
-        let mut command = carom(&line.split(' ').chain(["--json"]).collect::<Vec<_>>());
-        let output =
-            command.env("HOME", home.path()).env("XDG_DATA_HOME", home.path()).write_stdin("").assert().success();
-        let output = String::from_utf8(output.get_output().stdout.clone()).unwrap();
-        for answer in output.lines() {
-            let answer: serde_json::Value = serde_json::from_str(answer).unwrap();
+        let answers = carom(home.path(), &line.split(' ').chain(["--json"]).collect::<Vec<_>>()).ok().json();
+        for answer in &answers {
             for field in answer.as_object().unwrap().keys().filter(|field| name != "drill" || !is_of_an_exercise(field))
             {
                 assert!(section.contains(&format!("`{field}`")), "carom {line}: {field}");
             }
         }
-        assert!(!output.is_empty(), "carom {line}");
+        assert!(!answers.is_empty(), "carom {line}");
     }
 }
 
@@ -282,8 +263,8 @@ fn the_examples_in_the_docs_work() {
             .enumerate()
             .flat_map(|(n, part)| if n % 2 == 1 { vec![part] } else { part.split_whitespace().collect() });
         let words: Vec<&str> = words.skip(1).collect();
-        let answer = carom(&words).output().unwrap();
-        assert!(answer.status.success(), "{example}: {}", String::from_utf8_lossy(&answer.stderr));
+        let answer = run(&words);
+        assert_eq!(answer.code, Some(0), "{example}: {}", answer.err);
         count += 1;
     }
     assert!(count >= 5, "{count} examples");

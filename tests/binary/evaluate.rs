@@ -4,7 +4,7 @@ use std::{fs, path::Path, time::Duration};
 
 use serde_json::Value;
 
-use crate::program::{carom_command, command, outcome};
+use crate::program::{Outcome, carom_command, command, finished, json_answer, outcome, run};
 
 const WHOLE: &str = "evaluate --rule three-cushion --layouts 7 --simulations 800";
 
@@ -13,16 +13,18 @@ fn words(line: &str) -> Vec<&str> {
 }
 
 fn json(line: &str) -> Value {
-    let output = carom_command(&words(&format!("{line} --json"))).assert().success().get_output().stdout.clone();
-    serde_json::from_slice(&output).unwrap()
+    json_answer(&words(&format!("{line} --json")))
+}
+
+/// Returns the text that a command prints, which must succeed.
+fn text(line: &str) -> String {
+    run(&words(line)).ok().out
 }
 
 /// Measures a part into a file and returns the path.
 fn part(folder: &Path, line: &str, shard: &str) -> String {
-    let output =
-        carom_command(&words(&format!("{line} --shard {shard}"))).assert().success().get_output().stdout.clone();
     let path = folder.join(format!("{}.json", shard.replace('/', "-of-")));
-    fs::write(&path, output).unwrap();
+    fs::write(&path, text(&format!("{line} --shard {shard}"))).unwrap();
     path.display().to_string()
 }
 
@@ -62,15 +64,11 @@ fn evaluations_on_the_same_layouts_are_compared_pairwise() {
     let chance = |policy: &str| json(&format!("{line}{policy}"))["robustness"]["make_probability"].as_f64().unwrap();
     let apart = chance("") - chance(" --policy match-three-cushion");
     assert!((compared["difference"].as_f64().unwrap() - apart).abs() < 1e-9, "{compared}");
-    let text = carom_command(&["evaluate", "--merge", &context, "--against", &flawless]).output().unwrap().stdout;
-    assert!(String::from_utf8(text).unwrap().starts_with("difference of make probability on the same 40 layouts: +"));
+    let text = text(&format!("evaluate --merge {context} --against {flawless}"));
+    assert!(text.starts_with("difference of make probability on the same 40 layouts: +"));
     let elsewhere = part(other.path(), &line.replace("40", "41"), "1/1");
-    let refused = carom_command(&["evaluate", "--merge", &context, "--against", &elsewhere]).output().unwrap();
-    let message = String::from_utf8(refused.stderr).unwrap();
-    assert!(
-        refused.status.code() == Some(2) && message.contains("the same layouts are compared: layouts 40 and 41"),
-        "{message}"
-    );
+    let Outcome { code, err, .. } = run(&["evaluate", "--merge", &context, "--against", &elsewhere]);
+    assert!(code == Some(2) && err.contains("the same layouts are compared: layouts 40 and 41"), "{err}");
 }
 
 /// The name of a policy does not identify it: the networks behind it may have changed between two parts.
@@ -117,12 +115,10 @@ fn innings_not_started_in_time_are_counted() {
     for line in [short, format!("evaluate --merge {parts}")] {
         let report = json(&line);
         assert_eq!((&report["layouts"], &report["innings"]), (&5.into(), &0.into()), "{line}");
-        let text = carom_command(&words(&line)).assert().success().get_output().stdout.clone();
-        let text = String::from_utf8(text).unwrap();
+        let text = text(&line);
         assert!(text.contains("; on 5 of 5 layouts none was started, because the time was up)"), "{text}");
     }
-    let text = carom_command(&words(line)).assert().success().get_output().stdout.clone();
-    let text = String::from_utf8(text).unwrap();
+    let text = text(line);
     assert!(text.contains("in 5 innings (") && !text.contains("none was started"), "{text}");
 }
 
@@ -132,8 +128,7 @@ fn policy_only_evaluation_names_the_bundled_networks() {
     for (rest, networks) in [("", "match-three-cushion"), (" --skill club", "context-three-cushion")] {
         let report = json(&format!("{line}{rest}"));
         assert_eq!((&report["policy"], &report["networks"]), (&"bundled".into(), &networks.into()));
-        let text = carom_command(&words(&format!("{line}{rest}"))).assert().success().get_output().stdout.clone();
-        let text = String::from_utf8(text).unwrap();
+        let text = text(&format!("{line}{rest}"));
         assert!(text.starts_with(&format!("policy bundled ({networks}) on \"match\"")), "{text}");
     }
     assert_eq!(json("evaluate --layouts 3 --random-search 5").get("networks"), None);
@@ -172,14 +167,12 @@ fn merging_incomplete_or_mismatched_parts_is_refused() {
         (vec![&other_json], "line 1, column 2"),
     ] {
         let files: Vec<&str> = files.into_iter().map(String::as_str).collect();
-        let output = carom_command(&[&["evaluate", "--merge"][..], &files].concat()).output().unwrap();
-        let error = String::from_utf8(output.stderr).unwrap();
-        assert!(output.status.code() == Some(2) && output.stdout.is_empty() && error.contains(expected), "{error}");
+        let Outcome { code, out, err: error } = run(&[&["evaluate", "--merge"][..], &files].concat());
+        assert!(code == Some(2) && out.is_empty() && error.contains(expected), "{error}");
         assert!(!["EOF", "missing field", "expected", "struct"].iter().any(|jargon| error.contains(jargon)), "{error}");
     }
     for shard in ["0/3", "4/3", "2", "a/b", "1/0"] {
-        let output = carom_command(&["evaluate", "--shard", shard]).output().unwrap();
-        assert_eq!(output.status.code(), Some(2), "{shard}");
+        assert_eq!(run(&["evaluate", "--shard", shard]).code, Some(2), "{shard}");
     }
 }
 
@@ -201,9 +194,8 @@ fn options_of_another_evaluation_mode_are_refused() {
         "--reward r1 --plan",
         "--reward r1 --simulations 5",
     ] {
-        let output = carom_command(&words(&format!("evaluate --layouts 1 {line}"))).output().unwrap();
-        let error = String::from_utf8(output.stderr).unwrap();
-        assert!(output.status.code() == Some(2) && output.stdout.is_empty(), "{line}: {error}");
+        let Outcome { code, out, err: error } = run(&words(&format!("evaluate --layouts 1 {line}")));
+        assert!(code == Some(2) && out.is_empty(), "{line}: {error}");
         assert!(error.contains(words(line)[0]), "{line}: {error}");
     }
 }
@@ -212,8 +204,7 @@ fn options_of_another_evaluation_mode_are_refused() {
 #[test]
 fn a_ball_that_stays_above_another_does_not_hang_the_engine() {
     let line = "evaluate --self-play --rule three-cushion --skill beginner --layouts 400 --simulations 90000 --seed 16";
-    let output =
-        carom_command(&words(&format!("{line} --shard 54/400"))).timeout(Duration::from_secs(60)).assert().success();
-    let part: Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
-    assert_eq!(part["records"]["innings"][0]["layout"], 53);
+    let line = format!("{line} --shard 54/400");
+    let part = finished(carom_command(&words(&line)).timeout(Duration::from_secs(60))).ok();
+    assert_eq!(part.json()[0]["records"]["innings"][0]["layout"], 53);
 }

@@ -5,7 +5,7 @@ use std::{
     io::Write,
     ops::{Deref, DerefMut},
     path::{Path, PathBuf},
-    process::{Child, Command, Stdio},
+    process::{Child, Command, Output, Stdio},
 };
 
 use assert_cmd::cargo::cargo_bin;
@@ -40,6 +40,41 @@ impl Outcome {
     pub fn json(&self) -> Vec<Value> {
         self.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
     }
+
+    /// Asserts that the program succeeded.
+    #[track_caller]
+    pub fn ok(self) -> Self {
+        assert_eq!(self.code, Some(0), "{}", self.err);
+        self
+    }
+}
+
+impl From<Output> for Outcome {
+    fn from(output: Output) -> Self {
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        Self { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
+    }
+}
+
+/// Runs a command to its end.
+pub fn finished(command: &mut assert_cmd::Command) -> Outcome {
+    command.output().unwrap().into()
+}
+
+pub fn run(args: &[&str]) -> Outcome {
+    finished(&mut carom_command(args))
+}
+
+/// Returns the standard output of a command that must succeed.
+#[track_caller]
+pub fn stdout(args: &[&str]) -> String {
+    run(args).ok().out
+}
+
+/// Returns the one JSON object that a command prints, which must succeed.
+#[track_caller]
+pub fn json_answer(args: &[&str]) -> Value {
+    serde_json::from_str(&stdout(args)).unwrap()
 }
 
 /// Returns a user folder with the position `mine`.
@@ -82,9 +117,7 @@ pub fn run_with_input(mut command: Command, lines: &str) -> Outcome {
 }
 
 pub fn outcome(child: Child) -> Outcome {
-    let output = child.wait_with_output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    Outcome { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
+    child.wait_with_output().unwrap().into()
 }
 
 /// Returns the files of all sessions.

@@ -1,11 +1,9 @@
 //! `carom reproduce` through the real binary.
 
-use assert_cmd::Command;
+use crate::program::{KillOnDrop, Outcome, home, run};
 
-use crate::program::{KillOnDrop, carom_command, home};
-
-fn reproduce(args: &[&str]) -> Command {
-    carom_command(&[&["reproduce"], args].concat())
+fn reproduce(args: &[&str]) -> Outcome {
+    run(&[&["reproduce"], args].concat())
 }
 
 #[test]
@@ -14,8 +12,7 @@ fn a_figure_is_written_as_csv_and_svg_and_does_not_depend_on_threads() {
         let folder = tempfile::tempdir().unwrap();
         let out = folder.path().to_str().unwrap();
         let args = ["--figure", "23", "--figure", "25", "--episodes", "800", "--jobs", jobs, "--out", out];
-        let output = reproduce(&args).assert().success().get_output().stdout.clone();
-        let text = String::from_utf8(output).unwrap();
+        let text = reproduce(&args).ok().out;
         assert!(text.contains("Figure 23") && text.contains("random play"), "{text}");
         ["figure-23.csv", "figure-23.svg", "figure-25.csv", "figure-25.svg"]
             .map(|name| std::fs::read_to_string(folder.path().join(name)).unwrap())
@@ -29,10 +26,9 @@ fn a_figure_is_written_as_csv_and_svg_and_does_not_depend_on_threads() {
 
 #[test]
 fn an_unknown_figure_is_refused_with_the_available_ones() {
-    let output = reproduce(&["--figure", "26"]).output().unwrap();
-    let message = String::from_utf8(output.stderr).unwrap();
-    assert_eq!((output.status.code(), message.lines().count()), (Some(2), 1), "{message}");
-    assert!(message.contains("26") && message.contains("q-learning, 21, 22"), "{message}");
+    let Outcome { code, err, .. } = reproduce(&["--figure", "26"]);
+    assert_eq!((code, err.lines().count()), (Some(2), 1), "{err}");
+    assert!(err.contains("26") && err.contains("q-learning, 21, 22"), "{err}");
 }
 
 #[cfg(unix)]

@@ -55,8 +55,9 @@ pub struct Session {
 }
 
 impl Session {
+    /// Starts the program and waits for the coach's screen.
     pub fn start(width: u16, height: u16) -> Self {
-        Self::start_command(carom(), width, height)
+        Self::start_command(carom(), width, height).ready()
     }
 
     pub fn start_command(command: CommandBuilder, width: u16, height: u16) -> Self {
@@ -101,6 +102,12 @@ impl Session {
         let connection = Some(Connection { master: pair.master, writer, request, output, is_read_requested: false });
         let screen = vt100::Parser::new(cells(height), cells(width), 0);
         Self { connection, child, screen, home: None, bytes: 0 }
+    }
+
+    /// Waits for the coach's screen at the start.
+    pub fn ready(mut self) -> Self {
+        self.wait_for(START_TEXT);
+        self
     }
 
     pub fn screen(&self) -> &vt100::Screen {
@@ -243,6 +250,13 @@ impl Session {
         }
         self.assert_terminal_restored();
         status
+    }
+
+    /// Types keys that quit the program, which must end without an error.
+    #[track_caller]
+    pub fn quit_with(&mut self, keys: &str) {
+        self.send(keys);
+        assert!(self.assert_clean_exit().success());
     }
 
     /// Asserts that the program has restored all terminal modes.

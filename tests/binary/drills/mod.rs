@@ -4,3 +4,10 @@ mod data_safety;
 mod positions;
 mod scores;
 mod sides;
+
+use serde_json::Value;
+
+/// Returns the lines of this kind.
+fn of_kind<'a>(lines: &'a [Value], kind: &str) -> Vec<&'a Value> {
+    lines.iter().filter(|line| line["kind"] == kind).collect()
+}

@@ -2,11 +2,8 @@
 
 use serde_json::{Value, json};
 
+use super::of_kind;
 use crate::program::{SAVE, carom, command, drill, folder, run_with_input};
-
-fn of_kind<'a>(lines: &'a [Value], kind: &str) -> Vec<&'a Value> {
-    lines.iter().filter(|line| line["kind"] == kind).collect()
-}
 
 #[test]
 fn logged_results_are_scored_correctly() {
@@ -132,20 +129,8 @@ fn quit_ends_a_session() {
 #[test]
 fn a_game_continues_from_end_positions_until_its_last_inning() {
     let folder = tempfile::tempdir().unwrap();
-    let args = [
-        "play",
-        "--coach",
-        "--innings",
-        "2",
-        "--rule",
-        "three-cushion",
-        "--skill",
-        "beginner",
-        "--seed",
-        "5",
-        "--json",
-    ];
-    let lines = carom(folder.path(), &[&args[..], &["--budget-ms", "300"]].concat()).json();
+    let args = ["play", "--coach", "--innings", "2", "--rule", "three-cushion", "--skill", "beginner"];
+    let lines = carom(folder.path(), &[&args[..], &["--seed", "5", "--json", "--budget-ms", "300"]].concat()).json();
     let mut lie = &Value::Null;
     for line in &lines {
         // After a miscue the balls stay where they are, and no position is printed.
@@ -217,20 +202,19 @@ fn enough_results_give_a_skill_that_commands_accept() {
 #[test]
 fn invalid_or_missing_names_and_values_are_named() {
     let folder = folder();
-    let own = |args: &'static [&'static str]| args;
     let cases: [(&[&str], i32, &str); 12] = [
-        (own(&["show", "nobody"]), 1, "\"nobody\""),
-        (own(&["history", "nobody"]), 1, "\"nobody\""),
-        (own(&["remove", "nobody"]), 1, "\"nobody\""),
+        (&["show", "nobody"], 1, "\"nobody\""),
+        (&["history", "nobody"], 1, "\"nobody\""),
+        (&["remove", "nobody"], 1, "\"nobody\""),
         (SAVE, 1, "--replace"),
-        (own(&["log", "mine", "made"]), 2, "\"made\""),
-        (own(&["log", "mine", "--made", "4", "--of", "3"]), 2, "4 made of 3"),
-        (own(&["save", "a/b", "--layout", "-0.5,0 0,0 0.5,0.03"]), 2, "\"a/b\""),
-        (own(&["save", "near", "--layout", "0,0 0,0 0.5,0.03"]), 2, "0.0615"),
-        (own(&["try", "mine", "--shot", "0,0.8,0,0,1"]), 2, "0.6400"),
-        (own(&["try", "mine", "--shot", "hardly"]), 2, "\"hardly\""),
-        (own(&["add", "carom:04000"]), 2, "damaged"),
-        (own(&["list", "--category", "snooker"]), 2, "three-cushion"),
+        (&["log", "mine", "made"], 2, "\"made\""),
+        (&["log", "mine", "--made", "4", "--of", "3"], 2, "4 made of 3"),
+        (&["save", "a/b", "--layout", "-0.5,0 0,0 0.5,0.03"], 2, "\"a/b\""),
+        (&["save", "near", "--layout", "0,0 0,0 0.5,0.03"], 2, "0.0615"),
+        (&["try", "mine", "--shot", "0,0.8,0,0,1"], 2, "0.6400"),
+        (&["try", "mine", "--shot", "hardly"], 2, "\"hardly\""),
+        (&["add", "carom:04000"], 2, "damaged"),
+        (&["list", "--category", "snooker"], 2, "three-cushion"),
     ];
     for (args, code, word) in cases {
         let outcome = drill(folder.path(), args);

@@ -1,15 +1,10 @@
 //! Games of two sides: whose turn it is, which ball is the cue ball, and the score of each side.
 
-use serde_json::Value;
-
+use super::of_kind;
 use crate::program::{carom, command, folder, run_with_input};
 
 /// A stroke that moves the cue ball a little and meets nothing.
 const MISS: &str = "0,0,5,180,0.3\n";
-
-fn of_kind<'a>(lines: &'a [Value], kind: &str) -> Vec<&'a Value> {
-    lines.iter().filter(|line| line["kind"] == kind).collect()
-}
 
 #[test]
 fn after_a_miss_the_other_side_plays_the_same_position() {
@@ -33,19 +28,8 @@ fn after_a_miss_the_other_side_plays_the_same_position() {
 #[test]
 fn the_coach_plays_the_other_side_against_the_player() {
     let folder = folder();
-    let args = [
-        "play",
-        "--against-coach",
-        "--innings",
-        "2",
-        "--seed",
-        "1",
-        "--strokes",
-        "40",
-        "--skill",
-        "beginner",
-        "--json",
-    ];
+    let args = ["play", "--against-coach", "--innings", "2", "--seed", "1", "--strokes", "40"];
+    let args = [&args[..], &["--skill", "beginner", "--json"]].concat();
     let lines = run_with_input(command(folder.path(), &args), &MISS.repeat(5)).json();
     let attempts = of_kind(&lines, "attempt");
     assert!(attempts.iter().any(|attempt| attempt["cue_ball"] == "yellow"), "{lines:?}");

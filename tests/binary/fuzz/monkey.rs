@@ -13,7 +13,7 @@ use std::{
 use rand::{RngExt, SeedableRng, seq::IndexedRandom};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use crate::terminal::{START_TEXT, Session};
+use crate::terminal::Session;
 
 /// Number of events in a session.
 const EVENTS: u32 = 300;
@@ -104,7 +104,6 @@ fn random_input_leaves_the_terminal_restored() {
     for seed in 0.. {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let mut session = Session::start(120, 40);
-        session.wait_for(START_TEXT);
         for _ in 0..EVENTS {
             events += 1;
             match rng.random_range(0..20) {

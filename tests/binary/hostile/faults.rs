@@ -60,15 +60,11 @@ fn an_endless_line_does_not_fill_memory() {
 fn concurrent_undos_each_remove_one_attempt() {
     let home = folder();
     assert_eq!(drill(home.path(), &["log", "mine", "make", "miss", "make", "miss", "make", "make"]).code, Some(0));
-    for left in [2] {
-        let all: Vec<_> =
-            (0..4).map(|_| command(home.path(), &["drill", "log", "mine", "undo"]).spawn().unwrap()).collect();
-        for child in all {
-            let output = outcome(child);
-            assert_eq!(output.code, Some(0), "{}", output.err);
-        }
-        assert_eq!(count_attempts(home.path()), left);
+    let all = [0; 4].map(|_| command(home.path(), &["drill", "log", "mine", "undo"]).spawn().unwrap());
+    for child in all {
+        outcome(child).ok();
     }
+    assert_eq!(count_attempts(home.path()), 2);
 }
 
 #[test]

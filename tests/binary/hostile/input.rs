@@ -2,7 +2,7 @@
 
 use std::{thread, time::Duration};
 
-use crate::terminal::{START_TEXT, Session};
+use crate::terminal::Session;
 
 /// Sequences that start and never end.
 const INCOMPLETE: [&str; 27] = [
@@ -38,13 +38,18 @@ const INCOMPLETE: [&str; 27] = [
 /// Number of programs that run at the same time.
 const CONCURRENT: usize = 4;
 
+/// Starts a session, sends a sequence, and waits for a pause in ms.
+fn start_with(sequence: &str, pause: u64) -> Session {
+    let mut session = Session::start(80, 24);
+    session.send(sequence);
+    thread::sleep(Duration::from_millis(pause));
+    session
+}
+
 #[test]
 fn ctrl_c_quits_after_every_incomplete_sequence() {
     let check = |sequence: &str, pause: u64| {
-        let mut session = Session::start(80, 24);
-        session.wait_for(START_TEXT);
-        session.send(sequence);
-        thread::sleep(Duration::from_millis(pause));
+        let mut session = start_with(sequence, pause);
         session.send("\x03");
         assert!(session.assert_clean_exit().success(), "{sequence:?} {pause}");
     };
@@ -65,14 +70,10 @@ fn ctrl_c_quits_after_every_incomplete_sequence() {
 fn other_keys_work_after_incomplete_sequences() {
     // Maximum delay of each: a tenth of a second, and ten times that for a paste.
     let check = |sequence: &str, pause: u64| {
-        let mut session = Session::start(80, 24);
-        session.wait_for(START_TEXT);
-        session.send(sequence);
-        thread::sleep(Duration::from_millis(pause));
+        let mut session = start_with(sequence, pause);
         session.send("?");
         session.wait_for("Placing the balls");
-        session.send("\x03");
-        assert!(session.assert_clean_exit().success());
+        session.quit_with("\x03");
     };
     thread::scope(|scope| {
         for (sequence, pause) in [("\x1b[<", 300), ("\x1b[<0;", 300), ("\x1b[?", 300), ("\x1b[200~half a paste", 1500)]
@@ -85,7 +86,6 @@ fn other_keys_work_after_incomplete_sequences() {
 #[test]
 fn a_paste_right_after_escape_triggers_no_keys() {
     let mut session = Session::start(80, 24);
-    session.wait_for(START_TEXT);
     session.send("\x1b\x1b[200~qqq\x1b[201~");
     session.send("?");
     session.wait_for("Placing the balls");
@@ -95,7 +95,6 @@ fn a_paste_right_after_escape_triggers_no_keys() {
 fn ctrl_c_quits_from_help_messages_and_palette() {
     for keys in ["?", ":", "d", "t"] {
         let mut session = Session::start(80, 24);
-        session.wait_for(START_TEXT);
         session.press(keys);
         session.send("\x03");
         assert!(session.assert_clean_exit().success(), "{keys}");

@@ -1,9 +1,6 @@
 //! Every catchable signal restores the terminal; a file size limit is reported like a full disk.
 
-use crate::{
-    program,
-    terminal::{START_TEXT, Session},
-};
+use crate::{program, terminal::Session};
 
 const TERMINATING: [&str; 18] = [
     "HUP", "INT", "QUIT", "TERM", "USR1", "USR2", "ALRM", "XCPU", "VTALRM", "PROF", "IO", "PWR", "ABRT", "STKFLT",
@@ -15,7 +12,6 @@ fn every_terminating_signal_restores_the_terminal() {
     for name in TERMINATING {
         for keys in ["", "\r", "?", "d"] {
             let mut session = Session::start(80, 24);
-            session.wait_for(START_TEXT);
             session.send(keys);
             session.signal(name);
             assert!(!session.assert_clean_exit().success(), "{name} is told to the parent");
@@ -26,12 +22,10 @@ fn every_terminating_signal_restores_the_terminal() {
 #[test]
 fn a_file_size_signal_does_not_end_the_screen() {
     let mut session = Session::start(80, 24);
-    session.wait_for(START_TEXT);
     session.signal("XFSZ");
     session.send("?");
     session.wait_for("Placing the balls");
-    session.send("\x03");
-    assert!(session.assert_clean_exit().success());
+    session.quit_with("\x03");
 }
 
 #[test]

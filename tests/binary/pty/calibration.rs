@@ -4,15 +4,14 @@ use std::fs;
 
 use crate::{
     program::carom_command,
-    terminal::{QUIET_TIME, START_TEXT, Session, TIMEOUT, carom},
+    terminal::{QUIET_TIME, Session, TIMEOUT, carom},
 };
 
 #[test]
 fn entered_strokes_survive_a_kill() {
     let home = tempfile::tempdir().unwrap();
     let start = || {
-        let mut session = Session::start_at(home.path(), carom(), 80, 24);
-        session.wait_for(START_TEXT);
+        let mut session = Session::start_at(home.path(), carom(), 80, 24).ready();
         session.send("\x1b[18~");
         session.wait_for("Strokes of slow-roll");
         session
@@ -32,8 +31,7 @@ fn entered_strokes_survive_a_kill() {
     let mut second = start();
     second.wait_for("9.6, 5.4, 725 mm");
     second.wait_for("mu_r");
-    second.send("q");
-    assert!(second.assert_clean_exit().success());
+    second.quit_with("q");
     let mut command = carom_command(&["calibrate"]);
     command.env("HOME", home.path()).env("XDG_DATA_HOME", home.path().join("data"));
     let printed = command.write_stdin("9.4 5.3\ndone\n").output().unwrap();
@@ -45,11 +43,7 @@ fn entered_strokes_survive_a_kill() {
 #[test]
 fn partly_typed_strokes_survive_every_end_of_the_program() {
     let home = tempfile::tempdir().unwrap();
-    let start = || {
-        let mut session = Session::start_at(home.path(), carom(), 80, 24);
-        session.wait_for(START_TEXT);
-        session
-    };
+    let start = || Session::start_at(home.path(), carom(), 80, 24).ready();
     let mut session = start();
     session.send("\x1b[18~");
     session.wait_for("Strokes of slow-roll");
@@ -80,6 +74,5 @@ fn partly_typed_strokes_survive_every_end_of_the_program() {
     let mut last = start();
     last.wait_until_quiet(QUIET_TIME);
     assert!(!last.screen().contents().contains("typed in part"), "{}", last.screen().contents());
-    last.send("q");
-    assert!(last.assert_clean_exit().success());
+    last.quit_with("q");
 }

@@ -6,7 +6,7 @@ use std::{
 };
 
 use crate::{
-    terminal::{QUIET_TIME, START_TEXT, Session, TIMEOUT, carom},
+    terminal::{QUIET_TIME, Session, TIMEOUT, carom},
     training::common::{SHORT, folder, run_ok},
 };
 
@@ -16,7 +16,6 @@ const EXIT_TIMEOUT: Duration = Duration::from_secs(5);
 /// Starts a session, moves the white ball so that there is something to save, and types these keys; the space bar plays the shot.
 fn start_and_press(keys: &[&str]) -> Session {
     let mut session = Session::start(120, 40);
-    session.wait_for(START_TEXT);
     session.send("\x1b[1;2B");
     session.wait_for("y 82.5 mm");
     for key in keys {
@@ -45,8 +44,7 @@ fn end_of_input_ends_the_program_without_a_signal() {
     // The program does not control the terminal, so it gets no signal when the terminal is gone.
     let mut command = carom();
     command.set_controlling_tty(false);
-    let mut session = Session::start_command(command, 80, 24);
-    session.wait_for(START_TEXT);
+    let mut session = Session::start_command(command, 80, 24).ready();
     session.disconnect();
     session.wait_for_exit(EXIT_TIMEOUT);
 }
@@ -111,8 +109,7 @@ fn a_slow_connection_skips_frames_and_keys_are_answered_promptly() {
     session.send(" ");
     let bytes = read_until(&mut session, "the pause", |session| session.screen().contents().contains('‖'));
     assert!(bytes < held + MAX_FRAME_BYTES, "{bytes} bytes came before the answer, of which the line held {held}");
-    session.send("q");
-    assert!(session.assert_clean_exit().success());
+    session.quit_with("q");
 }
 
 #[test]

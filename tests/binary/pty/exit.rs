@@ -22,8 +22,7 @@ fn the_session_can_be_resumed_and_warnings_are_logged() {
     for _ in 0..2 {
         let mut second = start();
         second.wait_for("c goes on from where the last session ended");
-        second.send("q");
-        assert!(second.assert_clean_exit().success());
+        second.quit_with("q");
     }
     let mut third = start();
     third.wait_for("c goes on");
@@ -31,8 +30,7 @@ fn the_session_can_be_resumed_and_warnings_are_logged() {
     third.wait_for("this is where the last session ended");
     third.send("\t\x1b[Z");
     third.wait_for("white at x -710.0 mm, y 82.5 mm");
-    third.send("q");
-    assert!(third.assert_clean_exit().success());
+    third.quit_with("q");
     let log = std::fs::read_to_string(home.path().join("state/carom/carom.log")).unwrap();
     assert!(log.contains("the screen opens") && log.contains("WARN there is no"), "{log}");
 }
@@ -40,7 +38,6 @@ fn the_session_can_be_resumed_and_warnings_are_logged() {
 #[test]
 fn suspending_restores_the_terminal_and_continuing_repaints() {
     let mut session = Session::start(80, 24);
-    session.wait_for(START_TEXT);
     session.send("\x1a");
     session.wait_until("the shell's screen", |screen| {
         let has_mouse = screen.mouse_protocol_mode() != vt100::MouseProtocolMode::None;
@@ -49,16 +46,14 @@ fn suspending_restores_the_terminal_and_continuing_repaints() {
     session.resume_until(START_TEXT);
     session.send("\x1b[C");
     session.wait_for("white at x -700.0 mm");
-    session.send("\x03");
-    assert!(session.assert_clean_exit().success());
+    session.quit_with("\x03");
 }
 
 #[test]
 fn raw_mode_is_off_after_the_program_ends() {
     let mut command = CommandBuilder::new("sh");
     command.args(["-c", "\"$0\"; stty -a", env!("CARGO_BIN_EXE_carom")]);
-    let mut session = Session::start_command(command, 120, 40);
-    session.wait_for(START_TEXT);
+    let mut session = Session::start_command(command, 120, 40).ready();
     session.send("q");
     session.wait_for(" icanon");
     session.wait_for(" echo ");
@@ -78,7 +73,6 @@ fn sigterm_ends_the_program_on_every_screen() {
         (&["\r"], "Esc"),
     ] {
         let mut session = Session::start(120, 40);
-        session.wait_for(START_TEXT);
         for key in keys {
             session.press(key);
         }
@@ -99,7 +93,6 @@ fn every_screen_is_restored_after_suspending() {
         (&["t"], "No agent"),
     ] {
         let mut session = Session::start(80, 24);
-        session.wait_for(START_TEXT);
         for key in keys {
             session.press(key);
         }
@@ -119,7 +112,6 @@ fn every_screen_is_restored_after_suspending() {
 #[test]
 fn a_shot_resumes_where_it_was_suspended() {
     let mut session = Session::start(80, 24);
-    session.wait_for(START_TEXT);
     session.send("\r");
     session.wait_for_advice();
     session.send(" ");
@@ -147,7 +139,6 @@ fn clock(screen: &vt100::Screen) -> Option<f64> {
 #[test]
 fn a_kill_loses_at_most_two_seconds_of_work() {
     let mut session = Session::start(80, 24);
-    session.wait_for(START_TEXT);
     // The second move follows the first one at once, and nothing else happens that would trigger a save.
     session.send("\x1b[1;2B");
     session.wait_for("y 82.5 mm");
@@ -165,7 +156,6 @@ fn a_kill_loses_at_most_two_seconds_of_work() {
 #[test]
 fn a_session_that_is_left_is_not_offered_again() {
     let mut session = Session::start(80, 24);
-    session.wait_for(START_TEXT);
     let wait_until_saved = |session: &mut Session, is_saved: fn(&str) -> bool| {
         let start = Instant::now();
         while !is_saved(&session.saved_session()) {
@@ -213,14 +203,12 @@ fn an_interrupted_exam_can_be_resumed() {
     second.wait_for("The half ball");
     second.send("\r  ");
     second.wait_for("to the end");
-    second.send("q");
-    assert!(second.assert_clean_exit().success());
+    second.quit_with("q");
     let mut third = start();
     third.wait_for("c goes on with the exam");
     third.send("c");
     third.wait_for("exercise 2 of 20");
-    third.send("q");
-    assert!(third.assert_clean_exit().success());
+    third.quit_with("q");
 }
 
 #[test]
@@ -228,13 +216,11 @@ fn an_unwritable_state_folder_is_reported_once() {
     let home = tempfile::tempdir().unwrap();
     std::fs::create_dir(home.path().join("state")).unwrap();
     std::fs::write(home.path().join("state/carom"), "in the way").unwrap();
-    let mut session = Session::start_at(home.path(), carom(), 80, 24);
-    session.wait_for(START_TEXT);
+    let mut session = Session::start_at(home.path(), carom(), 80, 24).ready();
     session.send("\x1b[C");
     // A word of the sentence, which is broken into rows.
     session.wait_for("cannot");
-    session.send("q");
-    assert!(session.assert_clean_exit().success());
+    session.quit_with("q");
 }
 
 #[test]
@@ -244,8 +230,7 @@ fn attempts_that_the_disk_has_refused_are_saved_or_named_at_the_end() {
         let sessions = home.path().join("data/carom/sessions");
         std::fs::create_dir_all(sessions.parent().unwrap()).unwrap();
         std::fs::write(&sessions, "in the way").unwrap();
-        let mut session = Session::start_at(home.path(), carom(), 80, 24);
-        session.wait_for(START_TEXT);
+        let mut session = Session::start_at(home.path(), carom(), 80, 24).ready();
         session.send("d");
         session.wait_for("The half ball");
         session.send("\rm");
@@ -253,8 +238,7 @@ fn attempts_that_the_disk_has_refused_are_saved_or_named_at_the_end() {
         if is_mended {
             std::fs::remove_file(&sessions).unwrap();
         }
-        session.send("q");
-        assert!(session.assert_clean_exit().success());
+        session.quit_with("q");
         let is_told = session.screen().contents().contains("not saved: 1 attempt at ");
         assert_eq!((sessions.is_dir(), is_told), (is_mended, !is_mended), "{}", session.screen().contents());
     }

@@ -3,17 +3,16 @@
 use std::{
     fs::{self, File},
     path::{Path, PathBuf},
-    process::{Command, Stdio},
+    process::Command,
     thread,
     time::Duration,
 };
 
-use assert_cmd::cargo::cargo_bin;
 use portable_pty::CommandBuilder;
 
 use crate::{
-    program::KillOnDrop,
-    terminal::{QUIET_TIME, START_TEXT, Session, TIMEOUT, guest},
+    program::{KillOnDrop, Outcome, command, outcome},
+    terminal::{QUIET_TIME, Session, TIMEOUT, guest},
 };
 
 /// Returns a guest session with this command after `ssh`.
@@ -25,22 +24,14 @@ fn over_ssh(name: &str, words: &str) -> CommandBuilder {
 
 /// Returns the program without a terminal, in the home folder of a session.
 fn piped_carom(home: &Path, args: &[&str]) -> Command {
-    let mut command = Command::new(cargo_bin!("carom"));
-    command
-        .args(args)
-        .env("HOME", home)
-        .env("XDG_DATA_HOME", home.join("data"))
-        .env("XDG_STATE_HOME", home.join("state"));
-    command.env("XDG_CONFIG_HOME", home.join("config")).env_remove("SSH_ORIGINAL_COMMAND");
-    command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut command = command(home, args);
+    command.env("XDG_DATA_HOME", home.join("data")).env_remove("SSH_ORIGINAL_COMMAND");
     command
 }
 
-/// Returns the exit code and the outputs of such a program.
-fn run(command: &mut Command) -> (Option<i32>, String, String) {
-    let output = command.output().unwrap();
-    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-    (output.status.code(), out, err)
+/// Runs it to its end.
+fn run_piped(home: &Path, args: &[&str]) -> Outcome {
+    outcome(piped_carom(home, args).spawn().unwrap())
 }
 
 /// Returns the folder in which a player shows their table.
@@ -50,8 +41,7 @@ fn shown_folder(home: &Path, name: &str) -> PathBuf {
 
 /// Starts a player who shows their table.
 fn start_showing_player(home: &Path, name: &str) -> Session {
-    let mut session = Session::start_at(home, guest(name), 80, 24);
-    session.wait_for(START_TEXT);
+    let mut session = Session::start_at(home, guest(name), 80, 24).ready();
     session.send("F");
     session.wait_for(&format!("carom follow {name} shows this table"));
     let file = shown_folder(home, name).join("table.json");
@@ -63,12 +53,11 @@ fn start_showing_player(home: &Path, name: &str) -> Session {
 fn a_table_is_followed_live_while_its_player_allows_it() {
     let home = tempfile::tempdir().unwrap();
     let home = home.path();
-    assert_eq!(run(&mut piped_carom(home, &["follow", "anna"])).0, Some(1), "the player anna does not exist yet");
-    let mut anna = Session::start_at(home, guest("Anna"), 80, 24);
-    anna.wait_for(START_TEXT);
+    assert_eq!(run_piped(home, &["follow", "anna"]).code, Some(1), "the player anna does not exist yet");
+    let mut anna = Session::start_at(home, guest("Anna"), 80, 24).ready();
     assert!(!shown_folder(home, "anna").exists(), "nothing is shown by itself");
-    let (code, _, err) = run(&mut piped_carom(home, &["follow", "anna"]));
-    assert!(code == Some(1) && err.contains("anna shows no table now"), "{err}");
+    let hidden = run_piped(home, &["follow", "anna"]);
+    assert!(hidden.code == Some(1) && hidden.err.contains("anna shows no table now"), "{}", hidden.err);
     anna.send("F");
     anna.wait_for("carom follow Anna shows this table");
     // From then on the status line says so, in addition to its other text.
@@ -102,11 +91,9 @@ fn a_table_is_followed_live_while_its_player_allows_it() {
     assert_eq!(fs::read_dir(shown_folder(home, "anna")).unwrap().count(), 1, "only the lock remains");
     anna.send("F");
     ben.wait_for("following anna: match");
-    anna.send("q");
-    assert!(anna.assert_clean_exit().success());
+    anna.quit_with("q");
     ben.wait_for("anna shows no table at the moment");
-    ben.send("q");
-    assert!(ben.assert_clean_exit().success());
+    ben.quit_with("q");
     assert!(!home.join("data/carom/players/ben/last.json").exists(), "it was not ben's session");
 }
 
@@ -123,14 +110,13 @@ fn a_killed_player_disappears_and_an_idle_one_writes_nothing() {
     thread::sleep(Duration::from_secs(2));
     assert_eq!((changed(), anna.bytes_written()), (before, written));
     // Another session of the same player cannot show a second table under her name.
-    let mut second = Session::start_at(home, guest("anna"), 80, 24);
-    second.wait_for(START_TEXT);
+    let mut second = Session::start_at(home, guest("anna"), 80, 24).ready();
     second.send("F");
     second.wait_for("another session of yours");
     assert!(!second.screen().contents().contains("from now on"));
     anna.signal("KILL");
     ben.wait_for("anna shows no table at the moment");
-    assert_eq!(run(&mut piped_carom(home, &["follow", "anna"])).0, Some(1));
+    assert_eq!(run_piped(home, &["follow", "anna"]).code, Some(1));
     second.send("F");
     ben.wait_for("anna places the balls");
 }
@@ -138,7 +124,6 @@ fn a_killed_player_disappears_and_an_idle_one_writes_nothing() {
 #[test]
 fn nameless_players_show_nothing_and_players_may_follow_themselves() {
     let mut nobody = Session::start(80, 24);
-    nobody.wait_for(START_TEXT);
     nobody.send("F");
     nobody.wait_for("carom --player NAME");
     let home = tempfile::tempdir().unwrap();
@@ -154,10 +139,8 @@ fn follow_prints_text_or_json_until_the_player_leaves() {
     let home = tempfile::tempdir().unwrap();
     let home = home.path();
     let mut anna = start_showing_player(home, "anna");
-    let (code, out, _) = run(&mut piped_carom(home, &["follow"]));
-    assert_eq!((code, out.as_str()), (Some(0), "anna\n"));
-    let (_, out, _) = run(&mut piped_carom(home, &["follow", "--json"]));
-    assert_eq!(out, "{\"player\":\"anna\"}\n");
+    assert_eq!(run_piped(home, &["follow"]).ok().out, "anna\n");
+    assert_eq!(run_piped(home, &["follow", "--json"]).out, "{\"player\":\"anna\"}\n");
     let heard = home.join("heard.txt");
     let plain = piped_carom(home, &["follow", "anna"]).stdout(File::create(&heard).unwrap()).spawn().unwrap();
     let seen = home.join("seen.txt");
@@ -173,12 +156,9 @@ fn follow_prints_text_or_json_until_the_player_leaves() {
     anna.send("++");
     anna.wait_until("the verdict", |_| text().contains("oint"));
     anna.send("q");
-    let [plain, json] = [plain, json].map(|child| child.wait_with_output().unwrap());
+    let [plain, _] = [plain, json].map(|child| outcome(child).ok());
     assert!(text().starts_with("anna plays straight"), "{}", text());
-    assert!(
-        plain.status.success() && String::from_utf8(plain.stderr).unwrap().contains("anna no longer shows the table")
-    );
-    assert!(json.status.success());
+    assert!(plain.err.contains("anna no longer shows the table"));
     let text = objects();
     let records: Vec<serde_json::Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert!(records.len() > 3 && records.iter().all(|record| record["table"]["name"] == "match"), "{text}");
@@ -237,21 +217,21 @@ fn hostile_names_and_other_ssh_commands_are_rejected() {
     let home = tempfile::tempdir().unwrap();
     let home = home.path();
     for name in ["../anna", "/etc", "a b", "\u{1b}]0;x\u{7}", ""] {
-        let (code, out, err) = run(&mut piped_carom(home, &["follow", "--", name]));
+        let Outcome { code, out, err } = run_piped(home, &["follow", "--", name]);
         assert!(code == Some(2) && out.is_empty() && err.contains("accepted are 1 to 32 letters"), "{name:?}: {err}");
         assert!(!err.contains('\u{1b}'), "{err:?}");
     }
-    let mut asked = piped_carom(home, &["--guest", "--player", "ben"]);
-    let (code, _, err) = run(asked.env("SSH_ORIGINAL_COMMAND", "follow ../../secret\u{1b}[2J"));
+    let asked = |words: &str| {
+        let mut command = piped_carom(home, &["--guest", "--player", "ben"]);
+        outcome(command.env("SSH_ORIGINAL_COMMAND", words).spawn().unwrap())
+    };
+    let Outcome { code, err, .. } = asked("follow ../../secret\u{1b}[2J");
     assert!(code == Some(2) && err.contains("accepted are") && !err.contains('\u{1b}'), "{err:?}");
-    let mut asked = piped_carom(home, &["--guest", "--player", "ben"]);
-    let (code, _, err) = run(asked.env("SSH_ORIGINAL_COMMAND", "follow"));
-    assert!(code == Some(0) && err.contains("nobody shows"), "{err}");
+    assert!(asked("follow").ok().err.contains("nobody shows"));
     for words in ["train --list", "doctor", "simulate", "cat /etc/passwd", "followx anna"] {
-        let mut ben = Session::start_at(home, over_ssh("ben", words), 80, 24);
-        ben.wait_for(START_TEXT);
+        let mut ben = Session::start_at(home, over_ssh("ben", words), 80, 24).ready();
         ben.send("q");
         assert_eq!(ben.wait_for_exit(TIMEOUT).exit_code(), 0, "{words}");
     }
-    assert_eq!(run(&mut piped_carom(home, &["follow", "anna"])).2.lines().count(), 1);
+    assert_eq!(run_piped(home, &["follow", "anna"]).err.lines().count(), 1);
 }

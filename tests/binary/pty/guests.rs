@@ -26,12 +26,10 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 #[test]
 fn a_guest_writes_only_to_the_players_folder() {
     let home = tempfile::tempdir().unwrap();
-    let mut session = Session::start_at(home.path(), guest("Anna"), 80, 24);
-    session.wait_for(START_TEXT);
+    let mut session = Session::start_at(home.path(), guest("Anna"), 80, 24).ready();
     session.send("\x1b[B\r");
     session.wait_for_advice();
-    session.send("q");
-    assert!(session.assert_clean_exit().success());
+    session.quit_with("q");
     let own = folder(home.path(), "anna");
     let left = files(home.path());
     assert!(left.iter().any(|file| file.ends_with("last.json")), "{left:?}");
@@ -42,16 +40,14 @@ fn a_guest_writes_only_to_the_players_folder() {
     again.wait_until_quiet(QUIET_TIME);
     again.send("c");
     again.wait_for("this is where the last session ended");
-    let mut other = Session::start_at(home.path(), guest("ben"), 80, 24);
-    other.wait_for(START_TEXT);
+    let mut other = Session::start_at(home.path(), guest("ben"), 80, 24).ready();
     other.press("c");
     assert!(!other.screen().contents().contains("this is where"), "{}", other.screen().contents());
 }
 
 #[test]
 fn a_guest_starts_no_training_and_has_no_shell() {
-    let mut session = Session::start_command(guest("anna"), 80, 24);
-    session.wait_for(START_TEXT);
+    let mut session = Session::start_command(guest("anna"), 80, 24).ready();
     session.send("\x1a");
     session.wait_for("guests have no shell");
     session.send("t");
@@ -59,8 +55,7 @@ fn a_guest_starts_no_training_and_has_no_shell() {
     session.send("n");
     session.wait_for("guests can watch runs");
     session.wait_until_quiet(QUIET_TIME);
-    session.send("q");
-    assert!(session.assert_clean_exit().success());
+    session.quit_with("q");
 }
 
 #[test]
@@ -70,8 +65,7 @@ fn a_guests_settings_cannot_read_other_files() {
     fs::create_dir_all(&own).unwrap();
     fs::write(&secret, "password = \"xyzzy\"\n").unwrap();
     fs::write(own.join("config.toml"), format!("table = \"{}\"\n", secret.display())).unwrap();
-    let mut session = Session::start_at(home.path(), guest("anna"), 120, 40);
-    session.wait_for(START_TEXT);
+    let mut session = Session::start_at(home.path(), guest("anna"), 120, 40).ready();
     session.send("\x1b[17~");
     session.wait_for("It is taken as");
     let text = session.screen().contents();
@@ -88,8 +82,7 @@ fn two_sessions_of_one_player_lose_nothing() {
     }
     for session in &mut sessions {
         session.wait_for_advice();
-        session.send("q");
-        assert!(session.assert_clean_exit().success());
+        session.quit_with("q");
     }
     let own = folder(home.path(), "anna");
     let last = fs::read_to_string(own.join("last.json")).unwrap();
@@ -102,8 +95,7 @@ fn an_unwritable_disk_is_reported_without_breaking_the_screen() {
     let mut limited = CommandBuilder::new("sh");
     let program = assert_cmd::cargo::cargo_bin!("carom").to_str().unwrap();
     limited.args(["-c", &format!("ulimit -f 0; exec {program} --guest")]);
-    let mut session = Session::start_command(limited, 80, 24);
-    session.wait_for(START_TEXT);
+    let mut session = Session::start_command(limited, 80, 24).ready();
     session.send("\x1b[B\r");
     session.wait_for_advice();
     session.send("\x1b[17~");

@@ -8,7 +8,7 @@ use std::{
 use carom::learning::run::{follow::Condition, list::runs_in, status::Phase};
 
 use crate::{
-    terminal::{QUIET_TIME, START_TEXT, Session, TIMEOUT, carom},
+    terminal::{QUIET_TIME, Session, TIMEOUT, carom},
     training::common::{folder, start, wait_for},
 };
 
@@ -17,14 +17,12 @@ fn a_run_started_in_the_program_outlives_it() {
     let data = tempfile::tempdir().unwrap();
     let mut command = carom();
     command.env("XDG_DATA_HOME", data.path());
-    let mut session = Session::start_command(command, 80, 24);
-    session.wait_for(START_TEXT);
+    let mut session = Session::start_command(command, 80, 24).ready();
     session.send("t");
     session.wait_for("No agent has been trained here yet.");
     session.send("n\x1b[B\x1b[B\x1b[B\x7f\x7f\x7f\x7f\x7f\x7f\x7f20000\r");
     session.wait_for("Numbers");
-    session.send("q");
-    assert!(session.assert_clean_exit().success());
+    session.quit_with("q");
     // The pseudo-terminal ends with the session.
     drop(session);
     let start = Instant::now();
@@ -69,6 +67,5 @@ fn two_terminals_watch_a_run_and_idle_after_its_end() {
     assert_eq!(stays.count_bytes(Duration::from_secs(2)), 0, "the run has ended, and no shot plays");
     // At most ten pictures of a few hundred bytes per second; 2,300 bytes per second were measured.
     assert!((100..40_000).contains(&watched), "{watched} bytes in two seconds");
-    stays.send("q");
-    assert!(stays.assert_clean_exit().success());
+    stays.quit_with("q");
 }

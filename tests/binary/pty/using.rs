@@ -35,14 +35,12 @@ fn a_session_places_a_ball_and_plays_the_advised_shot() {
     session.send(" ?");
     session.wait_for("Placing the balls");
     // Escape and q in one piece would be Alt-q.
-    session.send("?q");
-    assert!(session.assert_clean_exit().success());
+    session.quit_with("?q");
 }
 
 #[test]
 fn an_idle_screen_writes_nothing() {
     let mut session = Session::start(120, 40);
-    session.wait_for(START_TEXT);
     session.wait_until_quiet(QUIET_TIME);
     assert_eq!(session.count_bytes(Duration::from_millis(500)), 0);
 }
@@ -50,7 +48,6 @@ fn an_idle_screen_writes_nothing() {
 #[test]
 fn playback_output_fits_a_slow_connection() {
     let mut session = Session::start(120, 40);
-    session.wait_for(START_TEXT);
     session.send("\r");
     session.wait_for_advice();
     // The size of a picture depends on the shot, and the coach's shot depends on the load of the machine. So the test uses its own stroke:
@@ -77,13 +74,11 @@ fn playback_output_fits_a_slow_connection() {
 #[test]
 fn resizing_repaints_and_small_terminals_show_a_message() {
     let mut session = Session::start(80, 24);
-    session.wait_for(START_TEXT);
     for (width, height, text) in [(60, 20, "60×20"), (120, 40, "Shift x10")] {
         session.resize(width, height);
         session.wait_for(text);
     }
-    session.send("q");
-    assert!(session.assert_clean_exit().success());
+    session.quit_with("q");
 }
 
 #[test]
@@ -103,8 +98,7 @@ fn dragging_a_ball_draws_little_and_the_mouse_is_released() {
     let drag = session.bytes - before;
     // A picture has about 300 bytes.
     assert!(drag < 5_000, "{drag} bytes");
-    session.send("q");
-    assert!(session.assert_clean_exit().success());
+    session.quit_with("q");
 }
 
 #[test]
@@ -123,8 +117,7 @@ fn mouse_capture_can_be_disabled() {
 #[test]
 fn settings_apply_immediately_and_toasts_expire() {
     let home = tempfile::tempdir().unwrap();
-    let mut session = Session::start_at(home.path(), carom(), 80, 24);
-    session.wait_for(START_TEXT);
+    let mut session = Session::start_at(home.path(), carom(), 80, 24).ready();
     session.send("\x1b[15~");
     session.wait_for("changes apply at once");
     // Three unit settings follow the mouse setting.
@@ -146,8 +139,7 @@ fn settings_apply_immediately_and_toasts_expire() {
     assert!(session.screen().contents().contains(START_TEXT));
     session.wait_until_quiet(QUIET_TIME);
     assert_eq!(session.count_bytes(Duration::from_millis(500)), 0, "and nothing is left to wake up for");
-    session.send("q");
-    assert!(session.assert_clean_exit().success());
+    session.quit_with("q");
 }
 
 #[test]
@@ -163,8 +155,7 @@ fn an_attempt_noted_just_before_quitting_is_saved() {
             .status
             .success()
     );
-    let mut session = Session::start_at(home.path(), carom(), 80, 24);
-    session.wait_for(START_TEXT);
+    let mut session = Session::start_at(home.path(), carom(), 80, 24).ready();
     // The last category of the library contains the position; the coach starts to think about it when it is opened.
     session.send("d\x1b[D");
     session.wait_for("mine");
@@ -193,7 +184,6 @@ fn without_a_terminal_the_message_names_the_command_line() {
 #[test]
 fn a_burst_of_input_is_processed_completely() {
     let mut session = Session::start(80, 24);
-    session.wait_for(START_TEXT);
     // 2,700 bytes, of which the last one selects the yellow ball; the input library reads 1,024 at a time.
     session.send(&format!("{}{}\t", "\x1b[C".repeat(450), "\x1b[D".repeat(450)));
     session.wait_for("yellow at x");
@@ -203,14 +193,12 @@ fn a_burst_of_input_is_processed_completely() {
     session.wait_for("no matching command");
     session.send("\x1b");
     session.wait_for("yellow at x");
-    session.send("q");
-    assert!(session.assert_clean_exit().success());
+    session.quit_with("q");
 }
 
 #[test]
 fn many_resizes_end_with_the_right_picture() {
     let mut session = Session::start(80, 24);
-    session.wait_for(START_TEXT);
     for n in 0..200 {
         session.resize(60 + n % 90, 20 + n % 30);
     }
@@ -219,8 +207,7 @@ fn many_resizes_end_with_the_right_picture() {
     session.wait_for(START_TEXT);
     session.wait_until_quiet(QUIET_TIME);
     assert_eq!(session.count_bytes(Duration::from_millis(500)), 0);
-    session.send("q");
-    assert!(session.assert_clean_exit().success());
+    session.quit_with("q");
 }
 
 #[test]

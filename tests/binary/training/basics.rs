@@ -2,16 +2,14 @@
 
 use std::{fs, path::Path, process::Stdio};
 
-use serde_json::Value;
-
-use super::common::{SHORT, carom, command, folder, run_ok, run_unfinished, start, wait_for};
+use super::common::{SHORT, carom, command, folder, json_answer, read_json, run_ok, run_unfinished, start, wait_for};
 
 #[test]
 fn a_run_trains_a_policy_that_can_be_evaluated() {
     let folder = folder();
     let here = folder.path();
     let first = run_ok(here, &format!("{SHORT} --json --run one"));
-    let lines: Vec<Value> = first.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let lines = first.json();
     let last = lines.last().unwrap();
     assert_eq!(last["time/total_timesteps"], 640);
     for name in ["time/fps", "time/time_elapsed", "rollout/ep_rew_mean", "train/critic_loss", "train/actor_loss"] {
@@ -22,20 +20,18 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
     }
     let file = fs::read_to_string(here.join("one/metrics.jsonl")).unwrap();
     assert_eq!(file, first.out, "the file and the output have the same lines");
-    let config: Value = serde_json::from_slice(&fs::read(here.join("one/config.json")).unwrap()).unwrap();
+    let config = read_json(here.join("one/config.json"));
     assert_eq!(
         (&config["agent"], &config["seed"], &config["settings"]["batch_size"]),
         (&"ddpg".into(), &3.into(), &32.into())
     );
     assert_eq!((&config["table"]["name"], &config["version"]), (&"match".into(), &env!("CARGO_PKG_VERSION").into()));
 
-    let measured = run_ok(here, "evaluate --policy one/policy.safetensors --policy-only --layouts 100 --json");
-    let report: Value = serde_json::from_str(&measured.out).unwrap();
+    let report = json_answer(here, "evaluate --policy one/policy.safetensors --policy-only --layouts 100 --json");
     assert_eq!(report["success"]["layouts"], 100);
 
     // The folder of a run can be used in place of its policy file; its checkpoint cannot.
-    let of_folder: Value =
-        serde_json::from_str(&run_ok(here, "evaluate --policy one --policy-only --layouts 100 --json").out).unwrap();
+    let of_folder = json_answer(here, "evaluate --policy one --policy-only --layouts 100 --json");
     assert_eq!((&of_folder["success"], &of_folder["policy"]), (&report["success"], &"one".into()));
     run_ok(here, "train --agent dqn --table thesis --reward r1 --steps 100 --evaluation-layouts 5 --run plain");
     for (policy, code, words) in [
@@ -56,9 +52,8 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
         assert!(refused.code == Some(code) && refused.err.contains(words), "{policy}: {}", refused.err);
     }
 
-    let drawn =
-        run_ok(here, "evaluate --policy one/policy.safetensors --policy-only --drawn-tables --layouts 50 --json");
-    let drawn: Value = serde_json::from_str(&drawn.out).unwrap();
+    let line = "evaluate --policy one/policy.safetensors --policy-only --drawn-tables --layouts 50 --json";
+    let drawn = json_answer(here, line);
     assert!(drawn["tenths"].as_array().is_some_and(|tenths| !tenths.is_empty()), "{drawn}");
     assert_ne!(drawn["claimed"], report["claimed"], "other tables, other strokes");
 
@@ -66,8 +61,7 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
     let rounds = run_ok(here, "train --config small.toml --steps 1 --evaluation-layouts 5 --run rounds");
     assert!(rounds.out.contains("after 16 shots"), "{}", rounds.out);
     for file in ["result.json", "state.json"] {
-        let content: Value = serde_json::from_slice(&fs::read(here.join("rounds").join(file)).unwrap()).unwrap();
-        assert_eq!(content["shots"], 16, "{file}");
+        assert_eq!(read_json(here.join("rounds").join(file))["shots"], 16, "{file}");
     }
     let resumed = run_ok(here, "train --resume rounds");
     assert!(resumed.err.contains("it has played 16 shots (requested: 1)"), "{}", resumed.err);
@@ -102,7 +96,7 @@ fn an_interrupted_run_is_saved_listed_locked_and_resumable() {
     let mut child = start(here, &format!("{line} --run {}", run.display()));
     // The first lines of metrics show that the signal handlers are installed and training has started.
     wait_for(&run.join("metrics.jsonl"), &mut child);
-    let listed = || -> Value { serde_json::from_str(&run_ok(here, "train --list --json").out).unwrap() };
+    let listed = || json_answer(here, "train --list --json");
     assert_eq!((&listed()["name"], &listed()["state"]), (&name.into(), &"running".into()));
     let busy = carom(here, &format!("train --resume {name}"));
     assert_eq!(busy.code, Some(1));
@@ -131,7 +125,7 @@ fn every_bundled_policy_beats_a_search_of_100_random_shots() {
             let row = card.lines().find(|line| line.starts_with(&format!("| `{table}-{reward}` | **"))).unwrap();
             let high: f64 = row.rsplit_once('–').unwrap().1.split(' ').next().unwrap().parse().unwrap();
             let line = format!("evaluate --policy-only --table {table} --rule {rule} --layouts 500 --json");
-            let report: Value = serde_json::from_str(&run_ok(Path::new("."), &line).out).unwrap();
+            let report = json_answer(Path::new("."), &line);
             assert!(report["success"]["low"].as_f64().unwrap() > high / 100.0, "{row}: {report}");
         }
     }
@@ -200,22 +194,17 @@ fn invalid_input_is_named_in_one_sentence_and_writes_nothing() {
 fn setting_one_nested_value_keeps_the_others() {
     let folder = folder();
     let here = folder.path();
-    let settings = |run: &str| -> Value {
-        let config: Value = serde_json::from_slice(&fs::read(here.join(run).join("config.json")).unwrap()).unwrap();
-        config["settings"].clone()
-    };
+    let noise = |run: &str| read_json(here.join(run).join("config.json"))["settings"]["noise"].clone();
     let short = "--table thesis --steps 100 --evaluation-layouts 5";
-    run_ok(
-        here,
-        &format!("train --agent thesis-ddpg --reward r3 {short} --set noise.sigma=1 --set noise.dt=0.5 --run a"),
-    );
-    assert_eq!(settings("a")["noise"], serde_json::json!({"theta": 0.15, "sigma": 1.0, "dt": 0.5}));
+    let line = format!("train --agent thesis-ddpg --reward r3 {short} --set noise.sigma=1 --set noise.dt=0.5 --run a");
+    run_ok(here, &line);
+    assert_eq!(noise("a"), serde_json::json!({"theta": 0.15, "sigma": 1.0, "dt": 0.5}));
     // The other parts that the source run of the weights has set are kept, too.
     run_ok(here, &format!("train --from a {short} --set noise.theta=0.3 --run b"));
-    assert_eq!(settings("b")["noise"], serde_json::json!({"theta": 0.3, "sigma": 1.0, "dt": 0.5}));
+    assert_eq!(noise("b"), serde_json::json!({"theta": 0.3, "sigma": 1.0, "dt": 0.5}));
     fs::write(here.join("parts.toml"), "[noise]\nsigma = 2.0\n").unwrap();
     run_ok(here, &format!("train --from a {short} --config parts.toml --set noise.theta=0.3 --run c"));
-    assert_eq!(settings("c")["noise"], serde_json::json!({"theta": 0.3, "sigma": 2.0, "dt": 0.5}));
+    assert_eq!(noise("c"), serde_json::json!({"theta": 0.3, "sigma": 2.0, "dt": 0.5}));
 }
 
 #[test]
@@ -225,11 +214,10 @@ fn continue_and_objective_start_resume_and_score_a_run() {
     let line = format!("{SHORT} --run again --continue --objective");
     let early = run_unfinished(here, &format!("{line} --minutes 0.00001"));
     assert_eq!(early.out.lines().count(), 1, "{}", early.out);
-    let result = || fs::read_to_string(here.join("again/result.json"));
-    assert!(result().is_err(), "it is not finished");
+    let result = here.join("again/result.json");
+    assert!(!result.exists(), "it is not finished");
     let objective: f64 = run_ok(here, &line).out.trim().parse().unwrap();
-    let result: Value = serde_json::from_str(&result().unwrap()).unwrap();
-    assert_eq!(result["held_out_reward"].as_f64(), Some(objective));
+    assert_eq!(read_json(result)["held_out_reward"].as_f64(), Some(objective));
     assert_eq!(run_ok(here, &line).out.trim().parse(), Ok(objective), "a finished run stays as it is");
     let other = carom(here, &line.replace("--seed 3", "--seed 4"));
     assert_eq!(other.code, Some(1));

@@ -46,6 +46,16 @@ pub fn run_ok(folder: &Path, line: &str) -> Outcome {
     outcome
 }
 
+/// Runs carom, which must succeed and print one JSON object.
+pub fn json_answer(folder: &Path, line: &str) -> Value {
+    serde_json::from_str(&run_ok(folder, line).out).unwrap()
+}
+
+/// Returns the content of a JSON file.
+pub fn read_json(file: impl AsRef<Path>) -> Value {
+    serde_json::from_slice(&fs::read(file).unwrap()).unwrap()
+}
+
 /// Runs carom, which must stop before its end with the exit code for a resumable run.
 pub fn run_unfinished(folder: &Path, line: &str) -> Outcome {
     let outcome = carom(folder, line);

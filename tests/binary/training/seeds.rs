@@ -2,9 +2,7 @@
 
 use std::fs;
 
-use serde_json::Value;
-
-use super::common::{RunFiles, SHORT, carom, command, folder, run_ok, run_unfinished};
+use super::common::{RunFiles, SHORT, carom, command, folder, json_answer, read_json, run_ok, run_unfinished};
 use crate::program::outcome;
 
 #[test]
@@ -33,11 +31,10 @@ fn several_seeds_equal_single_runs_and_resume_together() {
     let parts = run_unfinished(here, &format!("{SHORT} --run parts --seeds 3 --minutes 0.0001"));
     assert!(parts.err.contains("--resume"), "{}", parts.err);
     run_unfinished(here, "train --resume parts --minutes 0.0005");
-    let json = run_ok(here, "train --resume parts --json");
-    assert!(json.out.lines().all(|line| serde_json::from_str::<Value>(line).unwrap()["seed"].is_u64()));
+    assert!(run_ok(here, "train --resume parts --json").json().iter().all(|line| line["seed"].is_u64()));
     assert_eq!(spread("parts"), spread("whole"));
-    let listed = run_ok(here, "train --list . --json").out;
-    let states: Vec<Value> = listed.lines().map(|line| serde_json::from_str::<Value>(line).unwrap()).collect();
+    let listed = run_ok(here, "train --list . --json");
+    let (states, listed) = (listed.json(), listed.out);
     assert_eq!(states.len(), 7);
     assert!(states.iter().all(|run| run["state"] == "finished" && run["best_reward"].is_number()), "{listed}");
     assert!(listed.contains("whole/seed-5"), "{listed}");
@@ -165,7 +162,7 @@ fn weights_are_found_by_policy_name() {
         let line = format!("train --from {from} {short} --run {run}");
         run_ok(here, &line);
         run_ok(here, &line);
-        let config: Value = serde_json::from_slice(&fs::read(here.join(run).join("config.json")).unwrap()).unwrap();
+        let config = read_json(here.join(run).join("config.json"));
         assert!(config["from"]["path"].as_str().unwrap().ends_with(path), "{from}: {}", config["from"]);
         assert_eq!(config["reward"], reward, "{from}");
     }
@@ -174,10 +171,8 @@ fn weights_are_found_by_policy_name() {
     assert!(run_ok(here, &line).err.contains("the actor will not change"));
     let lively = run_ok(here, &(line + " --set actor_learning_rate=0.0004").replace("run e", "run f"));
     assert!(!lively.err.contains("will not change"), "{}", lively.err);
-    let report: Value = serde_json::from_str(
-        &run_ok(here, "evaluate --policy match-one-cushion --policy-only --rule one-cushion --layouts 5 --json").out,
-    )
-    .unwrap();
+    let line = "evaluate --policy match-one-cushion --policy-only --rule one-cushion --layouts 5 --json";
+    let report = json_answer(here, line);
     assert_eq!((&report["policy"], &report["networks"]), (&"match-one-cushion".into(), &"match-one-cushion".into()));
     for line in ["train --from match-r9", "evaluate --policy match-r9"] {
         let refused = carom(here, line);
@@ -203,9 +198,7 @@ fn a_run_can_start_from_the_weights_of_another() {
     let folder = folder();
     let here = folder.path();
     run_ok(here, &format!("{SHORT} --run one --table thesis"));
-    let config = |run: &str| -> Value {
-        serde_json::from_slice(&fs::read(here.join(run).join("config.json")).unwrap()).unwrap()
-    };
+    let config = |run: &str| read_json(here.join(run).join("config.json"));
     let (weights, checkpoint) = ("one/policy.safetensors", "one/checkpoint.safetensors");
     for (from, run) in
         [("one", "of-run"), (weights, "of-policy"), (weights, "of-policy-again"), (checkpoint, "of-file")]

@@ -2,9 +2,7 @@
 
 use std::fs;
 
-use serde_json::Value;
-
-use super::common::{RunFiles, SMALL, carom, folder, run_ok};
+use super::common::{RunFiles, SMALL, carom, folder, read_json, run_ok};
 
 fn with_earlier_names(text: &str) -> String {
     text.replace("batch_size", "batch").replace("buffer_size", "replay").replace("tau", "target_rate")
@@ -26,10 +24,7 @@ fn settings_are_accepted_under_their_earlier_names() {
     fs::write(&config, with_earlier_names(&fs::read_to_string(&config).unwrap())).unwrap();
     run_ok(here, &format!("{line} --continue"));
 
-    let batch_size = |run: &str| -> Value {
-        let config: Value = serde_json::from_slice(&fs::read(here.join(run).join("config.json")).unwrap()).unwrap();
-        config["settings"]["batch_size"].clone()
-    };
+    let batch_size = |run: &str| read_json(here.join(run).join("config.json"))["settings"]["batch_size"].clone();
     for (run, line) in [
         ("a", "--config earlier.toml --set batch_size=16"),
         ("b", "--config small.toml --set batch=16"),

@@ -11,7 +11,7 @@ use std::{
 
 use serde_json::Value;
 
-use super::common::{SHORT, carom, command, folder, run_ok, run_unfinished, start, wait_for};
+use super::common::{SHORT, carom, command, folder, read_json, run_ok, run_unfinished, start, wait_for};
 use crate::program::outcome;
 
 /// A run of a few seconds with many lines of metrics.
@@ -20,10 +20,6 @@ const LONG: &str = "train --config small.toml --steps 40000 --evaluate-every 800
 /// Starts a process that watches, with captured output.
 fn watch(here: &Path, line: &str) -> Child {
     command(here, line).spawn().unwrap()
-}
-
-fn lines(text: &str) -> Vec<Value> {
-    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
 }
 
 /// Waits for a condition while `child` runs.
@@ -54,7 +50,8 @@ fn two_watchers_see_every_metrics_line_and_end_with_the_run() {
     let [json, plain] = watchers.map(outcome);
     assert!(training.wait().unwrap().success());
     let metrics = fs::read_to_string(run.join("metrics.jsonl")).unwrap();
-    assert_eq!((json.code, lines(&json.out)), (Some(0), lines(&metrics)));
+    let metrics: Vec<Value> = metrics.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert_eq!((json.code, json.json()), (Some(0), metrics));
     assert_eq!((plain.code, plain.out.lines().count()), (Some(0), 5), "{}{}", plain.out, plain.err);
     assert!(plain.out.lines().all(|line| line.contains("held-out reward")), "{}", plain.out);
     assert!(plain.err.contains("the run is training") && plain.err.contains("the run is finished"), "{}", plain.err);
@@ -92,9 +89,8 @@ fn a_resumed_run_can_be_watched() {
     let here = folder.path();
     run_unfinished(here, &format!("{} --run run --minutes 0.005", LONG.replace("40000", "120000")));
     let list = |state: &str| {
-        let list = run_ok(here, "train --list . --json").out;
-        let run = lines(&list).remove(0);
-        assert_eq!(run["state"], state, "{list}");
+        let run = run_ok(here, "train --list . --json").json().remove(0);
+        assert_eq!(run["state"], state, "{run}");
         run["last_reward"].as_f64().unwrap()
     };
     assert!(list("stopped") >= 0.0, "the reward at the stop is known");
@@ -123,7 +119,7 @@ fn a_run_is_stopped_or_abandoned_by_a_request_file() {
     }
     // The report uses the run's own status, not its last line of metrics, which may be older.
     let stopped = run_ok(here, "watch stop");
-    let standing: Value = serde_json::from_slice(&fs::read(here.join("stop/state.json")).unwrap()).unwrap();
+    let standing = read_json(here.join("stop/state.json"));
     assert!(standing["warning"].as_str().unwrap().contains("\"puase\" is not understood"), "{standing}");
     let reward = standing["held_out_reward"].as_f64().unwrap();
     let expected =
@@ -148,7 +144,7 @@ fn a_second_signal_skips_only_the_final_measurement() {
     let shots = standing()["shots"].clone();
     signal(&training, "TERM");
     assert_eq!(training.wait().unwrap().code(), Some(75));
-    let listed = || lines(&run_ok(here, "train --list . --json").out).remove(0);
+    let listed = || run_ok(here, "train --list . --json").json().remove(0);
     let start = Instant::now();
     while listed()["state"] != "stopped" {
         assert!(start.elapsed() < Duration::from_secs(10), "{}", listed());
