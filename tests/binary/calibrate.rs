@@ -2,16 +2,11 @@
 
 use std::{fs, io::Write, path::Path, process::Stdio};
 
-use assert_cmd::Command;
-use serde_json::Value;
+use crate::program::{Outcome, carom, command, count_attempts, run_with_input};
 
-use crate::program::{carom_command as carom, command, count_attempts};
-
-/// Returns the program with its own home folder.
-fn at_home(home: &Path, args: &[&str]) -> Command {
-    let mut command = carom(args);
-    command.current_dir(home).env("HOME", home).env("XDG_DATA_HOME", home.join("data"));
-    command
+/// Plays a session with these lines.
+fn session(home: &Path, lines: &str) -> Outcome {
+    run_with_input(command(home, &["calibrate"]), lines)
 }
 
 const ENTRIES: &str = "name = \"ours\"\n[[trial]]\ntest = \"slow-roll\"\ntime = 9.6\nstop = 5.4\ndrift = \"725 mm\"\n\
@@ -20,29 +15,24 @@ const ENTRIES: &str = "name = \"ours\"\n[[trial]]\ntest = \"slow-roll\"\ntime = 
 #[test]
 fn an_entries_file_becomes_a_table_that_commands_accept() {
     let home = tempfile::tempdir().unwrap();
-    let run = |args: &[&str]| at_home(home.path(), args);
+    let run = |args: &[&str]| carom(home.path(), args).ok();
     fs::write(home.path().join("entries.toml"), ENTRIES).unwrap();
-    let printed = run(&["calibrate", "entries.toml", "--out", "mine.toml"]).assert().success();
-    let printed = String::from_utf8_lossy(&printed.get_output().stdout).into_owned();
+    let printed = run(&["calibrate", "entries.toml", "--out", "mine.toml"]).out;
     for part in ["mu_r", "well", "all marks agree", "not entered yet: slow-roll (1), slow-back (1)", "helps most"] {
         assert!(printed.contains(part), "{part}: {printed}");
     }
-    run(&["table", "check", "mine.toml"]).assert().success();
-    run(&["simulate", "--table", "mine.toml", "--shot", "0,0.3,0,1,2"]).assert().success();
+    run(&["table", "check", "mine.toml"]);
+    run(&["simulate", "--table", "mine.toml", "--shot", "0,0.3,0,1,2"]);
     let text = fs::read_to_string(home.path().join("mine.toml")).unwrap();
     assert!(text.contains("[doubt.deviations]") && text.contains("name = \"ours\""), "{text}");
     // Again, from the table just written: the uncertainty is smaller now, and the file is replaced.
     let answer =
-        run(&["calibrate", "entries.toml", "--table", "mine.toml", "--out", "mine.toml", "--json"]).output().unwrap();
-    let answer: Value = serde_json::from_slice(&answer.stdout).unwrap();
+        run(&["calibrate", "entries.toml", "--table", "mine.toml", "--out", "mine.toml", "--json"]).json().remove(0);
     let roll = answer["constants"].as_array().unwrap().iter().find(|one| one["name"] == "mu_r").unwrap();
     assert!(roll["before_deviation"].as_f64().unwrap() < 0.0006, "{roll}");
     assert_ne!(fs::read_to_string(home.path().join("mine.toml")).unwrap(), text);
     // A daily check: the change at three rails is unknown until both tests are played.
-    let daily = || {
-        let daily = run(&["calibrate", "--daily", "--table", "mine.toml", "entries.toml"]).assert().success();
-        String::from_utf8_lossy(&daily.get_output().stdout).into_owned()
-    };
+    let daily = || run(&["calibrate", "--daily", "--table", "mine.toml", "entries.toml"]).out;
     let lag = daily();
     assert!(lag.contains("not entered yet: corner-five (1)\n") && !lag.contains("three rails"), "{lag}");
     let corner = "[[trial]]\ntest = \"corner-five\"\nfirst = 5.9\nthird = 5.2\n";
@@ -54,12 +44,9 @@ fn an_entries_file_becomes_a_table_that_commands_accept() {
 #[test]
 fn a_session_without_entries_writes_no_table() {
     let home = tempfile::tempdir().unwrap();
-    let message = at_home(home.path(), &["calibrate", "--out", "mine.toml"]).write_stdin("").assert().code(2);
-    let message = String::from_utf8_lossy(&message.get_output().stderr).into_owned();
-    assert!(
-        message.contains("there is no mark that can be used") && !home.path().join("mine.toml").exists(),
-        "{message}"
-    );
+    let output = carom(home.path(), &["calibrate", "--out", "mine.toml"]);
+    assert!(output.code == Some(2) && output.err.contains("there is no mark that can be used"), "{}", output.err);
+    assert!(!home.path().join("mine.toml").exists());
 }
 
 #[test]
@@ -67,37 +54,33 @@ fn contradictory_strokes_are_named_and_no_table_is_written() {
     let home = tempfile::tempdir().unwrap();
     let strokes = ["5", "9", "16"].map(|time| format!("[[trial]]\ntest = \"slow-roll\"\ntime = {time}\nstop = 5\n"));
     fs::write(home.path().join("entries.toml"), strokes.concat()).unwrap();
-    let output = at_home(home.path(), &["calibrate", "entries.toml"]).assert().code(2);
-    assert!(!String::from_utf8_lossy(&output.get_output().stderr).contains("no table is written"));
-    let output = String::from_utf8_lossy(&output.get_output().stdout).into_owned();
-    assert!(output.contains("contradict the others") && output.contains("trial 1 (slow-roll)"), "{output}");
-    assert!(output.contains("unsure") && !output.contains(" better") && !output.contains(" well"), "{output}");
-    let refused = at_home(home.path(), &["calibrate", "entries.toml", "--out", "mine.toml"]).assert().code(2);
-    assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("no table is written"));
+    let Outcome { code, out, err } = carom(home.path(), &["calibrate", "entries.toml"]);
+    assert!(code == Some(2) && !err.contains("no table is written"), "{err}");
+    assert!(out.contains("contradict the others") && out.contains("trial 1 (slow-roll)"), "{out}");
+    assert!(out.contains("unsure") && !out.contains(" better") && !out.contains(" well"), "{out}");
+    let refused = carom(home.path(), &["calibrate", "entries.toml", "--out", "mine.toml"]);
+    assert!(refused.code == Some(2) && refused.err.contains("no table is written"), "{}", refused.err);
     assert!(!home.path().join("mine.toml").exists());
 }
 
 #[test]
 fn a_table_shadowed_by_a_bundled_name_is_reported() {
     let home = tempfile::tempdir().unwrap();
-    let tables = home.path().join("data/carom/tables");
+    let tables = home.path().join("carom/tables");
     fs::create_dir_all(&tables).unwrap();
-    let shown = at_home(home.path(), &["table", "show", "match"]).assert().success();
-    fs::write(tables.join("match.toml"), &shown.get_output().stdout).unwrap();
-    let listed = at_home(home.path(), &["table"]).assert().success();
-    let (out, message) =
-        (&listed.get_output().stdout, String::from_utf8_lossy(&listed.get_output().stderr).into_owned());
-    assert_eq!(String::from_utf8_lossy(out).matches("match:").count(), 1);
-    assert!(message.contains("match.toml is not found by its name"), "{message}");
+    fs::write(tables.join("match.toml"), carom(home.path(), &["table", "show", "match"]).ok().out).unwrap();
+    let listed = carom(home.path(), &["table"]).ok();
+    assert_eq!(listed.out.matches("match:").count(), 1);
+    assert!(listed.err.contains("match.toml is not found by its name"), "{}", listed.err);
 }
 
 #[test]
 fn invalid_entries_are_named_and_nothing_is_overwritten() {
     let home = tempfile::tempdir().unwrap();
     let refused = |args: &[&str], code: i32| {
-        let output = at_home(home.path(), args).output().unwrap();
-        assert_eq!(output.status.code(), Some(code), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
-        String::from_utf8(output.stderr).unwrap()
+        let output = carom(home.path(), args);
+        assert_eq!(output.code, Some(code), "{args:?}: {}", output.err);
+        output.err
     };
     let write = |name: &str, text: &str| fs::write(home.path().join(name), text).unwrap();
     write("odd.toml", &format!("{ENTRIES}[[trial]]\ntest = \"lag\"\nrest = 240\n"));
@@ -145,8 +128,7 @@ fn tables_and_attempts_are_saved_when_stdout_is_closed() {
 #[test]
 fn a_session_reports_saved_marks_missing_marks_and_their_meaning() {
     let home = tempfile::tempdir().unwrap();
-    let output = at_home(home.path(), &["calibrate"]).write_stdin("9.1\n9.2 5.3 2\ndone\n").assert().success();
-    let message = String::from_utf8_lossy(&output.get_output().stderr).into_owned();
+    let message = session(home.path(), "9.1\n9.2 5.3 2\ndone\n").ok().err;
     assert!(message.contains("on one line"), "{message}");
     assert!(message.contains("mark    rails: how many short rails it has met, if not 0"), "{message}");
     let first = "saved: slow-roll, stroke 1: time 9.1; without stop, drift (undo removes it)\n";
@@ -157,11 +139,11 @@ fn a_session_reports_saved_marks_missing_marks_and_their_meaning() {
 #[test]
 fn a_session_saves_every_entry_and_can_be_resumed() {
     let home = tempfile::tempdir().unwrap();
-    let file = home.path().join("data/carom/calibration.toml");
+    let file = home.path().join("carom/calibration.toml");
     let play = |lines: &str, code: i32| {
-        let output = at_home(home.path(), &["calibrate"]).write_stdin(lines.to_owned()).assert().code(code);
-        let output = output.get_output();
-        String::from_utf8_lossy(&[&output.stderr[..], &output.stdout].concat()).into_owned()
+        let output = session(home.path(), lines);
+        assert_eq!(output.code, Some(code), "{}", output.err);
+        output.err + &output.out
     };
     let printed = play("", 0);
     assert!(printed.contains("nothing is entered yet") && printed.contains("slow-roll") && !file.exists(), "{printed}");
@@ -179,28 +161,24 @@ fn a_session_saves_every_entry_and_can_be_resumed() {
     assert_eq!(fs::read_to_string(&file).unwrap().matches("test = \"lag\"").count(), 2);
     // An unreadable file is not overwritten.
     fs::write(&file, "broken").unwrap();
-    let output = at_home(home.path(), &["calibrate"]).write_stdin("1 2 3\n").output().unwrap();
-    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(session(home.path(), "1 2 3\n").code, Some(2));
     assert_eq!(fs::read_to_string(&file).unwrap(), "broken");
 }
 
 #[test]
 fn tests_are_listed_and_the_template_is_an_entries_file() {
     let home = tempfile::tempdir().unwrap();
-    let output = |args: &[&str]| String::from_utf8(at_home(home.path(), args).output().unwrap().stdout).unwrap();
-    let text = output(&["calibrate", "--tests"]);
+    let output = |args: &[&str]| carom(home.path(), args).ok();
+    let text = output(&["calibrate", "--tests"]).out;
     assert!(text.contains("1. slow-roll (2 times)") && text.contains("20 strokes in all"), "{text}");
-    let tests: Vec<Value> =
-        output(&["calibrate", "--tests", "--json"]).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let tests = output(&["calibrate", "--tests", "--json"]).json();
     assert_eq!(tests.iter().map(|test| test["times"].as_u64().unwrap()).sum::<u64>(), 20);
     assert_eq!(tests[0]["marks"][0]["unit"], "seconds");
     assert!(tests.iter().any(|test| test["rails"]["words"].is_string() && test["rails"]["usual"].is_null()));
     assert!(tests.iter().any(|test| test["rails"].is_null()), "{tests:?}");
-    fs::write(home.path().join("entries.toml"), output(&["calibrate", "--template"])).unwrap();
-    let refused = at_home(home.path(), &["calibrate", "entries.toml"]).output().unwrap();
-    assert!(String::from_utf8_lossy(&refused.stderr).contains("no mark that can be used"));
-    let measured = output(&["calibrate", "--simulate", "2", "--seed", "5", "--json"]);
-    let measured: Value = serde_json::from_str(&measured).unwrap();
+    fs::write(home.path().join("entries.toml"), output(&["calibrate", "--template"]).out).unwrap();
+    assert!(carom(home.path(), &["calibrate", "entries.toml"]).err.contains("no mark that can be used"));
+    let measured = &output(&["calibrate", "--simulate", "2", "--seed", "5", "--json"]).json()[0];
     assert_eq!((measured["tables"].as_u64(), measured["strokes"].as_u64()), (Some(2), Some(20)));
     assert!(measured["constants"].as_array().unwrap().len() >= 14);
 }

@@ -1,6 +1,6 @@
 //! Files written by others, or only half of one: settings, practice, runs, policies.
 
-use std::{fs, process::Command, sync::LazyLock};
+use std::{fs, sync::LazyLock};
 
 use carom::{
     drills::Store,
@@ -19,7 +19,7 @@ use proptest::prelude::*;
 use tempfile::TempDir;
 
 use super::mutation::mutated;
-use crate::program::home;
+use crate::program::carom;
 
 /// Tests with files are a thousand times slower than those with text in memory.
 fn fewer_cases() -> ProptestConfig {
@@ -32,12 +32,7 @@ static VALID: LazyLock<TempDir> = LazyLock::new(|| {
     let folder = tempfile::tempdir().unwrap();
     let small = "actor_layers = [4]\ncritic_layers = [4]\nbatch_size = 8\nactor_batch_size = 4\nbuffer_size = 1000\n";
     fs::write(folder.path().join("small.toml"), small).unwrap();
-    let carom = |args: &[&str]| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_carom"));
-        command.args(args).envs(home()).env("XDG_DATA_HOME", folder.path()).current_dir(folder.path());
-        let said = command.output().unwrap();
-        assert!(said.status.success(), "{args:?}: {}", String::from_utf8_lossy(&said.stderr));
-    };
+    let carom = |args: &[&str]| carom(folder.path(), args).ok();
     let train = ["train", "--config", "small.toml", "--steps", "200", "--evaluate-every", "100"];
     carom(&[&train[..], &["--evaluation-layouts", "2", "--run", "run"]].concat());
     carom(&["drill", "save", "mine", "--layout", "-0.5,0 0,0 0.5,0.03"]);

@@ -1,11 +1,5 @@
 //! JSON Lines to the real program: every line is answered, and no control character reaches the output.
 
-use std::{
-    io::Write,
-    process::{Command, Stdio},
-    thread,
-};
-
 use carom::printing::is_hidden;
 use proptest::{
     prelude::*,
@@ -14,7 +8,7 @@ use proptest::{
 };
 
 use super::mutation::mutated;
-use crate::program::home;
+use crate::program::{Outcome, carom_command, finished};
 
 const LINE: &str = r#"{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"cue":{"a":0.1,"b":0.3,"theta_deg":5,"phi_deg":1,"speed":4},"rule":"straight"}"#;
 
@@ -28,20 +22,8 @@ fn check(args: &[&str], lines: usize) {
     };
     let lines: Vec<_> = (0..lines).map(|_| line(&mut runner)).collect();
     let asked = lines.iter().filter(|line| !line.trim_ascii().is_empty()).count();
-    let mut child = Command::new(env!("CARGO_BIN_EXE_carom"))
-        .args(args)
-        .envs(home())
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut input = child.stdin.take().unwrap();
-    let feeder = thread::spawn(move || input.write_all(&lines.join(&b'\n')));
-    let output = child.wait_with_output().unwrap();
-    let _ = feeder.join().unwrap();
-    assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
-    let text = String::from_utf8(output.stdout).unwrap();
+    let Outcome { code, out: text, err } = finished(carom_command(args).write_stdin(lines.join(&b'\n')));
+    assert_eq!(code, Some(2), "{err}");
     assert_eq!(text.lines().count(), asked);
     for line in text.lines() {
         assert!(!line.chars().any(is_hidden), "{line:?}");
@@ -93,21 +75,10 @@ fn plain_mode() {
     let config = tempfile::tempdir().unwrap();
     std::fs::create_dir(config.path().join("carom")).unwrap();
     std::fs::write(config.path().join("carom/config.toml"), "think_ms = 100\n").unwrap();
-    let mut child = Command::new(env!("CARGO_BIN_EXE_carom"))
-        .arg("--plain")
-        .envs(home())
-        .env("XDG_CONFIG_HOME", config.path())
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut input = child.stdin.take().unwrap();
-    let feeder = thread::spawn(move || input.write_all(&input_text));
-    let output = child.wait_with_output().unwrap();
-    // The program may have understood "quit".
-    let _ = feeder.join().unwrap();
+    // The program may understand "quit" and leave the rest of its input.
+    let mut plain = carom_command(&["--plain"]);
+    let output = finished(plain.env("XDG_CONFIG_HOME", config.path()).write_stdin(input_text));
     // Most lines are refused.
-    assert!(matches!(output.status.code(), Some(0 | 2)), "{}", output.status);
-    let text = String::from_utf8(output.stdout).unwrap();
-    assert!(!text.chars().any(|character| is_hidden(character) && !matches!(character, '\n' | '\t')));
+    assert!(matches!(output.code, Some(0 | 2)), "{:?}", output.code);
+    assert!(!output.out.chars().any(|character| is_hidden(character) && !matches!(character, '\n' | '\t')));
 }

@@ -99,13 +99,10 @@ fn input_lines() {
 #[test]
 fn settings_and_saved_files() {
     let folder = tempfile::tempdir().unwrap();
-    let settings = folder.path().join("config.toml");
-    fs::write(&settings, format!("\"{0}\" = 1\ntable = \"{0}\"\n", quoted())).unwrap();
-    let mut config = command(folder.path(), &["config", "--check"]);
-    fs::create_dir_all(folder.path().join("c/carom")).unwrap();
-    fs::rename(&settings, folder.path().join("c/carom/config.toml")).unwrap();
-    let output = config.env("XDG_CONFIG_HOME", folder.path().join("c")).output().unwrap();
-    assert_escaped("config", &(String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap()));
+    let settings = folder.path().join("config/carom");
+    fs::create_dir_all(&settings).unwrap();
+    fs::write(settings.join("config.toml"), format!("\"{0}\" = 1\ntable = \"{0}\"\n", quoted())).unwrap();
+    check(folder.path(), &["config", "--check"]);
 
     let positions = folder.path().join("carom/positions");
     fs::create_dir_all(&positions).unwrap();

@@ -3,7 +3,7 @@
 use std::fs;
 
 use crate::{
-    program::carom_command,
+    program::{carom_command, finished},
     terminal::{QUIET_TIME, Session, TIMEOUT, carom},
 };
 
@@ -34,8 +34,8 @@ fn entered_strokes_survive_a_kill() {
     second.quit_with("q");
     let mut command = carom_command(&["calibrate"]);
     command.env("HOME", home.path()).env("XDG_DATA_HOME", home.path().join("data"));
-    let printed = command.write_stdin("9.4 5.3\ndone\n").output().unwrap();
-    assert!(String::from_utf8_lossy(&printed.stdout).contains("slow-back (1)"), "{printed:?}");
+    let printed = finished(command.write_stdin("9.4 5.3\ndone\n"));
+    assert!(printed.out.contains("slow-back (1)"), "{}", printed.out);
     let kept = fs::read_to_string(home.path().join("data/carom/calibration.toml")).unwrap();
     assert_eq!(kept.matches("[[trial]]").count(), 2, "{kept}");
 }

@@ -8,8 +8,10 @@ use std::{
 
 use portable_pty::CommandBuilder;
 
-use crate::program::home;
-use crate::terminal::{QUIET_TIME, START_TEXT, Session, TIMEOUT, carom};
+use crate::{
+    program::{carom_command, finished, home},
+    terminal::{QUIET_TIME, START_TEXT, Session, TIMEOUT, carom},
+};
 
 /// Start of every frame.
 const FRAME: &[u8] = b"\x1b[?2026h";
@@ -145,16 +147,8 @@ fn settings_apply_immediately_and_toasts_expire() {
 #[test]
 fn an_attempt_noted_just_before_quitting_is_saved() {
     let home = tempfile::tempdir().unwrap();
-    let mut save = Command::new(env!("CARGO_BIN_EXE_carom"));
-    save.args(["drill", "save", "mine", "--layout", "-0.9,0.1 0.3,0.3 0.6,-0.5", "--rule", "three-cushion"]);
-    assert!(
-        save.envs(crate::program::home())
-            .env("XDG_DATA_HOME", home.path().join("data"))
-            .output()
-            .unwrap()
-            .status
-            .success()
-    );
+    let save = ["drill", "save", "mine", "--layout", "-0.9,0.1 0.3,0.3 0.6,-0.5", "--rule", "three-cushion"];
+    finished(carom_command(&save).env("XDG_DATA_HOME", home.path().join("data"))).ok();
     let mut session = Session::start_at(home.path(), carom(), 80, 24).ready();
     // The last category of the library contains the position; the coach starts to think about it when it is opened.
     session.send("d\x1b[D");
@@ -169,10 +163,9 @@ fn an_attempt_noted_just_before_quitting_is_saved() {
 #[test]
 fn without_a_terminal_the_message_names_the_command_line() {
     for term in ["xterm", "dumb"] {
-        let output = Command::new(env!("CARGO_BIN_EXE_carom")).envs(home()).env("TERM", term).output().unwrap();
-        assert_eq!(output.status.code(), Some(2));
-        assert!(output.stdout.is_empty());
-        assert!(String::from_utf8_lossy(&output.stderr).contains("carom recommend --layout"));
+        let output = finished(carom_command(&[]).env("TERM", term));
+        assert!(output.code == Some(2) && output.out.is_empty(), "{}", output.out);
+        assert!(output.err.contains("carom recommend --layout"), "{}", output.err);
     }
     let mut command = CommandBuilder::new("sh");
     command.args(["-c", "TERM=dumb \"$0\"; echo code $?", env!("CARGO_BIN_EXE_carom")]);
