@@ -14,8 +14,7 @@ fn the_version_contains_the_commit_and_architecture() {
 #[test]
 fn doctor_finds_no_problem_for_new_users_and_creates_nothing() {
     let home = tempfile::tempdir().unwrap();
-    let output = carom(home.path(), &["doctor", "--json"]);
-    assert_eq!(output.code, Some(0), "{}{}", output.out, output.err);
+    let output = carom(home.path(), &["doctor", "--json"]).ok();
     let report = &output.json()[0];
     assert_eq!(output.json().len(), 1);
     assert_eq!(report["problems"].as_array().unwrap().len(), 0);
@@ -40,8 +39,7 @@ fn folder_names_that_are_not_utf8_are_printed_lossily() {
     let folder = tempfile::tempdir().unwrap();
     let home = folder.path().join(std::ffi::OsStr::from_bytes(b"z\xff"));
     fs::create_dir_all(&home).unwrap();
-    let output = carom(&home, &["doctor", "--json"]);
-    assert_eq!(output.code, Some(0), "{}{}", output.out, output.err);
+    let output = carom(&home, &["doctor", "--json"]).ok();
     let path = output.json()[0]["places"][1]["path"].as_str().unwrap().to_owned();
     assert!(path.contains("z\u{fffd}"), "{path}");
 }

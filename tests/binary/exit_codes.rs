@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::program::{carom, command, drill, folder, run_with_input};
+use crate::program::{carom, command, drill, folder, outcome, run_with_input};
 
 #[test]
 fn missing_names_and_files_exit_with_one() {
@@ -122,7 +122,7 @@ fn unwritable_output_exits_with_one() {
     ] {
         let mut full = command(home.path(), args);
         full.stdout(fs::File::create("/dev/full").unwrap());
-        let output = crate::program::outcome(full.spawn().unwrap());
+        let output = outcome(full.spawn().unwrap());
         assert!(
             output.code == Some(1) && output.err.contains("cannot be written"),
             "{args:?}: {:?} {}",

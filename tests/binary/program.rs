@@ -44,7 +44,7 @@ impl Outcome {
     /// Asserts that the program succeeded.
     #[track_caller]
     pub fn ok(self) -> Self {
-        assert_eq!(self.code, Some(0), "{}", self.err);
+        assert_eq!(self.code, Some(0), "{}{}", self.out, self.err);
         self
     }
 }
@@ -80,7 +80,7 @@ pub fn json_answer(args: &[&str]) -> Value {
 /// Returns a user folder with the position `mine`.
 pub fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    assert_eq!(drill(folder.path(), SAVE).code, Some(0));
+    drill(folder.path(), SAVE).ok();
     folder
 }
 

@@ -116,8 +116,7 @@ fn runs() {
     let runs = folder.path().join("runs");
     let run = runs.join(NAME);
     let args = ["train", "--steps", "200", "--evaluation-layouts", "2", "--evaluate-every", "200", "--run"];
-    let made = carom(folder.path(), &[&args[..], &[run.to_str().unwrap()]].concat());
-    assert_eq!(made.code, Some(0), "{}", made.err);
+    let made = carom(folder.path(), &[&args[..], &[run.to_str().unwrap()]].concat()).ok();
     assert_escaped("train", &(made.out + &made.err));
     let text = fs::read_to_string(run.join("config.json")).unwrap();
     let mut config: serde_json::Value = serde_json::from_str(&text).unwrap();
