@@ -3,11 +3,11 @@
 use std::{fmt, ops::ControlFlow};
 
 use super::{
-    reference_engine::{Finder, Numbers, Real, Vector, algorithm_1010, by_extrema, closed_form, play},
+    reference_engine::{Finder, Numbers, Real, algorithm_1010, by_extrema, closed_form, play},
     shots::StudyShot,
     stability::{Trace, account},
     steps::Steps,
-    truth::motion,
+    truth::{motion, positions},
 };
 use crate::{
     simulation::{Event, EventKind, Observer, simulate},
@@ -150,9 +150,8 @@ impl Observer for Events {
 }
 
 fn play_reference<R: Real>(table: &Table, shot: &StudyShot, finder: Finder<R>) -> Option<Run> {
-    let flat = |v: glam::DVec2| Vector::new(R::of(v.x), R::of(v.y), R::zero());
     let (velocity, spin) = motion(shot);
-    let played = play(&Numbers::of(table), shot.layout.balls.map(flat), velocity, spin, finder).ok()?;
+    let played = play(&Numbers::of(table), positions(&shot.layout), velocity, spin, finder).ok()?;
     Some(Run {
         events: played.events.iter().map(|(time, kind)| (time.to_f64(), *kind)).collect(),
         end: played.layout(table),

@@ -53,7 +53,6 @@ pub struct Row {
     pub method: &'static str,
     /// The method's family in reports.
     #[serde(skip)]
-    #[serde(rename = "words")]
     pub description: &'static str,
     /// The time step, s; `None` for event-driven methods.
     pub dt: Option<f64>,

@@ -96,15 +96,14 @@ impl Truth {
     }
 }
 
-fn positions(layout: &Layout) -> [Vector<DoubleDouble>; BALLS] {
-    layout.balls.map(|ball| Vector::new(DoubleDouble::of(ball.x), DoubleDouble::of(ball.y), DoubleDouble::of(0.0)))
+/// Positions of balls on the cloth.
+pub fn positions<R: Real>(layout: &Layout) -> [Vector<R>; BALLS] {
+    layout.balls.map(|ball| Vector::of(ball.extend(0.0)))
 }
 
 /// Initial velocity and spin of a shot's cue ball.
 pub fn motion<R: Real>(shot: &StudyShot) -> (Vector<R>, Vector<R>) {
-    let (v, w) = (shot.impulse.velocity.extend(shot.impulse.lift), shot.impulse.spin);
-    let vector = |v: glam::DVec3| Vector::new(R::of(v.x), R::of(v.y), R::of(v.z));
-    (vector(v), vector(w))
+    (Vector::of(shot.impulse.velocity.extend(shot.impulse.lift)), Vector::of(shot.impulse.spin))
 }
 
 /// Final positions of a shot's balls; a ball that left the table is on its spot.
@@ -130,17 +129,14 @@ mod tests {
     use rand_xoshiro::Xoshiro256PlusPlus;
 
     use super::*;
-    use crate::{
-        physics,
-        study::{
-            shots::{MaxElevation, random_shots},
-            stability::adversarial,
-        },
+    use crate::study::{
+        shots::{MaxElevation, random_shots},
+        stability::adversarial,
     };
 
     fn judges_all(random: usize, adversarial_shots: usize) {
         let judge = |table: &Table, shot: &StudyShot| {
-            let (velocity, spin) = motion(shot);
+            let (velocity, spin) = motion::<DoubleDouble>(shot);
             play(&Numbers::of(table), positions(&shot.layout), velocity, spin, by_extrema).unwrap();
         };
         for table in ["thesis", "textbook"].map(|name| Table::preset(name).unwrap()) {
@@ -150,8 +146,7 @@ mod tests {
             let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
             for _ in 0..adversarial_shots {
                 let shot = adversarial::shot(&table, &mut rng);
-                let cue = physics::CueInputs::from(shot.cue);
-                judge(&table, &StudyShot { layout: shot.layout, cue, impulse: physics::strike(&table, &cue) });
+                judge(&table, &StudyShot::new(&table, shot.layout, shot.cue.into()));
             }
         }
     }

@@ -33,11 +33,11 @@ impl<R: Real> Course<R> {
 
     /// Returns all balls `time` later, and the work of friction per mass.
     pub fn after(&self, time: R) -> (Balls<R>, R) {
-        let start = State { time: R::zero(), work: R::zero(), balls: self.balls };
-        match &self.piece {
-            Some(piece) if time > R::zero() => self.merged(&State { time, ..piece.at(piece.tau_at(time)) }),
-            _ => self.merged(&State { time, ..start }),
-        }
+        let state = match &self.piece {
+            Some(piece) if time > R::zero() => piece.at(piece.tau_at(time)),
+            _ => State { time, work: R::zero(), balls: self.balls },
+        };
+        self.merged(&State { time, ..state })
     }
 
     fn merged(&self, state: &State<R>) -> (Balls<R>, R) {

@@ -1,7 +1,5 @@
 //! The event loop: all balls are moved to each event, and everything is predicted again after it.
 
-use glam::DVec2;
-
 use super::{
     Ball, Finder, Motion, Numbers, Real, Vector,
     contact::Contact,
@@ -32,8 +30,6 @@ pub struct Shot<R> {
     pub events: Vec<(R, EventKind)>,
     /// Final states of the balls.
     pub end: [Ball<R>; BALLS],
-    /// Time of the last event, s.
-    pub duration: R,
     /// Whether a moving ball was pressed against a cushion or another ball.
     pub pressed: bool,
     /// Whether a ball in the air hit something so slowly that it may have slid off in bounces.
@@ -45,7 +41,7 @@ pub struct Shot<R> {
 impl<R: Real> Shot<R> {
     /// Returns the final positions, rounded; a ball that left the table is on its spot.
     pub fn layout(&self, table: &Table) -> Layout {
-        let places = self.end.map(|ball| DVec2::new(ball.position.x.to_f64(), ball.position.y.to_f64()));
+        let places = self.end.map(|ball| ball.position.to_f64().truncate());
         let off_table = self.end.map(|ball| ball.motion == Motion::OffTable);
         Layout::new(places).with_spotted(table.length, table.radius, off_table)
     }
@@ -115,9 +111,8 @@ pub fn play<R: Real>(
         }
         let course = Course { numbers: *numbers, balls, piece };
         let Some((time, next)) = predict(&course, finder) else {
-            let duration = events.last().map_or(R::zero(), |event| event.0);
             let unaccounted = energy - energy_of(&balls) - work;
-            return Ok(Shot { events, end: balls, duration, pressed, slides, energy: [energy, unaccounted] });
+            return Ok(Shot { events, end: balls, pressed, slides, energy: [energy, unaccounted] });
         };
         now = now + time;
         let (moved, lost) = course.after(time);

@@ -17,8 +17,8 @@ pub struct Laws<R> {
     pub contacts: Vec<(Contact, bool)>,
     /// The motion on the cloth of each ball in contact; `None` for other balls.
     pub cloth: [Option<Motion>; BALLS],
-    /// Sign of `w_z`, zero if the ball does not spin.
-    spin_signs: [R; BALLS],
+    /// Sign of each ball's `w_z`, zero if the ball does not spin.
+    pub spin_signs: [R; BALLS],
 }
 
 impl<R: Real> Laws<R> {
@@ -58,11 +58,6 @@ impl<R: Real> Laws<R> {
     #[must_use]
     pub fn without_cloth(self) -> Self {
         Self { cloth: [None; BALLS], ..self }
-    }
-
-    /// Returns the sign of a ball's `w_z`, zero if it does not spin.
-    pub fn spin_sign(&self, ball: usize) -> R {
-        self.spin_signs[ball]
     }
 
     /// Whether a ball in contact has no side spin.

@@ -58,8 +58,11 @@ fn rail_or_integrated_meets<R: Real>(
         return Some(R::zero());
     }
     if is_integrated {
-        let presses = piece.as_ref()?.presses(contact);
-        return if presses { None } else { integrated_gap_closes(course, contact, horizon) };
+        return if piece.as_ref()?.rest.presses(contact) {
+            None
+        } else {
+            integrated_gap_closes(course, contact, horizon)
+        };
     }
     let pull = balls[contact.balls().0].acceleration(numbers).dot(contact.normal(balls));
     quadratic_closes(gap, opening, R::of(0.5) * pull)

@@ -21,9 +21,9 @@ pub enum Motion {
 #[derive(Clone, Copy, Debug)]
 pub struct Band<R> {
     /// Deceleration, m/s².
-    deceleration: R,
+    pub deceleration: R,
     /// Speed at which the band ends, m/s; zero for rest.
-    end: R,
+    pub end: R,
 }
 
 /// The state of a ball.
@@ -53,14 +53,13 @@ impl<R: Real> Ball<R> {
         if pressed || self.motion != Motion::Rolling {
             self.band = None;
         } else if self.band.is_none() {
-            let (deceleration, end) = numbers.band(self.velocity.length());
-            self.band = Some(Band { deceleration, end });
+            self.band = Some(numbers.band(self.velocity.length()));
         }
     }
 
-    /// Returns the deceleration of a rolling ball, m/s², and the speed at which its band ends.
-    fn rolls(&self, numbers: &Numbers<R>) -> (R, R) {
-        self.band.map_or_else(|| numbers.band(self.velocity.length()), |Band { deceleration, end }| (deceleration, end))
+    /// Returns the band of a rolling ball.
+    fn rolls(&self, numbers: &Numbers<R>) -> Band<R> {
+        self.band.unwrap_or_else(|| numbers.band(self.velocity.length()))
     }
 
     /// Whether the ball continues to roll in another band after this one.
@@ -83,7 +82,7 @@ impl<R: Real> Ball<R> {
     pub fn acceleration(&self, numbers: &Numbers<R>) -> Vector<R> {
         match self.motion {
             Motion::Sliding => self.slip(numbers).direction() * -numbers.slide,
-            Motion::Rolling => self.velocity.direction() * -self.rolls(numbers).0,
+            Motion::Rolling => self.velocity.direction() * -self.rolls(numbers).deceleration,
             Motion::Flying => Vector::up() * -numbers.gravity,
             Motion::Stationary | Motion::OffTable => Vector::zero(),
         }
@@ -94,7 +93,7 @@ impl<R: Real> Ball<R> {
         match self.motion {
             Motion::Sliding => Some(R::ratio(2.0, 7.0) * self.slip(numbers).length() / numbers.slide),
             Motion::Rolling => {
-                let (deceleration, end) = self.rolls(numbers);
+                let Band { deceleration, end } = self.rolls(numbers);
                 Some((self.velocity.length() - end) / deceleration)
             }
             Motion::Flying => {
@@ -166,7 +165,7 @@ impl<R: Real> Ball<R> {
             }
             Motion::Rolling => {
                 ball.spin = Vector::up().cross(ball.velocity) * (R::of(1.0) / numbers.radius);
-                let resistance = R::ratio(7.0, 5.0) * self.rolls(numbers).0;
+                let resistance = R::ratio(7.0, 5.0) * self.rolls(numbers).deceleration;
                 work = resistance * (ball.position - self.position).length();
             }
             Motion::Stationary => {}

@@ -6,7 +6,7 @@
 
 use super::{
     Numbers, Real,
-    contact::{Balls, Contact},
+    contact::Balls,
     extrapolation::{COLUMNS, State, extrapolate},
     rest::Rest,
     roots::falling_root,
@@ -28,7 +28,8 @@ const MAX_HALVINGS: usize = 200;
 #[derive(Clone, Debug)]
 pub struct Piece<R> {
     numbers: Numbers<R>,
-    rest: Rest<R>,
+    /// Its balls and contacts.
+    pub rest: Rest<R>,
     /// Tolerance of each law: a small one, plus the violation by rounding at the start.
     allowed: Vec<R>,
     start: State<R>,
@@ -131,11 +132,6 @@ impl<R: Real> Piece<R> {
     /// Whether a ball is part of the piece.
     pub fn involves(&self, ball: usize) -> bool {
         self.rest.laws.cloth[ball].is_some()
-    }
-
-    /// Whether a contact presses.
-    pub fn presses(&self, contact: Contact) -> bool {
-        self.rest.presses(contact)
     }
 
     /// Whether a slip grows or decays much more slowly than in its natural time.

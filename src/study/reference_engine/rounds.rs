@@ -6,8 +6,7 @@
 
 use super::{
     Numbers, Real, Unjudged, Vector,
-    complementarity::Problem,
-    complementarity::{Block, Law},
+    complementarity::{Block, Law, Problem},
     contact::{Balls, Contact},
     impact::{balls_collide, coulomb, rail_collides},
     rows::{Movement, Row, movement},
@@ -39,11 +38,8 @@ pub fn collide<R: Real>(
     for round in 0..=MAX_ROUNDS {
         let is_last = round == MAX_ROUNDS;
         let fastest = if is_last { closed() } else { -closed::<R>() };
-        let closing = |balls: &Balls<R>| {
-            let closes = |contact: &&Contact| contact.opening_speed(balls) < fastest;
-            contacts.iter().filter(closes).copied().collect::<Vec<_>>()
-        };
-        let closing = closing(balls);
+        let closes = |contact: &&Contact| contact.opening_speed(balls) < fastest;
+        let closing: Vec<Contact> = contacts.iter().filter(closes).copied().collect();
         if closing.is_empty() {
             break;
         }
@@ -208,7 +204,7 @@ mod tests {
     type D = DoubleDouble;
 
     fn of(x: f64, y: f64, z: f64) -> Vector<D> {
-        Vector::new(D::of(x), D::of(y), D::of(z))
+        Vector::of(glam::DVec3::new(x, y, z))
     }
 
     fn agrees(one: &Ball<D>, other: &Ball<D>) {

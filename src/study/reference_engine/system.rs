@@ -42,7 +42,7 @@ impl<R: Real> System<R> {
         }
         for (ball, motion) in laws.cloth.iter().enumerate() {
             if let Some(motion) = motion {
-                system.add_cloth(numbers, balls, ball, *motion, laws.spin_sign(ball));
+                system.add_cloth(numbers, balls, ball, *motion, laws.spin_signs[ball]);
             }
         }
         system
@@ -99,7 +99,7 @@ impl<R: Real> System<R> {
         if motion == Motion::Rolling {
             let velocity = state.velocity;
             let speed = velocity.length();
-            let resistance = R::ratio(7.0, 5.0) * numbers.band(speed).0;
+            let resistance = R::ratio(7.0, 5.0) * numbers.band(speed).deceleration;
             self.add_friction(numbers, &Row::centre(ball, velocity.direction()), resistance, speed);
         } else if motion == Motion::Stationary {
             self.unknown(Law::Hold(numbers.roll), &axes.map(|axis| (Row::centre(ball, axis), zero)));

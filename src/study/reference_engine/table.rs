@@ -2,6 +2,7 @@
 
 use super::{
     Real, Unjudged, Vector,
+    motion::Band,
     rails::{Cushion, RailLaw, RestitutionFade},
 };
 use crate::{physics::FIRST_BOUNCE, simulation::Rail, table::Table};
@@ -154,15 +155,14 @@ impl<R: Real> Numbers<R> {
         }
     }
 
-    /// Returns the deceleration of a ball that begins to roll with `speed`, m/s², and the speed at which this band of constant
-    /// deceleration ends.
+    /// Returns the band of a ball that begins to roll with `speed`, m/s.
     ///
     /// The bands are those of `physics::rolling`: the last band starts where `c1 v` is 0.059 `c0`, any other covers the share
     /// `a / (a + 4.3 c1 v)` of its initial speed.
-    pub fn band(&self, speed: R) -> (R, R) {
+    pub fn band(&self, speed: R) -> Band<R> {
         let (least, growth) = (R::ratio(5.0, 7.0) * self.roll, self.roll_growth);
         if growth <= R::zero() {
-            return (least, R::zero());
+            return Band { deceleration: least, end: R::zero() };
         }
         let pull = growth * speed;
         let end = if pull <= R::of(0.059) * least {
@@ -174,7 +174,8 @@ impl<R: Real> Numbers<R> {
         let (width, middle) = (speed - end, R::of(0.5) * (speed + end));
         let mean = least + growth * middle;
         let second = growth * width * width;
-        (mean + second * (R::of(1.0) / (R::of(24.0) * middle) - growth / (R::of(12.0) * mean)), end)
+        let deceleration = mean + second * (R::of(1.0) / (R::of(24.0) * middle) - growth / (R::of(12.0) * mean));
+        Band { deceleration, end }
     }
 }
 

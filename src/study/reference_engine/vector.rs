@@ -2,6 +2,8 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
+use glam::DVec3;
+
 use super::Real;
 
 /// A vector. Positions and velocities of balls on the cloth have `z = 0`.
@@ -19,6 +21,16 @@ impl<R: Real> Vector<R> {
     /// Creates a vector from its components.
     pub fn new(x: R, y: R, z: R) -> Self {
         Self { x, y, z }
+    }
+
+    /// Converts a vector, whose `f64` count as exact.
+    pub fn of(v: DVec3) -> Self {
+        Self::new(R::of(v.x), R::of(v.y), R::of(v.z))
+    }
+
+    /// Rounds every component.
+    pub fn to_f64(self) -> DVec3 {
+        DVec3::new(self.x.to_f64(), self.y.to_f64(), self.z.to_f64())
     }
 
     /// Returns the zero vector.

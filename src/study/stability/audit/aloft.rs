@@ -1,8 +1,6 @@
 //! Energy losses at landings, by formulas independent of the engine, and at successive impacts, by those of the reference
 //! engine.
 
-use glam::DVec2;
-
 use super::{
     moment::{Bounces, fastest_micro_collision},
     uncertainty::{RESTING_SPEED, STOPPED_SPEED},
@@ -98,7 +96,7 @@ fn meets_before_it_lands(reported: &[Event], ball: usize) -> bool {
 fn slip_energy(table: &Table, contact: Contact, balls: &[Ball<f64>; BALLS]) -> f64 {
     let Contact::Balls(first, second) = contact else { return 0.0 };
     let [one, other] = [&balls[first], &balls[second]];
-    let seen = |v: Vector<f64>| DVec2::new(v.x, v.y);
+    let seen = |v: Vector<f64>| v.to_f64().truncate();
     let tangent = seen(one.position - other.position).normalize().perp();
     let spin = one.spin + other.spin;
     let along = seen(one.velocity - other.velocity).dot(tangent) - table.radius * spin.z;
@@ -123,8 +121,8 @@ pub fn impacts(
     let mut lost = 0.0;
     let mut balls: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
         let SpatialState { position, velocity, spin } = before[ball];
-        let [position, velocity, spin] = [position, velocity, spin].map(|v| Vector::new(v.x, v.y, v.z));
-        let mut state = Ball { velocity, spin, ..Ball::at_rest(position) };
+        let mut state =
+            Ball { velocity: Vector::of(velocity), spin: Vector::of(spin), ..Ball::at_rest(Vector::of(position)) };
         state.motion = if flew[ball] { Motion::Flying } else { state.on_cloth(&numbers, 0.0) };
         if group[ball] && flew[ball] && position.z <= 0.0 && velocity.z <= slowest {
             lost += settle(&numbers, &mut state);
@@ -139,9 +137,9 @@ pub fn impacts(
         .filter_map(|event| Contact::of_event(event.kind))
         .filter(|contact| group[contact.balls().0])
         .collect();
-    let after: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
-        let [position, velocity] = [after[ball].position, after[ball].velocity].map(|v| Vector::new(v.x, v.y, v.z));
-        Ball { velocity, ..Ball::at_rest(position) }
+    let after = after.map(|SpatialState { position, velocity, .. }| Ball::<f64> {
+        velocity: Vector::of(velocity),
+        ..Ball::at_rest(Vector::of(position))
     });
     let rests = |contact: &Contact| contact.is_among(rests) && contact.opening_speed(&after) < STOPPED_SPEED;
     let overlap = contacts.iter().fold(0.0_f64, |most, contact| most.max(-contact.gap(&numbers, &balls)));
@@ -214,9 +212,6 @@ pub fn impacts(
         gripping.retain(|contact| !contact.is_aloft(&balls));
         lost += gripping.iter().map(|contact| slip_energy(table, *contact, &balls)).sum::<f64>();
     }
-    let moved = balls.iter().zip(before).map(|(ball, before)| {
-        let Vector { x, y, z } = ball.position;
-        before.position.distance(glam::DVec3::new(x, y, z))
-    });
+    let moved = balls.iter().zip(before).map(|(ball, before)| before.position.distance(ball.position.to_f64()));
     Impacts { lost, moved: moved.fold(overlap, f64::max), bounces }
 }

@@ -45,7 +45,7 @@ pub fn free_loss(numbers: &Numbers<f64>, table: &Table, state: &BallState, motio
             work(force, (v.x - radius * state.spin.y).hypot(v.y + radius * state.spin.x), 3.5 * force)
         }
         Motion::Rolling => {
-            let deceleration = numbers.band(v.length()).0;
+            let deceleration = numbers.band(v.length()).deceleration;
             work(1.4 * deceleration, v.length(), deceleration)
         }
         Motion::Stationary | Motion::Resting | Motion::Flying | Motion::OffTable => 0.0,

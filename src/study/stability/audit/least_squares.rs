@@ -1,7 +1,7 @@
 //! Linear least squares with few unknowns, by the Gram-Schmidt method with column pivoting: returns the solution, or that it is
 //! not unique.
 
-use crate::table::BALLS;
+use crate::{statistics::dot, table::BALLS};
 
 /// Length of a column: velocity and spin of every ball.
 pub const SIZE: usize = 5 * BALLS;
@@ -79,11 +79,6 @@ fn project_out(unit: &Column, from: &mut Column) -> f64 {
         sum += share;
     }
     sum
-}
-
-/// Returns the scalar product.
-pub fn dot(a: &Column, b: &Column) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]

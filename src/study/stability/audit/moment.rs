@@ -2,12 +2,13 @@
 
 use super::{
     laws::impact_loss,
-    least_squares::{Column, dot, fit},
+    least_squares::{Column, fit},
     motion::{directions, energy, motion, on_cloth, reference_balls},
     uncertainty::{RESTING_SPEED, STOPPED_SPEED},
 };
 use crate::{
     physics::{BallState, slip},
+    statistics::dot,
     study::reference_engine::{Contact, Numbers},
     table::{BALLS, Table},
 };
@@ -219,7 +220,7 @@ impl Moment<'_> {
             }
         }
         let change = std::array::from_fn(|place| after[place] - before[place]);
-        let mean = std::array::from_fn(|place| 0.5 * (after[place] + before[place]));
+        let mean: Column = std::array::from_fn(|place| 0.5 * (after[place] + before[place]));
         let directions: Vec<_> = contacts.iter().flat_map(|contact| self.directions(*contact)).collect();
         let unexplained_by = |directions: &[Column]| {
             let found = fit(directions, &change);

@@ -4,9 +4,10 @@
 //! With `c² = 2/5`, the components of a ball are `(v, c R w)`. A force per mass `f` along a direction `d` changes the vector by
 //! `f d`. The speed that the force works against is the scalar product with `d`: power, impulse and energy need no masses.
 
-use super::least_squares::{Column, SIZE, dot};
+use super::least_squares::{Column, SIZE};
 use crate::{
     physics::BallState,
+    statistics::dot,
     study::reference_engine::{Ball, Contact, Numbers, Row, Vector},
     table::BALLS,
 };
@@ -32,8 +33,8 @@ pub fn energy(motion: &Column) -> f64 {
 /// Converts the balls to those of the reference engine.
 pub fn reference_balls(balls: &[BallState; BALLS]) -> [Ball<f64>; BALLS] {
     balls.map(|BallState { position, velocity, spin }| {
-        let [position, velocity] = [position, velocity].map(|v| Vector::new(v.x, v.y, 0.0));
-        Ball { velocity, spin: Vector::new(spin.x, spin.y, spin.z), ..Ball::at_rest(position) }
+        let [position, velocity] = [position, velocity].map(|v| Vector::of(v.extend(0.0)));
+        Ball { velocity, spin: Vector::of(spin), ..Ball::at_rest(position) }
     })
 }
 

@@ -4,7 +4,7 @@
 //! with five-point Gauss-Legendre quadrature on each stretch, exact to degree nine.
 
 use super::{
-    least_squares::{Column, Fit, SIZE, dot, fit},
+    least_squares::{Column, Fit, SIZE, fit},
     motion::{about_vertical, centre, closed_contacts, directions, motion, on_cloth, reference_balls},
     on_cushion::OnCushion,
     uncertainty::RESTING_SPEED,
@@ -12,6 +12,7 @@ use super::{
 use crate::{
     physics::BallState,
     simulation::{Constants, Segment},
+    statistics::dot,
     study::reference_engine::{Ball, Contact, Numbers},
     table::{BALLS, Table},
 };
@@ -285,7 +286,7 @@ impl Scene<'_> {
             };
             let centre = centre(numbers, ball);
             let speed = size(&along(&centre, &self.speeds));
-            let rolling = 1.4 * numbers.band(speed).0;
+            let rolling = 1.4 * numbers.band(speed).deceleration;
             if at_edge[ball] {
                 if holds {
                     strained.push((unknown.len() - 2, along(&on_cloth(numbers, ball), &self.speeds)));
@@ -316,7 +317,7 @@ impl Scene<'_> {
                 let rolls: f64 = creeping.iter().map(|resistance| resistance.most * resistance.speed).sum();
                 let most = dissipated + largest * prices + rolls;
                 // The forces are not unique, but their dissipation is: nothing may drive the balls.
-                let done = std::array::from_fn(|place| rest[place] - residual[place]);
+                let done: Column = std::array::from_fn(|place| rest[place] - residual[place]);
                 let all = dissipated - dot(&self.speeds, &done);
                 let crept: f64 = strained.iter().map(|(_, slip)| sliding * slip[0].hypot(slip[1])).sum();
                 let is_possible = (1.0 - EDGE) * dissipated <= all && all <= (1.0 + EDGE) * (most + crept);
