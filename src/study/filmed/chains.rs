@@ -4,16 +4,13 @@
 //! The fit has seven parameters: position, velocity, slip and side spin. The course to the next rail determines all but the
 //! side spin, which follows from the rebound there.
 
-use glam::DVec2;
-
 use super::{
     film::{FilmedShot, Sample},
-    motion::Motion,
+    motion::{Motion, best_fit, extend_with_misses},
     rail_hits::{RailHit, chains, stretches},
 };
 use crate::{
     simulation::{Follower, lone_ball_layout},
-    statistics::fit,
     table::Table,
 };
 
@@ -37,9 +34,6 @@ pub struct ChainPrediction {
 
 /// Samples closer than this to a rail impact may show the ball in contact with the rail, s.
 const IN_RAIL: f64 = 0.011;
-
-/// Scale of the robust loss, m: residuals far above it are damped.
-const ROBUST: f64 = 0.02;
 
 /// Returns all stretches of `count` consecutive rails.
 pub fn all(table: &Table, film: &[FilmedShot], count: usize) -> Vec<Chain> {
@@ -66,9 +60,9 @@ fn with_samples(shot: &FilmedShot, found: Vec<(usize, Vec<RailHit>)>) -> Vec<Cha
     found.into_iter().map(chain).filter(|chain| shows(chain, 0) && shows(chain, 1)).collect()
 }
 
-/// Damps a residual: linear near zero, logarithmic beyond [`ROBUST`].
-pub fn damp_residual(miss: f64) -> f64 {
-    ROBUST * (miss / ROBUST).asinh()
+/// Follows a ball that meets no other.
+fn follow_alone<'a>(follower: Follower<'a>, table: &Table, motion: &Motion) -> Follower<'a> {
+    follower.follow(table, &lone_ball_layout(motion.position), &motion.impulse(table.radius))
 }
 
 impl Chain {
@@ -79,18 +73,10 @@ impl Chain {
         let until = self.hits[last].time;
         let used: Vec<Sample> = self.samples.iter().copied().filter(|sample| sample.time < until).collect();
         let times: Vec<f64> = used.iter().map(|sample| sample.time - begin).collect();
-        let mut residuals = |numbers: &[f64; 7], out: &mut Vec<f64>| {
+        let residuals = |numbers: &[f64; 7], out: &mut Vec<f64>| {
             out.clear();
-            let motion = Motion::of(*numbers);
-            let followed = Follower::new(&times, 0).follow(
-                table,
-                &lone_ball_layout(motion.position),
-                &motion.impulse(table.radius),
-            );
-            for (sample, position) in used.iter().zip(&followed.positions) {
-                let miss = *position - sample.position;
-                out.extend([damp_residual(miss.x), damp_residual(miss.y)]);
-            }
+            let followed = follow_alone(Follower::new(&times, 0), table, &Motion::of(*numbers));
+            extend_with_misses(out, &followed.positions, &used);
             // A weak prior: slip and spin are not much faster than the motion, so less is likelier if the film does not
             // determine them.
             out.extend([1e-4 * numbers[4], 1e-4 * numbers[5], 1e-4 * numbers[6]]);
@@ -98,32 +84,23 @@ impl Chain {
         let (first, second) = (self.samples[0], self.samples[1]);
         let velocity = (second.position - first.position) / (second.time - first.time);
         let n = self.hits[0].rail.normal();
-        let mut best: Option<(Motion, f64)> = None;
+        let with_side = |share: f64| Motion {
+            position: first.position,
+            velocity,
+            slip: 1.2 * velocity.dot(n) * n,
+            side: share * velocity.length(),
+        };
         let sides: &[f64] = if known.is_some() { &[0.0] } else { &[-1.2, -0.6, -0.2, 0.2, 0.6, 1.2] };
-        for share in sides {
-            let start = known.unwrap_or(Motion {
-                position: first.position,
-                velocity,
-                slip: 1.2 * velocity.dot(n) * n,
-                side: share * velocity.length(),
-            });
-            let found = fit(start.numbers(), [1e-5, 1e-5, 1e-4, 1e-4, 1e-4, 1e-4, 1e-3], 30, &mut residuals);
-            if best.as_ref().is_none_or(|(_, squares)| found.squares < *squares) {
-                best = Some((Motion::of(found.parameters), found.squares));
-            }
-        }
-        best.unwrap_or((Motion { position: first.position, velocity, slip: DVec2::ZERO, side: 0.0 }, f64::INFINITY))
+        let starts = sides.iter().map(|share| known.unwrap_or(with_side(*share)).numbers());
+        let found = best_fit(starts, [1e-5, 1e-5, 1e-4, 1e-4, 1e-4, 1e-4, 1e-3], 30, residuals);
+        found.map_or((with_side(0.0), f64::INFINITY), |found| (Motion::of(found.parameters), found.squares))
     }
 
     /// Fits the motion to the first two legs and predicts the rest.
     pub fn predict(&self, table: &Table) -> ChainPrediction {
         let (motion, _) = self.fit(table, 2, None);
         let begin = self.samples[0].time;
-        let followed = Follower::new(&[], self.hits.len() - 1).follow(
-            table,
-            &lone_ball_layout(motion.position),
-            &motion.impulse(table.radius),
-        );
+        let followed = follow_alone(Follower::new(&[], self.hits.len() - 1), table, &motion);
         let (mut distances, mut delays) = (Vec::new(), Vec::new());
         for (index, hit) in self.hits[1..].iter().enumerate() {
             let met = followed.hits.get(index);

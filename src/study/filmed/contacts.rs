@@ -67,9 +67,7 @@ fn sample_times(from: f64, to: f64) -> impl Iterator<Item = f64> {
 
 /// Returns the times at which a ball reverses at a cushion, s. A ball that stays there for a while counts once.
 fn turns(table: &Table, track: &[Sample], rail: Rail) -> Vec<f64> {
-    let inwards = rail.normal();
-    let reach = inwards.abs().dot(table.reach());
-    let gaps: Vec<f64> = track.iter().map(|sample| sample.position.dot(inwards) + reach).collect();
+    let gaps: Vec<f64> = track.iter().map(|sample| rail.gap(table.reach(), sample.position)).collect();
     let (mut times, mut is_there) = (Vec::new(), false);
     for (n, gap) in gaps.windows(3).enumerate() {
         let is_turn = gap[1] <= gap[0] && gap[1] < gap[2] && gap[1] < AT_RAIL;

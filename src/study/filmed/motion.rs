@@ -1,8 +1,35 @@
-//! The motion of a ball at one time of a film.
+//! The motion of a ball at one time of a film, and its fit to the course of the ball.
 
 use glam::{DVec2, DVec3};
 
-use crate::physics::Impulse;
+use super::film::Sample;
+use crate::{
+    physics::Impulse,
+    statistics::{Fit, fit},
+};
+
+/// Scale of the robust loss, m: residuals far above it are damped.
+const ROBUST: f64 = 0.02;
+
+/// Appends the distances between simulated and filmed positions along both axes, damped: linear near zero, logarithmic beyond
+/// [`ROBUST`].
+pub fn extend_with_misses(residuals: &mut Vec<f64>, positions: &[DVec2], samples: &[Sample]) {
+    for (sample, position) in samples.iter().zip(positions) {
+        let miss = *position - sample.position;
+        residuals.extend([miss.x, miss.y].map(|miss| ROBUST * (miss / ROBUST).asinh()));
+    }
+}
+
+/// Fits from every start, and returns the fit with the smallest sum of squares.
+pub fn best_fit<const N: usize>(
+    starts: impl IntoIterator<Item = [f64; N]>,
+    steps: [f64; N],
+    rounds: usize,
+    mut residuals: impl FnMut(&[f64; N], &mut Vec<f64>),
+) -> Option<Fit<N>> {
+    let fits = starts.into_iter().map(|start| fit(start, steps, rounds, &mut residuals));
+    fits.reduce(|best, found| if found.squares < best.squares { found } else { best })
+}
 
 /// Returns the angular velocity about horizontal axes of a ball with this velocity and slip, rad/s.
 pub fn spin_of_slip(radius: f64, velocity: DVec2, slip: DVec2) -> DVec2 {

@@ -29,9 +29,7 @@ const CLEARANCE: f64 = 0.006;
 pub fn rail_hits(table: &Table, track: &[Sample]) -> Vec<RailHit> {
     let mut hits = Vec::new();
     for rail in Rail::ALL {
-        let n = rail.normal();
-        let reach = n.abs().dot(table.reach());
-        let gap = |sample: &Sample| sample.position.dot(n) + reach;
+        let gap = |sample: &Sample| rail.gap(table.reach(), sample.position);
         for i in 1..track.len().saturating_sub(1) {
             let nearest = gap(&track[i]) <= gap(&track[i - 1]) && gap(&track[i]) < gap(&track[i + 1]);
             if !nearest || gap(&track[i]) > 0.15 {
@@ -46,9 +44,8 @@ pub fn rail_hits(table: &Table, track: &[Sample]) -> Vec<RailHit> {
 
 /// Returns the impact near sample `i`, where the straight lines through the samples before and after it intersect the rail.
 fn hit_at(table: &Table, track: &[Sample], i: usize, rail: Rail) -> Option<RailHit> {
-    let n = rail.normal();
-    let reach = n.abs().dot(table.reach());
-    let gap = |sample: &Sample| sample.position.dot(n) + reach;
+    let (n, reach) = (rail.normal(), table.reach());
+    let gap = |sample: &Sample| rail.gap(reach, sample.position);
     // A sample on the rail belongs to neither side.
     let on_rail = gap(&track[i]) < 0.002;
     let meets = |samples: &[Sample]| -> Option<(f64, DVec2)> {
@@ -69,8 +66,8 @@ fn hit_at(table: &Table, track: &[Sample], i: usize, rail: Rail) -> Option<RailH
             return None;
         }
         let ((t1, p1), (t2, p2)) = (meets(before)?, meets(after)?);
-        let mut position = 0.5 * (p1 + p2);
-        position += (-reach - position.dot(n)) * n;
+        let middle = 0.5 * (p1 + p2);
+        let position = middle - rail.gap(reach, middle) * n;
         Some(((t1 - t2).abs(), p1.distance(p2), RailHit { time: 0.5 * (t1 + t2), rail, position }))
     });
     let (time_difference, distance, hit) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;

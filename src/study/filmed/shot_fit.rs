@@ -4,13 +4,12 @@
 use glam::DVec2;
 
 use super::{
-    chains::damp_residual,
     film::{FilmedShot, Sample},
-    motion::Motion,
+    motion::{Motion, best_fit, extend_with_misses},
 };
 use crate::{
     simulation::Follower,
-    statistics::fit,
+    statistics::Fit,
     table::{Layout, PAIRS, Table},
 };
 
@@ -23,8 +22,6 @@ pub const EVALUATION_TIMES: [f64; 3] = [3.0, 4.0, 5.0];
 /// The prediction of a whole shot, compared with the film.
 #[derive(Clone, Debug)]
 pub struct ShotFit {
-    /// Number of the shot in the match.
-    pub shot: u32,
     /// The cue ball's motion just after the stroke.
     pub motion: Motion,
     /// Time of the stroke, s of the film.
@@ -65,41 +62,33 @@ pub fn fit_shot(table: &Table, shot: &FilmedShot) -> Option<ShotFit> {
         track.iter().copied().filter(|s| s.time > shot.start + 0.005 && s.time < shot.start + FITTED_SECONDS).collect();
     let (first, second) = (*used.first()?, *used.get(1)?);
     let velocity = (second.position - first.position) / (second.time - first.time);
-    let mut residuals = |numbers: &[f64; 6], out: &mut Vec<f64>| {
+    let residuals = |numbers: &[f64; 6], out: &mut Vec<f64>| {
         out.clear();
         let [vx, vy, ux, uy, side, late] = *numbers;
         let motion = motion_of(&layout, [vx, vy, ux, uy, side]);
         let times: Vec<f64> = used.iter().map(|s| (s.time - shot.start - late).max(0.0)).collect();
         let followed = Follower::new(&times, 0).follow(table, &layout, &motion.impulse(table.radius));
-        for (sample, position) in used.iter().zip(&followed.positions) {
-            let miss = *position - sample.position;
-            out.extend([damp_residual(miss.x), damp_residual(miss.y)]);
-        }
+        extend_with_misses(out, &followed.positions, &used);
         // A weak prior: small slip and spin and a level cue are likelier if the film does not determine them.
         let across = DVec2::new(ux, uy).dot(velocity.perp().normalize_or_zero());
         out.extend([2e-4 * ux, 2e-4 * uy, 2e-4 * side, 4e-3 * across, 0.1 * late]);
     };
-    let mut best: Option<([f64; 6], f64)> = None;
     let speed = velocity.length();
-    for roll in [-0.4, 0.1, 0.6, 1.1] {
-        for share in [-0.9, -0.4, 0.0, 0.4, 0.9] {
-            // By the first samples, a rolling ball has lost less speed than a sliding one.
-            let slip = (1.0 - roll) * velocity;
-            let start = [1.02 * velocity.x, 1.02 * velocity.y, slip.x, slip.y, share * speed, 0.0];
-            let found = fit(start, [1e-4, 1e-4, 1e-3, 1e-3, 1e-3, 1e-4], 25, &mut residuals);
-            if best.as_ref().is_none_or(|(_, squares)| found.squares < *squares) {
-                best = Some((found.parameters, found.squares));
-            }
-        }
-    }
-    let ([vx, vy, ux, uy, side, late], squares) = best?;
+    let starts = [-0.4, 0.1, 0.6, 1.1].into_iter().flat_map(|roll| {
+        // By the first samples, a rolling ball has lost less speed than a sliding one.
+        let slip = (1.0 - roll) * velocity;
+        let sides = [-0.9, -0.4, 0.0, 0.4, 0.9];
+        sides.map(|share| [1.02 * velocity.x, 1.02 * velocity.y, slip.x, slip.y, share * speed, 0.0])
+    });
+    let Fit { parameters, squares, .. } = best_fit(starts, [1e-4, 1e-4, 1e-3, 1e-3, 1e-3, 1e-4], 25, residuals)?;
+    let [vx, vy, ux, uy, side, late] = parameters;
     let motion = motion_of(&layout, [vx, vy, ux, uy, side]);
     let start = shot.start + late;
     let times = EVALUATION_TIMES.map(|time| time - late);
     let followed = Follower::new(&times, 0).follow(table, &layout, &motion.impulse(table.radius));
     let errors = [0, 1, 2]
         .map(|index| followed.positions[index].distance(shot.position(0, shot.start + EVALUATION_TIMES[index])));
-    Some(ShotFit { shot: shot.number, motion, start, rms: (squares / used.len() as f64).sqrt(), errors })
+    Some(ShotFit { motion, start, rms: (squares / used.len() as f64).sqrt(), errors })
 }
 
 fn motion_of(layout: &Layout, [vx, vy, ux, uy, side]: [f64; 5]) -> Motion {

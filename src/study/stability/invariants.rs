@@ -85,8 +85,7 @@ mod tests {
         let table = Table::preset("textbook").unwrap();
         let layout = Layout::new([DVec2::new(-0.5, 0.01), DVec2::ZERO, DVec2::new(1.0, 0.5)]);
         let shot = Shot { layout, cue: CueDegrees { b: 0.3, ..CueDegrees::centre(0.0, 4.0) } };
-        let mut trace = Trace::new(&table);
-        trace.play(&table, &shot);
+        let mut trace = Trace::of(&table, &shot);
         tamper(&mut trace);
         measure(&table, &shot, &trace).violations(&Limits::STRICT)
     }

@@ -80,6 +80,13 @@ impl Trace {
         }
     }
 
+    /// Records the course of one shot.
+    pub fn of(table: &Table, shot: &Shot) -> Self {
+        let mut trace = Self::new(table);
+        trace.play(table, shot);
+        trace
+    }
+
     /// Plays `shot` without validation, and records its course.
     pub fn play(&mut self, table: &Table, shot: &Shot) {
         let impulse = strike(table, &shot.cue.into());
@@ -95,6 +102,25 @@ impl Trace {
         (self.layout, self.impulse) = (*layout, *impulse);
         self.started = Instant::now();
         (self.end, self.seconds) = timed(|| play(self));
+    }
+
+    /// Stores an event or a bounce.
+    fn store(&mut self, event: Event) {
+        if self.kept_until == f64::INFINITY {
+            self.events.push(event);
+        }
+        self.fill(self.events.len());
+    }
+
+    /// Aborts the shot after `most` of its `steps`, or if it takes too long.
+    fn abort_after(&mut self, most: usize, steps: usize) -> ControlFlow<()> {
+        // The clock is read rarely, because reading it costs as much as the physics.
+        let too_long = steps.is_multiple_of(1024) && self.started.elapsed().as_secs_f64() > BREAK_AFTER_SECONDS;
+        if too_long || steps >= most {
+            self.finished = false;
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
     }
 
     /// Stops recording once `count` items of a kind are stored.
@@ -113,37 +139,18 @@ impl Observer for Trace {
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
         self.event_count += 1;
-        if self.kept_until == f64::INFINITY {
-            self.events.push(event);
-        }
-        self.fill(self.events.len());
-        // The clock is read rarely, because reading it costs as much as the physics.
-        let too_long =
-            self.event_count.is_multiple_of(1024) && self.started.elapsed().as_secs_f64() > BREAK_AFTER_SECONDS;
-        if too_long || self.event_count >= BREAK_AFTER_EVENTS {
-            self.finished = false;
-            return ControlFlow::Break(());
-        }
-        ControlFlow::Continue(())
+        self.store(event);
+        self.abort_after(BREAK_AFTER_EVENTS, self.event_count)
     }
 
     fn bounce(&mut self, bounce: Event) {
         // A bounce is no event of the shot, but an impact of its course.
-        if self.kept_until == f64::INFINITY {
-            self.events.push(bounce);
-        }
-        self.fill(self.events.len());
+        self.store(bounce);
     }
 
     fn contact_step(&mut self) -> ControlFlow<()> {
         self.contact_steps += 1;
-        let too_long =
-            self.contact_steps.is_multiple_of(1024) && self.started.elapsed().as_secs_f64() > BREAK_AFTER_SECONDS;
-        if too_long {
-            self.finished = false;
-            return ControlFlow::Break(());
-        }
-        ControlFlow::Continue(())
+        self.abort_after(usize::MAX, self.contact_steps)
     }
 
     fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {

@@ -75,26 +75,22 @@ impl Stepper<'_> {
     /// Launches a ball after an impact, into the air if its upward speed is high enough.
     pub(super) fn send_off(&mut self, index: usize, mut state: SpatialState) -> ControlFlow<()> {
         let was_aloft = self.is_aloft(index);
-        let time = self.now;
         if let Some(cloth) = self.cloth.filter(|_| state.position.z <= 0.0) {
             cloth.resolve(self.constants.radius, &mut state);
             state.position.z = 0.0;
         }
-        if state.position.z > 0.0 || state.velocity.z > self.constants.tolerance.slowest_in_air {
+        let flies = state.position.z > 0.0 || state.velocity.z > self.constants.tolerance.slowest_in_air;
+        if flies {
             self.close(index);
             self.fly(index, state);
-            return if was_aloft {
-                ControlFlow::Continue(())
-            } else {
-                self.observer.event(Event { time, kind: EventKind::Jumps(index) })
-            };
-        }
-        self.launch(index, state.horizontal_state());
-        if was_aloft {
-            self.observer.event(Event { time, kind: EventKind::Lands(index) })
         } else {
-            ControlFlow::Continue(())
+            self.launch(index, state.horizontal_state());
         }
+        if flies == was_aloft {
+            return ControlFlow::Continue(());
+        }
+        let kind = if flies { EventKind::Jumps(index) } else { EventKind::Lands(index) };
+        self.observer.event(Event { time: self.now, kind })
     }
 
     fn fly(&mut self, index: usize, state: SpatialState) {

@@ -245,7 +245,7 @@ impl<'a> Stepper<'a> {
 
     /// Returns the distance of a ball to a cushion, m.
     fn rail_gap(&self, index: usize, state: &SpatialState, rail: Rail) -> f64 {
-        if self.balls[index].segment.motion == Motion::Flying {
+        if self.is_aloft(index) {
             return self.nose_gap(state, rail);
         }
         rail.gap(self.constants.reach, state.position.truncate())
@@ -253,20 +253,16 @@ impl<'a> Stepper<'a> {
 
     /// Returns the event of a ball whose gap to a cushion has closed.
     fn rail_event(&self, index: usize, state: &SpatialState, rail: Rail) -> EventKind {
-        let leaves = self.balls[index].segment.motion == Motion::Flying && self.is_over(state, rail);
+        let leaves = self.is_aloft(index) && self.is_over(state, rail);
         if leaves { EventKind::LeavesTable(index) } else { EventKind::BallRail(index, rail) }
     }
 
     /// Whether a ball moves towards a cushion, or comes down behind its nose.
     fn approaches_rail(&self, index: usize, state: &SpatialState, rail: Rail) -> bool {
-        if self.balls[index].segment.motion == Motion::Flying {
+        if self.is_aloft(index) {
             return self.is_over(state, rail) || state.velocity.dot(self.to_nose(state, rail)) > 0.0;
         }
         state.velocity.truncate().dot(rail.normal()) < 0.0
-    }
-
-    fn pair_gap(&self, first: &SpatialState, second: &SpatialState) -> f64 {
-        first.position.distance(second.position) - 2.0 * self.constants.radius
     }
 
     /// Returns the first event that is detected at the end of the next `span` seconds, and its time within the span.
@@ -294,7 +290,9 @@ impl<'a> Stepper<'a> {
         }
         for (one, other) in PAIRS {
             if self.can_collide(one, other) {
-                let gap = |time| self.pair_gap(&after(one, time), &after(other, time));
+                let gap = |time| {
+                    after(one, time).position.distance(after(other, time).position) - 2.0 * self.constants.radius
+                };
                 let approach = |time| {
                     let (a, b) = (after(one, time), after(other, time));
                     (a.position - b.position).dot(a.velocity - b.velocity)

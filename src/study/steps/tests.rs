@@ -20,13 +20,17 @@ fn play(dt: f64, locate: bool, shot: &str) -> (Recording, SteppedShot) {
     record(Steps::new(dt, locate).unwrap(), &table, &Layout::opening(&table), &cue)
 }
 
+/// Greatest distance between the final positions of a ball, m.
+fn apart(one: &Recording, other: &Recording) -> f64 {
+    let pairs = one.final_layout().balls.into_iter().zip(other.final_layout().balls);
+    pairs.map(|(a, b)| a.distance(b)).fold(0.0, f64::max)
+}
+
 fn error(dt: f64, locate: bool) -> f64 {
     let shot = "0,0.2,5,12.5,3";
     let table = Table::preset("textbook").unwrap();
     let exact = Recording::new(&table, &Layout::opening(&table), &CueInputs::parse(shot).unwrap()).unwrap();
-    let stepped = play(dt, locate, shot).0;
-    let pairs = exact.final_layout().balls.into_iter().zip(stepped.final_layout().balls);
-    pairs.map(|(a, b)| a.distance(b)).fold(0.0, f64::max)
+    apart(&exact, &play(dt, locate, shot).0)
 }
 
 #[test]
@@ -83,8 +87,7 @@ fn error_of_a_jump(dt: f64, locate: bool) -> f64 {
         let aloft = kinds(&exact).iter().filter(|kind| matches!(kind, EventKind::Jumps(_))).count();
         assert!(aloft >= 1 && kinds(&exact).contains(&EventKind::BallBall(0, 1)));
     }
-    let pairs = exact.final_layout().balls.into_iter().zip(stepped.final_layout().balls);
-    pairs.map(|(a, b)| a.distance(b)).fold(0.0, f64::max)
+    apart(&exact, &stepped)
 }
 
 #[test]

@@ -14,8 +14,7 @@ use crate::{
 
 /// Returns the largest unexplained energy in a shot after tampering, as a multiple of the tolerance.
 fn unexplained(table: &Table, shot: &Shot, tamper: impl FnOnce(&mut Trace)) -> f64 {
-    let mut trace = Trace::new(table);
-    trace.play(table, shot);
+    let mut trace = Trace::of(table, shot);
     tamper(&mut trace);
     left_by(table, &trace)
 }
@@ -45,10 +44,9 @@ fn pressed() -> (Table, Shot) {
     let table = Table::preset("thesis").unwrap();
     let case = case_called("a ball resting on a cushion");
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
-    let mut trace = Trace::new(&table);
     loop {
         let shot = (case.shot)(&table, &mut rng);
-        trace.play(&table, &shot);
+        let trace = Trace::of(&table, &shot);
         if trace.pieces[0].iter().filter(|piece| piece.segment.motion == Motion::Resting).count() > 3 {
             return (table, shot);
         }
@@ -165,13 +163,7 @@ fn wrong_friction_in_coupled_contacts_is_detected() {
     let case = case_called("a ball pressed between ball and cushion");
     let table = (case.tables)().into_iter().find(|table| table.name == "thesis").unwrap();
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
-    let traces: Vec<Trace> = (0..20)
-        .map(|_| {
-            let mut trace = Trace::new(&table);
-            trace.play(&table, &(case.shot)(&table, &mut rng));
-            trace
-        })
-        .collect();
+    let traces: Vec<Trace> = (0..20).map(|_| Trace::of(&table, &(case.shot)(&table, &mut rng))).collect();
     let seen = |table: &Table| traces.iter().filter(|trace| left_by(table, trace) > 1.0).count();
     let with_own_rails = |mu: f64| {
         let own = Some(RailOverrides { mu: Some(mu), ..RailOverrides::default() });
@@ -198,8 +190,7 @@ fn wrong_energy_losses_in_the_air_are_detected() {
     let table = Table { flight: Some(flight), ..Table::preset("textbook").unwrap() };
     let layout = Layout::new([DVec2::new(-0.5, 0.0), DVec2::new(-0.36, 0.01), DVec2::new(1.0, 0.5)]);
     let shot = Shot { layout, cue: CueDegrees { theta_deg: 20.0, ..CueDegrees::centre(0.0, 3.0) } };
-    let mut trace = Trace::new(&table);
-    trace.play(&table, &shot);
+    let trace = Trace::of(&table, &shot);
     assert!(trace.events.iter().any(|event| event.kind == EventKind::BallBall(0, 1)));
     let left = |table: &Table| left_by(table, &trace);
     assert!(left(&table) < 1.0, "{}", left(&table));

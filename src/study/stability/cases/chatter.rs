@@ -5,7 +5,7 @@ use glam::DVec2;
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, variants};
+use super::{Case, with_restitution};
 use crate::{
     physics::CueDegrees,
     simulation::{Event, EventKind, Rail},
@@ -14,10 +14,14 @@ use crate::{
 };
 
 pub const CASES: &[Case] = &[
-    Case::new("a ball spinning against a cushion, e = 0.95", || lively(0.95), at_cushion).checked(HOLDS, few_events),
-    Case::new("a ball spinning against a cushion, e = 0.99", || lively(0.99), at_cushion).checked(HOLDS, few_events),
-    Case::new("a ball spinning against another, e = 0.95", || lively(0.95), at_ball).checked(HOLDS, few_events),
-    Case::new("a ball spinning against another, e = 0.99", || lively(0.99), at_ball).checked(HOLDS, few_events),
+    Case::new("a ball spinning against a cushion, e = 0.95", || with_restitution(0.95), at_cushion)
+        .checked(HOLDS, few_events),
+    Case::new("a ball spinning against a cushion, e = 0.99", || with_restitution(0.99), at_cushion)
+        .checked(HOLDS, few_events),
+    Case::new("a ball spinning against another, e = 0.95", || with_restitution(0.95), at_ball)
+        .checked(HOLDS, few_events),
+    Case::new("a ball spinning against another, e = 0.99", || with_restitution(0.99), at_ball)
+        .checked(HOLDS, few_events),
 ];
 
 /// Maximum number of events of one chatter, from the first impact to the end of the resulting contact. After that the balls may
@@ -31,10 +35,6 @@ const LONGER: f64 = 2.0;
 const MAX_CHATTERS: usize = 12;
 
 const HOLDS: &str = "at most 60 events a chatter, regardless of its bounces, and 12 chatters; a flight twice as long as those before begins another";
-
-fn lively(e: f64) -> Vec<Table> {
-    variants(&format!("e = {e}"), |table| (table.ball_restitution, table.rail_restitution) = (e, e))
-}
 
 /// Draws a stroke so steep that the spin by far outlasts the speed: the ball leaves, comes back, and is pressed for a long
 /// time.

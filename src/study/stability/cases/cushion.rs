@@ -85,14 +85,13 @@ fn returns(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
     let target = shot.layout.balls[1];
     let pushed = (target - place).normalize();
     for rail in Rail::ALL {
-        let n = rail.normal();
         let is_there = rail.gap(table.reach(), target) == 0.0;
         let answers = |e: &crate::simulation::Event| {
-            e.kind == EventKind::BallRail(1, rail) && (e.time - first.time).abs() <= MOMENT
-                || e.kind == EventKind::ContactBegins(1) && (e.time - first.time).abs() <= MOMENT
+            [EventKind::BallRail(1, rail), EventKind::ContactBegins(1)].contains(&e.kind)
+                && (e.time - first.time).abs() <= MOMENT
         };
         // Friction between the balls turns the direction by 7° at most, since the ball has no side spin.
-        if is_there && pushed.dot(n) < -0.3 && !trace.events.iter().any(answers) {
+        if is_there && pushed.dot(rail.normal()) < -0.3 && !trace.events.iter().any(answers) {
             return Err(format!(
                 "ball 1 is driven into the {} cushion at {} s, but does not rebound",
                 rail.name(),

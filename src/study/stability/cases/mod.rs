@@ -110,6 +110,11 @@ fn variants(what: &str, change: impl Fn(&mut Table)) -> Vec<Table> {
     THESIS_PRESETS.iter().filter_map(|name| variant(name, what, &change)).collect()
 }
 
+/// Returns the same tables with the restitution `e` in every contact.
+fn with_restitution(e: f64) -> Vec<Table> {
+    variants(&format!("e = {e}"), |table| (table.ball_restitution, table.rail_restitution) = (e, e))
+}
+
 /// Returns a bundled table with changed values and a name that states the change; `None` if the values are rejected.
 fn variant(name: &str, what: &str, change: impl Fn(&mut Table)) -> Option<Table> {
     let mut table = Table::preset(name).ok()?;

@@ -7,7 +7,7 @@
 use glam::DVec2;
 
 use crate::{
-    simulation::EventKind,
+    simulation::{Event, EventKind, Rail},
     study::stability::{Shot, Trace},
     table::Table,
 };
@@ -32,7 +32,7 @@ pub fn follows_quadrature(table: &Table, shot: &Shot, trace: &Trace) -> Result<(
     // The impact without restitution leaves only the speed along the cushion.
     let slip = DVec2::new(-table.radius * w.y, table.radius * w.x) + v.dot(t) * t;
     let (across, along) = (slip.dot(n), slip.dot(t));
-    let meets_more = |e: &crate::simulation::Event| {
+    let meets_more = |e: &Event| {
         e.kind.balls().1.is_some()
             || matches!(e.kind, EventKind::BallRail(_, rail) if rail.normal() != n)
             || e.kind.balls().0 != 0
@@ -64,8 +64,7 @@ pub fn follows_quadrature(table: &Table, shot: &Shot, trace: &Trace) -> Result<(
 
 /// Returns the normal of the cushion that a ball touches.
 fn cushion(table: &Table, place: DVec2) -> Option<DVec2> {
-    let touched = crate::simulation::Rail::ALL.into_iter().find(|rail| rail.gap(table.reach(), place) == 0.0);
-    touched.map(crate::simulation::Rail::normal)
+    Rail::ALL.into_iter().find(|rail| rail.gap(table.reach(), place) == 0.0).map(Rail::normal)
 }
 
 /// Returns the integral from 0 to 1.
@@ -95,8 +94,7 @@ mod tests {
             speed: 0.101_524_723_760_162_82,
         };
         let shot = Shot { layout, cue };
-        let mut trace = Trace::new(&table);
-        trace.play(&table, &shot);
+        let mut trace = Trace::of(&table, &shot);
         assert_eq!(follows_quadrature(&table, &shot, &trace), Ok(()));
         // A much earlier stop is detected.
         trace.end.time -= 1e-4;

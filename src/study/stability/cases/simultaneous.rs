@@ -95,8 +95,7 @@ fn ball_at_cushion(table: &Table, rng: &mut Xoshiro256PlusPlus) -> Shot {
 fn hits_ball_and_cushion(table: &Table, shot: &Shot, trace: &Trace) -> Result<(), String> {
     check_simultaneous(trace, EventKind::BallRail(0, Rail::Top))?;
     let elsewhere = Layout::new(shot.layout.balls.map(|ball| ball + DVec2::new(0.012_345_678_9, 0.0)));
-    let mut again = Trace::new(table);
-    again.play(table, &Shot { layout: elsewhere, ..*shot });
+    let again = Trace::of(table, &Shot { layout: elsewhere, ..*shot });
     let [here, there] = [trace, &again].map(|trace| leaves_with(trace, 1));
     if here.distance(there) > VELOCITY_TOLERANCE {
         return Err(format!("ball 1 leaves with {here} m/s, and with {there} m/s a little farther along the cushion"));

@@ -3,7 +3,7 @@
 use rand::RngExt;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Case, variants};
+use super::{Case, variants, with_restitution};
 use crate::{
     physics::{CueDegrees, Motion},
     study::stability::{Shot, Trace, adversarial, draw, random},
@@ -16,9 +16,9 @@ pub const CASES: &[Case] = &[
         .any_events(),
     Case::new("friction of 10 and 1000 on the cloth, 0.99 in contacts", large_friction, shot)
         .with_requirement("friction of 1 and more in contacts, whose forces would not be unique, is rejected"),
-    Case::new("no restitution, e = 0", || restitution(0.0), shot),
-    Case::new("restitution e = 0.3", || restitution(0.3), shot),
-    Case::new("full restitution, e = 1", || restitution(1.0), shot).any_events(),
+    Case::new("no restitution, e = 0", || with_restitution(0.0), shot),
+    Case::new("restitution e = 0.3", || with_restitution(0.3), shot),
+    Case::new("full restitution, e = 1", || with_restitution(1.0), shot).any_events(),
     Case::new("full restitution without friction in contacts", lossless, shot)
         .checked("no collision changes the energy", keeps_energy)
         .any_events(),
@@ -42,10 +42,6 @@ fn large_friction() -> Vec<Table> {
         })
     };
     [all(10.0), all(1000.0)].concat()
-}
-
-fn restitution(e: f64) -> Vec<Table> {
-    variants(&format!("e = {e}"), |table| (table.ball_restitution, table.rail_restitution) = (e, e))
 }
 
 fn lossless() -> Vec<Table> {
