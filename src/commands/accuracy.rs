@@ -162,9 +162,7 @@ fn fit_film(args: &Args) -> Result<(), Failure> {
     let film = filmed::bundled();
     let table = args.table.as_deref().map_or_else(|| Ok(Table::default()), filmed_table)?;
     let model = table.rail.model;
-    let half =
-        |rest: usize| film.iter().enumerate().filter(move |(index, _)| index % 2 == rest).map(|(_, shot)| shot.clone());
-    let (even, odd): (Vec<_>, Vec<_>) = (half(0).collect(), half(1).collect());
+    let [even, odd] = [0, 1].map(|first| film.iter().skip(first).step_by(2).cloned().collect());
     let parts = [("the whole film", &film, &film), ("every other shot", &even, &odd), ("the other shots", &odd, &even)];
     let mut out = printing::stdout().exact(args.json);
     for (used, fit_on, judge_on) in parts {

@@ -5,7 +5,7 @@ use std::{io::Write, time::Duration};
 use indicatif::HumanCount;
 use serde_json::json;
 
-use super::Failure;
+use super::{Failure, output::plural};
 use crate::{
     printing::{self, VERSION, number},
     study::throughput::{Figure, Machine, measure},
@@ -58,7 +58,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// Formats a figure as a line of text.
 fn words(figure: &Figure) -> String {
-    let threads = if figure.threads == 1 { "1 thread".to_owned() } else { format!("{} threads", figure.threads) };
+    let threads = plural(figure.threads, "thread");
     let line =
         format!("{:<18} {:<7} {threads:<10} {:>12} /s", figure.operation, figure.table, grouped(figure.per_second));
     figure.sizes.as_ref().map_or_else(|| line.clone(), |sizes| format!("{line}  {sizes}"))

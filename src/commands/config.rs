@@ -6,7 +6,10 @@ use super::{
     Failure,
     output::{plural, print_note},
 };
-use crate::{printing, terminal::Settings};
+use crate::{
+    printing,
+    terminal::{Mistake, Settings},
+};
 
 /// Show every setting with its meaning and accepted values, as a file to start from.
 #[derive(Debug, clap::Args)]
@@ -29,9 +32,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if !args.check {
         write!(out, "# {}\n{}", path.display(), settings.document())?;
     }
-    for mistake in &mistakes {
-        print_note(format_args!("{}: {mistake}", path.display()));
-    }
+    Mistake::sentences(&path, &mistakes).iter().for_each(print_note);
     match mistakes.len() {
         0 => Ok(()),
         count => Err(Failure::wrong_input(format_args!(

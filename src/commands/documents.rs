@@ -62,9 +62,8 @@ pub(super) fn man(args: &Man) -> Result<(), Failure> {
     program.build();
     let mut command = &program;
     for name in &args.command {
-        let known = || command.get_subcommands().map(clap::Command::get_name).collect::<Vec<_>>().join(", ");
         command = command.find_subcommand(name).ok_or_else(|| {
-            let known = known();
+            let known = command.get_subcommands().map(clap::Command::get_name).collect::<Vec<_>>().join(", ");
             let accepted = if known.is_empty() { "none".to_owned() } else { known };
             Failure::wrong_input(format_args!("there is no subcommand \"{name}\" of carom; there are: {accepted}"))
         })?;

@@ -35,7 +35,7 @@ use crate::{
     platform,
     printing::{self, FULL_VERSION, is_hidden},
     storage::{Player, notice},
-    terminal::{Seat, Settings, TerminalError},
+    terminal::{Mistake, Seat, Settings, TerminalError},
 };
 
 /// Variable in which sshd stores the command of the client, if the client's key is restricted to one command.
@@ -160,9 +160,7 @@ impl Cli {
             if let Some(news) = notice(&seat.paths) {
                 print_note(format_args!("note: {news}"));
             }
-            for mistake in &mistakes {
-                print_note(format_args!("{}: {mistake}", path.display()));
-            }
+            Mistake::sentences(path, &mistakes).iter().for_each(print_note);
             return refused_lines_result(crate::terminal::run_plain(table, &settings, &seat.paths).map_err(failure)?);
         }
         crate::terminal::run(table, &settings, &mistakes, seat).map_err(failure)

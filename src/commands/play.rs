@@ -61,10 +61,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     };
     layout.validate(&table).map_err(Failure::wrong_input)?;
     let game = Exercise::new_own(GAME, args.rule, bundled, layout);
-    let is_match = args.both || args.against_coach;
-    let innings = args.innings;
-    let against_coach = args.against_coach;
-    let goal = if is_match { Goal::Match { innings, against_coach } } else { Goal::Game { innings } };
+    let &Args { innings, against_coach, .. } = args;
+    let goal = if args.both || against_coach { Goal::Match { innings, against_coach } } else { Goal::Game { innings } };
     let mut session = args.options.session(goal, vec![game])?;
     session.cue_ball = args.ball;
     let workspace = Workspace::open();

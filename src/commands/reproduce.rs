@@ -1,6 +1,6 @@
 //! `carom reproduce`: retrains the thesis' agents and draws their learning curves.
 
-use std::{io::Write, path::PathBuf, sync::atomic::Ordering, thread};
+use std::{io::Write, path::PathBuf, sync::atomic::Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -10,7 +10,7 @@ use super::{
     output::{check_writable, print_note},
 };
 use crate::{
-    platform::stop_on_signal,
+    platform::{stop_on_signal, thread_count},
     printing,
     storage::write_atomic,
     study::reproduction::{FIGURES, Figure, Measure, ReproducedFigure, Session, SessionError, csv, picture, summary},
@@ -52,12 +52,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         figures = FIGURES.to_vec();
     }
     check_writable(&args.out, &args.out)?;
-    let processors = || thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let session = Session {
         figures,
         shots: args.episodes,
         seed: args.seed,
-        threads: args.jobs.map_or_else(processors, usize::from),
+        threads: args.jobs.map_or_else(thread_count, usize::from),
         table: table_by_name(&args.table)?,
     };
     let stop = stop_on_signal(Some(1)).map_err(Failure::failed)?;

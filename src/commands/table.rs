@@ -60,13 +60,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
                 load_table(file).map(|table| Table { name, ..table })
             };
             for table in bundled.chain(own.iter().map(named)) {
-                let table = match table {
-                    Ok(table) => table,
-                    Err(failure) => {
-                        print_note(format_args!("note: {failure}"));
-                        continue;
-                    }
-                };
+                let noted = table.inspect_err(|failure| print_note(format_args!("note: {failure}")));
+                let Ok(table) = noted else { continue };
                 if args.json {
                     printing::json_line(&mut out, &table)?;
                 } else {

@@ -3,7 +3,6 @@
 use std::{
     f64::consts::PI,
     sync::Arc,
-    thread,
     time::{Duration, Instant},
 };
 
@@ -31,7 +30,7 @@ use crate::{
         },
     },
     physics::CueInputs,
-    platform::parallel,
+    platform::{parallel, thread_count},
     simulation::Recording,
     table::{Layout, PRESETS, Table},
 };
@@ -77,7 +76,7 @@ impl Machine {
         let name = listed.lines().filter_map(|line| line.split_once(':')).find(|(key, _)| key.trim() == "model name");
         Self {
             cpu: name.map_or_else(|| std::env::consts::ARCH.to_owned(), |(_, name)| name.trim().to_owned()),
-            threads: thread::available_parallelism().map_or(1, std::num::NonZero::get),
+            threads: thread_count(),
             os: std::env::consts::OS,
         }
     }
@@ -94,7 +93,7 @@ pub fn measure(time: Duration, mut report: impl FnMut(&Figure)) -> candle_core::
         report(&figure);
         figures.push(figure);
     };
-    let cores = thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let cores = thread_count();
     for table in PRESETS.iter().filter_map(|name| Table::preset(name).ok()) {
         let shots = shots(&table);
         let score = |(layout, cue): &(Layout, CueInputs)| Reward::R3.of(&table, layout, cue);

@@ -34,8 +34,10 @@ fn a_partial_study_skips_the_verdict() {
 fn the_time_step_named_in_a_refusal_is_accepted() {
     let step = |shot: &str, dt: &str| carom(&["simulate", "--shot", shot, "--method", "steps", "--dt", dt]);
     let stderr_of = |dt: &str| step("0,0,0,0,3", dt).err;
-    let refused = stderr_of("0.00003");
-    let named = refused.split("accepted is ").nth(1).and_then(|rest| rest.split(" s or more").next()).expect(&refused);
+    let refused = step("0,0,0,0,3", "0.00003");
+    assert_eq!(refused.code, Some(2), "{}", refused.err);
+    let named =
+        refused.err.split("accepted is ").nth(1).and_then(|rest| rest.split(" s or more").next()).expect(&refused.err);
     // This takes seconds in a build without optimisation; only acceptance matters here.
     assert!(!stderr_of(named).contains("steps; accepted"), "{named}: {}", stderr_of(named));
     let least = stderr_of("1e-320");

@@ -280,13 +280,6 @@ fn negative_numbers_are_refused_by_range_not_as_options() {
 }
 
 #[test]
-fn without_a_terminal_the_message_names_a_command() {
-    let (code, message) = refusal(&[]);
-    assert_eq!(code, 2);
-    assert!(message.contains("carom recommend"), "{message}");
-}
-
-#[test]
 fn a_users_table_is_read_from_toml() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("club.toml");

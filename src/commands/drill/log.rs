@@ -46,17 +46,18 @@ struct Logged<'a> {
     score: Score,
 }
 
+/// A typed word: an attempt, and whether it made the point, or an undo.
+#[derive(Clone, Copy)]
 enum LogEntry {
-    Make,
-    Miss,
+    Attempt(bool),
     Undo,
 }
 
 impl LogEntry {
     fn read(text: &str) -> Result<Self, Failure> {
         match text {
-            "make" => Ok(Self::Make),
-            "miss" => Ok(Self::Miss),
+            "make" => Ok(Self::Attempt(true)),
+            "miss" => Ok(Self::Attempt(false)),
             "undo" => Ok(Self::Undo),
             _ => Err(Failure::wrong_input(format_args!(
                 "\"{text}\" is not a result; accepted are make, miss and undo, or --made 7 --of 10"
@@ -79,7 +80,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         }
         log.session.unordered = true;
         for number in 0..of {
-            log.apply(if number < made { &LogEntry::Make } else { &LogEntry::Miss })?;
+            log.apply(LogEntry::Attempt(number < made))?;
         }
         return log.save_and_report();
     }
@@ -87,7 +88,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return log.read();
     }
     let words: Vec<LogEntry> = args.results.iter().map(|text| LogEntry::read(text)).collect::<Result<_, _>>()?;
-    for (applied, word) in words.iter().enumerate() {
+    for (applied, word) in words.into_iter().enumerate() {
         if !log.apply(word)? {
             if applied > 0 {
                 log.save_and_report()?;
@@ -113,16 +114,14 @@ struct Log {
 
 impl Log {
     /// Applies a typed word; returns `false` if there is nothing to undo.
-    fn apply(&mut self, word: &LogEntry) -> Result<bool, Failure> {
+    fn apply(&mut self, word: LogEntry) -> Result<bool, Failure> {
         if self.known.is_some() {
             self.lock()?;
         }
         match word {
-            LogEntry::Make => self.session.log(true).map_err(Failure::failed)?,
-            LogEntry::Miss => self.session.log(false).map_err(Failure::failed)?,
-            LogEntry::Undo => return self.undo(),
+            LogEntry::Attempt(made) => self.session.log(made).map_err(Failure::failed).map(|()| true),
+            LogEntry::Undo => self.undo(),
         }
-        Ok(true)
     }
 
     fn nothing_to_undo(&self) -> String {
@@ -210,7 +209,7 @@ impl Log {
                     print_note(failure);
                 }
                 Ok(word) => {
-                    if self.apply(&word)? {
+                    if self.apply(word)? {
                         // Continue without a reader of the answers: every result must still be saved.
                         self.save_and_report()
                             .or_else(|failure| if failure.is_silent() { Ok(()) } else { Err(failure) })?;

@@ -44,8 +44,8 @@ pub struct StrokeByStroke<'a> {
 
 /// The position of the balls before a stroke.
 #[derive(Serialize)]
+#[serde(tag = "kind", rename = "position")]
 struct Position<'a> {
-    kind: &'static str,
     number: usize,
     exercise: &'a str,
     title: &'a str,
@@ -60,8 +60,8 @@ struct Position<'a> {
 
 /// The result of a stroke.
 #[derive(Serialize)]
+#[serde(tag = "kind", rename = "attempt")]
 struct AttemptLine<'a> {
-    kind: &'static str,
     number: usize,
     exercise: &'a str,
     cue_ball: CueBall,
@@ -100,15 +100,15 @@ struct Advised {
 }
 
 #[derive(Serialize)]
+#[serde(tag = "kind", rename = "refused")]
 struct Refused {
-    kind: &'static str,
     line: usize,
     error: String,
 }
 
 #[derive(Serialize)]
+#[serde(tag = "kind", rename = "result")]
 struct Outcome {
-    kind: &'static str,
     session: String,
     over: bool,
     #[serde(flatten)]
@@ -159,7 +159,6 @@ impl<'a> StrokeByStroke<'a> {
         if self.options.json {
             let rule = rule.name();
             json_line(&Position {
-                kind: "position",
                 number,
                 exercise: name,
                 title,
@@ -227,7 +226,6 @@ impl<'a> StrokeByStroke<'a> {
         let last = self.session.attempts.last();
         if self.options.json {
             let turn = AttemptLine {
-                kind: "attempt",
                 number,
                 exercise: last.map_or("", |last| &last.exercise),
                 cue_ball,
@@ -312,7 +310,7 @@ impl<'a> StrokeByStroke<'a> {
 
     pub fn refuse(&self, number: usize, failure: &Failure) -> Result<(), Failure> {
         if self.options.json {
-            return Ok(json_line(&Refused { kind: "refused", line: number, error: failure.to_string() })?);
+            return Ok(json_line(&Refused { line: number, error: failure.to_string() })?);
         }
         print_note(format_args!("line {number}: {failure}"));
         Ok(())
@@ -325,7 +323,6 @@ impl<'a> StrokeByStroke<'a> {
         let score = score(session).filter(|_| session.goal == Goal::Exam);
         if self.options.json {
             return Ok(json_line(&Outcome {
-                kind: "result",
                 session: session.id.clone(),
                 over: session.is_over(),
                 score: record.into(),

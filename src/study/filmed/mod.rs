@@ -18,13 +18,11 @@ mod report;
 mod shot_fit;
 mod systems;
 
-pub use constants::{Constant, Fitted, fit_constants};
-pub use evaluation::{ModelErrors, evaluate_model};
-pub use film::{FilmedShot, Sample, SizeMismatch, bundled, check_size};
-pub use laws::{WeightedModel, weigh_models};
-pub use motion::Motion;
+pub use constants::fit_constants;
+pub use evaluation::evaluate_model;
+pub use film::{FilmedShot, bundled, check_size};
+pub use laws::weigh_models;
 pub use picture::paths;
 pub use replay::{Replay, ReplayError};
 pub use report::{csv, fit_text, models, text};
-pub use shot_fit::{FITTED_SECONDS, ShotFit, fit_shot};
-pub use systems::Natural;
+pub use shot_fit::FITTED_SECONDS;

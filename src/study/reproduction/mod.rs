@@ -5,7 +5,6 @@ mod figures;
 mod picture;
 mod session;
 
-pub use curves::{Curve, EVALUATION_LAYOUTS, INTERVAL, Point, Training, random_play};
-pub use figures::{Change, FIGURES, Figure, Measure, UnknownFigure, VARIANTS, Variant};
+pub use figures::{FIGURES, Figure, Measure};
 pub use picture::picture;
 pub use session::{ReproducedFigure, Session, SessionError, csv, summary};

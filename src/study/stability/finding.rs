@@ -1,9 +1,21 @@
-//! A finding of a sweep: a shot that violates an invariant.
+//! A shot in the units in which a person would write it, and a finding of a sweep: a shot that violates an invariant.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::{Figures, Shot, Violation};
-use crate::table::{PRESETS, Table};
+use super::{Figures, Violation};
+use crate::{
+    physics::CueDegrees,
+    table::{Layout, PRESETS, Table},
+};
+
+/// A layout and a stroke. A failure can be reproduced exactly from them.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Shot {
+    /// Initial positions of the balls.
+    pub layout: Layout,
+    /// The stroke.
+    pub cue: CueDegrees,
+}
 
 /// A shot with violations. Its JSON is a question that `carom simulate --batch` reads if the table is a bundled one.
 #[derive(Clone, Debug, PartialEq, Serialize)]

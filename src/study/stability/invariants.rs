@@ -7,8 +7,8 @@ use crate::table::Table;
 use super::{
     audit::audit,
     figures::Figures,
+    finding::Shot,
     positions,
-    shot::Shot,
     trace::{Piece, Trace},
 };
 

@@ -7,8 +7,8 @@ use glam::DVec3;
 
 use super::{
     figures::Figures,
+    finding::Shot,
     polynomial::{MAX_DEGREE, least},
-    shot::Shot,
     trace::{Piece, Trace},
 };
 use crate::{

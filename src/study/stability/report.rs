@@ -168,7 +168,7 @@ fn line(cells: &[String; COLUMNS]) -> String {
 }
 
 /// Returns the table in Markdown, with what each row checks.
-pub fn markdown(rows: &[Row]) -> String {
+fn markdown(rows: &[Row]) -> String {
     let mut text = format!("| {} | what must hold in addition to the invariants |\n", HEADINGS.join(" | "));
     text.push_str("|---|---:|---:|---:|---:|---:|---:|---:|---|---|\n");
     for row in rows {

@@ -119,13 +119,3 @@ fn extreme_friction_never_yields_non_finite_numbers() {
     }
     assert_eq!(output.out.lines().count(), lines.len());
 }
-
-#[test]
-fn time_steps_that_would_take_too_long_are_refused() {
-    let home = folder();
-    let shot = ["simulate", "--layout", "-0.5,0 0,0 0.5,0.03", "--shot", "0,0.3,0,1,4", "--method", "steps", "--dt"];
-    let output = carom(home.path(), &[&shot[..], &["1e-8"]].concat());
-    assert_eq!(output.code, Some(2));
-    assert!(output.err.contains("accepted is"), "{}", output.err);
-    assert_eq!(carom(home.path(), &[&shot[..], &["1e-3"]].concat()).code, Some(0));
-}
