@@ -77,13 +77,8 @@ pub fn random_shots(table: &Table, count: usize, seed: u64, max_elevation: MaxEl
 
 fn random_shot(table: &Table, max_elevation: MaxElevation, rng: &mut impl Rng) -> StudyShot {
     let layout = Layout::random(table, rng);
-    let [cue_ball, target, _] = if rng.random() {
-        layout.balls
-    } else {
-        let [cue_ball, one, other] = layout.balls;
-        [cue_ball, other, one]
-    };
-    let line = target - cue_ball;
+    let target = if rng.random() { 1 } else { 2 };
+    let line = layout.balls[target] - layout.balls[0];
     let thin = rng.random_range(-1.0..1.0) * (2.0 * table.radius / line.length()).min(1.0);
     let offset = (table.miscue_limit * rng.random_range(0.0..1.0)).sqrt();
     let (a, b) = (offset * rng.random_range(0.0..TAU).sin(), 0.0);

@@ -23,13 +23,13 @@ pub struct Chain {
     pub hits: Vec<RailHit>,
 }
 
-/// The prediction of a chain, compared with the film.
-#[derive(Clone, Debug)]
+/// The prediction of a chain's last impact, compared with the film.
+#[derive(Clone, Copy, Debug)]
 pub struct ChainPrediction {
-    /// Distances between predicted and filmed impacts, m, for `hits[1..]`.
-    pub distances: Vec<f64>,
-    /// Delays of the predicted impacts, s.
-    pub delays: Vec<f64>,
+    /// Distance between the predicted and the filmed impact, m.
+    pub distance: f64,
+    /// Delay of the predicted impact, s.
+    pub delay: f64,
 }
 
 /// Samples closer than this to a rail impact may show the ball in contact with the rail, s.
@@ -96,17 +96,15 @@ impl Chain {
         found.map_or((with_side(0.0), f64::INFINITY), |found| (Motion::of(found.parameters), found.squares))
     }
 
-    /// Fits the motion to the first two legs and predicts the rest.
+    /// Fits the motion to the first two legs and predicts the last impact.
     pub fn predict(&self, table: &Table) -> ChainPrediction {
         let (motion, _) = self.fit(table, 2, None);
-        let begin = self.samples[0].time;
-        let followed = follow_alone(Follower::new(&[], self.hits.len() - 1), table, &motion);
-        let (mut distances, mut delays) = (Vec::new(), Vec::new());
-        for (index, hit) in self.hits[1..].iter().enumerate() {
-            let met = followed.hits.get(index);
-            distances.push(met.map_or(9.0, |(_, _, position)| position.distance(hit.position)));
-            delays.push(met.map_or(9.0, |(time, ..)| begin + time - hit.time));
+        let last = self.hits.len() - 1;
+        let followed = follow_alone(Follower::new(&[], last), table, &motion);
+        let (met, hit) = (followed.hits.get(last - 1), &self.hits[last]);
+        ChainPrediction {
+            distance: met.map_or(9.0, |(_, _, position)| position.distance(hit.position)),
+            delay: met.map_or(9.0, |(time, ..)| self.samples[0].time + time - hit.time),
         }
-        ChainPrediction { distances, delays }
     }
 }

@@ -42,8 +42,8 @@ pub fn evaluate_model(name: &str, table: &Table, film: &[FilmedShot]) -> ModelEr
     let median = |values: Vec<f64>| Spread::of(values).map_or(f64::NAN, |spread| spread.median);
     let [four, five] = [4, 5].map(|count| {
         let played: Vec<_> = chains::all(table, film, count).iter().map(|chain| chain.predict(table)).collect();
-        let distances = played.iter().map(|played| played.distances[count - 2] / diamond).collect();
-        let late = played.iter().map(|played| played.delays[count - 2]).collect();
+        let distances = played.iter().map(|played| played.distance / diamond).collect();
+        let late = played.iter().map(|played| played.delay).collect();
         (played.len(), median(distances), median(late))
     });
     let shots: Vec<_> =

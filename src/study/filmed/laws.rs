@@ -40,10 +40,7 @@ pub fn weigh_models(table: &Table, models: &[RailModel], film: &[FilmedShot], su
             let on = |fit_on: usize| {
                 let fitted = fit_constants(table, *model, &halves[fit_on]).table;
                 let diamond = fitted.diamond();
-                let miss = move |chain: chains::Chain| {
-                    let played = chain.predict(&fitted);
-                    played.distances[played.distances.len() - 1] / diamond
-                };
+                let miss = move |chain: chains::Chain| chain.predict(&fitted).distance / diamond;
                 chains::all(table, &halves[1 - fit_on], 4).into_iter().map(miss).collect::<Vec<_>>()
             };
             [on(1), on(0)].concat()

@@ -31,11 +31,6 @@ pub fn best_fit<const N: usize>(
     fits.reduce(|best, found| if found.squares < best.squares { found } else { best })
 }
 
-/// Returns the angular velocity about horizontal axes of a ball with this velocity and slip, rad/s.
-pub fn spin_of_slip(radius: f64, velocity: DVec2, slip: DVec2) -> DVec2 {
-    DVec2::new((slip.y - velocity.y) / radius, (velocity.x - slip.x) / radius)
-}
-
 /// The motion of a ball at one time: the parameters of a fit to its course.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
@@ -63,7 +58,7 @@ impl Motion {
 
     /// Returns the impulse that sets a ball at rest in this motion.
     pub fn impulse(&self, radius: f64) -> Impulse {
-        let spin: DVec3 = spin_of_slip(radius, self.velocity, self.slip).extend(self.side / radius);
-        Impulse::on_cloth(self.velocity, spin)
+        let Self { velocity, slip, side, .. } = *self;
+        Impulse::on_cloth(velocity, DVec3::new(slip.y - velocity.y, velocity.x - slip.x, side) / radius)
     }
 }

@@ -60,11 +60,6 @@ impl<R: Real> Laws<R> {
         Self { cloth: [None; BALLS], ..self }
     }
 
-    /// Whether a ball in contact has no side spin.
-    pub fn spin_ended(&self, ball: usize) -> bool {
-        self.cloth[ball].is_some() && self.spin_signs[ball] == R::zero()
-    }
-
     /// Returns the largest slip or speed that counts as zero.
     pub fn largest_held(&self, numbers: &Numbers<R>, balls: &Balls<R>) -> R {
         let on_cloth = self.cloth.iter().zip(balls).filter_map(|(motion, ball)| match (*motion)? {

@@ -10,7 +10,6 @@ use super::{
     system::System,
     tolerance::{self, settled, slack, touching},
 };
-use crate::table::BALLS;
 
 /// Maximum number of slips that begin one after the other at one time, with a margin.
 const MAX_CHANGES: usize = 32;
@@ -64,10 +63,12 @@ pub fn rest<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>) -> Result<(Opti
         work = work + system.set_speeds(numbers, balls, &speeds);
         if !begins {
             close(numbers, balls, &pressing);
-            let ended = |ball: usize| laws.spin_ended(ball);
-            (0..BALLS).filter(|ball| ended(*ball)).for_each(|ball| balls[ball].spin.z = R::zero());
-            for (ball, motion) in balls.iter_mut().zip(laws.cloth) {
-                ball.motion = motion.unwrap_or(ball.motion);
+            for ((ball, motion), spin_sign) in balls.iter_mut().zip(laws.cloth).zip(laws.spin_signs) {
+                let Some(motion) = motion else { continue };
+                ball.motion = motion;
+                if spin_sign == R::zero() {
+                    ball.spin.z = R::zero();
+                }
             }
             return Ok((Some(Rest { laws, forces, creeps: false }), work));
         }

@@ -82,8 +82,8 @@ pub fn collide_simultaneously<R: Real>(
         }
         let taken = if let [contact] = joined[..] {
             met.push(contact);
-            let numbers = if inelastic.contains(&contact) { &numbers.inelastic() } else { numbers };
-            collide_single(numbers, balls, contact)
+            let dead = inelastic.contains(&contact).then(|| numbers.with_restitution(R::zero()));
+            collide_single(dead.as_ref().unwrap_or(numbers), balls, contact)
         } else {
             let pushes = normal_impulses(numbers, balls, &joined, restitution)?;
             let is_pushed = |(contact, push): (&Contact, &R)| (*push > R::zero()).then_some(*contact);

@@ -109,9 +109,7 @@ impl<R: Real> System<R> {
         if spin_sign == zero {
             self.unknown(Law::Hold(spinning), &[(row, zero)]);
         } else {
-            let speed = numbers.radius * state.spin.z;
-            row.push(numbers, -spinning * spin_sign, &mut self.known);
-            self.power.0 = self.power.0 + spinning * spin_sign * speed;
+            self.add_friction(numbers, &row, spinning * spin_sign, numbers.radius * state.spin.z);
         }
     }
 

@@ -102,15 +102,8 @@ impl<R: Real> Numbers<R> {
         }
     }
 
-    /// Returns the same table without restitution, with impacts at the height of the balls' centres: the limit of endless
-    /// bounces.
-    #[must_use]
-    pub fn inelastic(&self) -> Self {
-        self.with_restitution(R::zero())
-    }
-
     /// Returns the same table with this restitution in every impact, at any speed, and cushions that balls meet at the height
-    /// of their centres.
+    /// of their centres. No restitution is the limit of endless bounces.
     #[must_use]
     pub fn with_restitution(&self, restitution: R) -> Self {
         let with = |cushion: Cushion<R>| Cushion { restitution, fade: None, law: RailLaw::Equator, ..cushion };

@@ -2,7 +2,6 @@
 
 use std::{
     process::Command,
-    thread,
     time::{Duration, Instant},
 };
 
@@ -128,11 +127,8 @@ fn settings_apply_immediately_and_toasts_expire() {
         screen.mouse_protocol_mode() == vt100::MouseProtocolMode::None
     });
     let file = home.path().join("config/carom/config.toml");
-    let start = Instant::now();
-    while !std::fs::read_to_string(&file).unwrap_or_default().contains("mouse = false") {
-        assert!(start.elapsed() < TIMEOUT, "it is not written");
-        thread::sleep(Duration::from_millis(20));
-    }
+    session
+        .wait_until("it is written", |_| std::fs::read_to_string(&file).unwrap_or_default().contains("mouse = false"));
     session.send("\x1bOQ");
     session.wait_for(START_TEXT);
     session.send("u");

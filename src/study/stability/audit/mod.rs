@@ -80,7 +80,7 @@ pub(super) fn audit(table: &Table, trace: &Trace, figures: &mut Figures) -> Acco
     let mut audit = Audit { table, trace, numbers, courses, account, gap: CLOSED * table.length, max_displacement };
     let mut events = trace.events.as_slice();
     loop {
-        let now = audit.next_change();
+        let now = audit.courses.iter().map(Course::changes).fold(f64::INFINITY, f64::min);
         if now == f64::INFINITY || now >= trace.kept_until {
             break;
         }
@@ -96,10 +96,6 @@ pub(super) fn audit(table: &Table, trace: &Trace, figures: &mut Figures) -> Acco
 }
 
 impl Audit<'_> {
-    fn next_change(&self) -> f64 {
-        self.courses.iter().map(Course::changes).fold(f64::INFINITY, f64::min)
-    }
-
     /// Audits all changes at time `now`, s, group by group, and begins the next pieces of the changed balls.
     fn moment(&mut self, now: f64, reported: &[Event], figures: &mut Figures) {
         let changed: [bool; BALLS] = std::array::from_fn(|ball| self.courses[ball].changes() == now);

@@ -200,7 +200,7 @@ impl Moment<'_> {
         let [opening, ..] = self.directions(contact);
         let speed = e * dot(&opening, before).abs();
         let may_stay = speed <= STOPPED_SPEED || contact.is_among(self.rests);
-        let dead = left(&self.numbers.inelastic()).filter(|_| may_stay).unwrap_or(unexplained);
+        let dead = left(&self.numbers.with_restitution(0.0)).filter(|_| may_stay).unwrap_or(unexplained);
         if unexplained.abs() <= dead.abs() {
             return Residual { unexplained, bounces: None };
         }
