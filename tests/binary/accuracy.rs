@@ -88,9 +88,7 @@ fn invalid_input_exits_with_two_and_names_accepted_values() {
         (vec!["simulate", "--shot", "0,0,0,0,3", "--dt", "0.1"], "--method steps"),
         (vec!["simulate", "--shot", "0,0,0,0,3", "--method", "steps", "--dt", "7"], "accepted is 3e-7 to 1 s"),
     ] {
-        let output = run(&arguments);
-        assert_eq!(output.code, Some(2), "{arguments:?}");
-        assert!(output.out.is_empty() && output.err.contains(words), "{}", output.err);
+        assert_eq!(run(&arguments).fails(2, &[words]).out, "");
     }
 }
 
@@ -99,8 +97,7 @@ fn a_folder_that_cannot_be_created_is_named() {
     let file = tempfile::NamedTempFile::new().unwrap();
     let folder = file.path().join("inside");
     let folder = folder.to_str().unwrap();
-    let output = run(&["accuracy", "--quick", "--shots", "1", "--table", "textbook", "--out", folder]);
-    assert!(output.code == Some(1) && output.err.contains("accuracy.csv"), "{}", output.err);
+    run(&["accuracy", "--quick", "--shots", "1", "--table", "textbook", "--out", folder]).fails(1, &["accuracy.csv"]);
 }
 
 /// Regression test: the problem was reported only after all measurements, after three minutes or an hour.

@@ -227,9 +227,7 @@ fn an_unmet_first_contact_wish_is_reported() {
 #[test]
 fn a_game_cannot_open_with_yellow() {
     let args = ["recommend", "--rule", "three-cushion", "--first", "yellow", "--simulations", "100"];
-    let output = run(&args);
-    assert_eq!(output.code, Some(1));
-    assert!(output.err.contains("there is no point with yellow first: a game opens with red"), "{}", output.err);
+    run(&args).fails(1, &["there is no point with yellow first: a game opens with red"]);
 }
 
 #[test]

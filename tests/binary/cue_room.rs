@@ -69,6 +69,5 @@ fn recommended_strokes_have_room_for_the_cue() {
     assert_eq!(answer["cue_room"]["has_room"], true, "{advice} {answer}");
 
     let wrong = table("wrong", "[room]\nnose = 0.5\n");
-    let refused = run(&["table", "check", wrong.to_str().unwrap()]);
-    assert!(refused.code == Some(2) && refused.err.contains("room.nose = 0.5"), "{}", refused.err);
+    run(&["table", "check", wrong.to_str().unwrap()]).fails(2, &["room.nose = 0.5"]);
 }

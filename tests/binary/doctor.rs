@@ -60,9 +60,7 @@ fn doctor_names_every_problem_and_exits_with_one() {
     put("carom/positions/broken.json", "{");
     put("carom/player.json", "{");
     put("state", "a file in the way");
-    let output = carom(home.path(), &["doctor"]);
-    assert_eq!(output.code, Some(1), "{}", output.out);
-    assert!(output.err.contains("things are wrong"), "{}", output.err);
+    let output = carom(home.path(), &["doctor"]).fails(1, &["things are wrong"]);
     let wrong: Vec<&str> = output.out.lines().filter_map(|line| line.strip_prefix("wrong: ")).collect();
     for part in ["speed = 80", "bad.toml", "long.toml", "sessions/broken", "positions/broken", "player.json", "state"] {
         assert!(wrong.iter().any(|line| line.contains(part)), "{part}: {wrong:#?}");

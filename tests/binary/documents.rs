@@ -123,9 +123,7 @@ fn the_output_of_config_is_a_valid_settings_file() {
     config(&["config", "--check"]).ok();
     assert_eq!(config(&["config"]).out, shown);
     std::fs::write(path, "theme = \"light\"\nspeed = 80\n").unwrap();
-    let checked = config(&["config", "--check"]);
-    assert_eq!(checked.code, Some(2));
-    assert!(checked.err.contains("line 2: speed = 80; accepted is 0.1, 0.25"), "{}", checked.err);
+    config(&["config", "--check"]).fails(2, &["line 2: speed = 80; accepted is 0.1, 0.25"]);
     assert!(config(&["config"]).out.contains("theme = \"light\""));
 }
 

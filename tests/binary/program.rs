@@ -47,6 +47,14 @@ impl Outcome {
         assert_eq!(self.code, Some(0), "{}{}", self.out, self.err);
         self
     }
+
+    /// Asserts that the program failed with this exit code, and that its error message contains all of these words.
+    #[track_caller]
+    pub fn fails(self, code: i32, words: &[&str]) -> Self {
+        assert_eq!(self.code, Some(code), "{}{}", self.out, self.err);
+        assert!(words.iter().all(|word| self.err.contains(word)), "{words:?} are not all in: {}", self.err);
+        self
+    }
 }
 
 impl From<Output> for Outcome {

@@ -52,7 +52,6 @@ fn unknown_balls_and_sides_are_refused_with_accepted_values() {
     for (args, says) in
         [(["play", "--ball", "red"], "use white or yellow"), (["play", "--side", "up"], "left or right")]
     {
-        let refused = carom(folder.path(), &args);
-        assert!(refused.code == Some(2) && refused.err.contains(says), "{}", refused.err);
+        carom(folder.path(), &args).fails(2, &[says]);
     }
 }

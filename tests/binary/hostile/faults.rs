@@ -16,7 +16,7 @@ fn unknown_keys_in_a_batch_are_refused() {
     assert!(output.out.contains("rul") && output.out.contains("accepted are preset, layout, rule"), "{}", output.out);
     // Lines of files with answers are accepted as requests.
     let known = include_str!("../../data/shots.jsonl").lines().next().unwrap();
-    assert_eq!(run_with_input(command(home.path(), &["simulate", "--batch", "-"]), known).code, Some(0));
+    run_with_input(command(home.path(), &["simulate", "--batch", "-"]), known).ok();
 }
 
 #[test]
@@ -36,9 +36,8 @@ fn an_overlong_line_is_refused_and_the_batch_continues() {
 fn saving_an_invalid_stroke_names_the_accepted_forms() {
     let home = folder();
     for wrong in ["foo", "coach"] {
-        let output = drill(home.path(), &["save", "mine", "--layout", "-0.5,0 0,0 0.5,0.03", "--shot", wrong]);
-        assert_eq!(output.code, Some(2));
-        assert!(output.err.contains(&format!("\"{wrong}\" is not understood; accepted are")), "{}", output.err);
+        let output = drill(home.path(), &["save", "mine", "--layout", "-0.5,0 0,0 0.5,0.03", "--shot", wrong])
+            .fails(2, &[&format!("\"{wrong}\" is not understood; accepted are")]);
         assert!(output.err.contains("\"a,b,theta,phi,V\""), "{}", output.err);
         assert!(!output.err.contains("for the coach"), "{}", output.err);
     }
@@ -48,18 +47,15 @@ fn saving_an_invalid_stroke_names_the_accepted_forms() {
 fn an_endless_line_does_not_fill_memory() {
     let home = folder();
     let endless = std::fs::File::open("/dev/zero").unwrap();
-    let output = outcome(command(home.path(), &["simulate", "--batch", "-"]).stdin(endless).spawn().unwrap());
-    assert_eq!(output.code, Some(1));
-    assert!(output.err.contains("a line has more than"), "{}", output.err);
-    let output = carom(home.path(), &["simulate", "--batch", "/dev/zero"]);
-    assert_eq!(output.code, Some(1));
-    assert!(output.err.contains("a device") && output.err.contains("accepted is a regular file"), "{}", output.err);
+    outcome(command(home.path(), &["simulate", "--batch", "-"]).stdin(endless).spawn().unwrap())
+        .fails(1, &["a line has more than"]);
+    carom(home.path(), &["simulate", "--batch", "/dev/zero"]).fails(1, &["a device", "accepted is a regular file"]);
 }
 
 #[test]
 fn concurrent_undos_each_remove_one_attempt() {
     let home = folder();
-    assert_eq!(drill(home.path(), &["log", "mine", "make", "miss", "make", "miss", "make", "make"]).code, Some(0));
+    drill(home.path(), &["log", "mine", "make", "miss", "make", "miss", "make", "make"]).ok();
     let all = [0; 4].map(|_| command(home.path(), &["drill", "log", "mine", "undo"]).spawn().unwrap());
     for child in all {
         outcome(child).ok();
@@ -99,8 +95,7 @@ fn extreme_friction_never_yields_non_finite_numbers() {
     let home = folder();
     // A friction coefficient without unique forces, which once gave NaN, is refused; the largest accepted one can be computed.
     fs::write(home.path().join("t.toml"), format!("{SLIPPERY}mu_b = 1000\n")).unwrap();
-    let refused = carom(home.path(), &["simulate", "--table", "t.toml", "--shot", "0,0,0,0,2"]);
-    assert!(refused.code == Some(2) && refused.err.contains("mu_b = 1000"), "{}", refused.err);
+    carom(home.path(), &["simulate", "--table", "t.toml", "--shot", "0,0,0,0,2"]).fails(2, &["mu_b = 1000"]);
     fs::write(home.path().join("t.toml"), format!("{SLIPPERY}mu_b = 0.99\n")).unwrap();
     let shot = |n: u32| {
         format!(

@@ -34,15 +34,11 @@ fn a_file_size_limit_fails_a_command_without_partial_files() {
     let mut shell = program::program(folder.path(), "sh".as_ref());
     let carom = env!("CARGO_BIN_EXE_carom");
     shell.args(["-c", "ulimit -f 0; exec \"$0\" drill export out.json", carom]);
-    let output = program::outcome(shell.spawn().unwrap());
-    assert_eq!(output.code, Some(1), "{}", output.err);
-    assert!(output.err.contains("out.json cannot be written: ") && output.err.contains("too large"), "{}", output.err);
+    program::outcome(shell.spawn().unwrap()).fails(1, &["out.json cannot be written: ", "too large"]);
     let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert!(left.iter().all(|name| name == "carom" || name == "state"), "{left:?}");
 
     let mut shell = program::program(folder.path(), "sh".as_ref());
     shell.args(["-c", "ulimit -f 0; exec \"$0\" table > table.txt", carom]);
-    let output = program::outcome(shell.spawn().unwrap());
-    assert_eq!(output.code, Some(1), "{}", output.err);
-    assert!(output.err.contains("the output cannot be written"), "{}", output.err);
+    program::outcome(shell.spawn().unwrap()).fails(1, &["the output cannot be written"]);
 }

@@ -66,9 +66,7 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
     let resumed = run_ok(here, "train --resume rounds");
     assert!(resumed.err.contains("it has played 16 shots (requested: 1)"), "{}", resumed.err);
 
-    let again = carom(here, &format!("{SHORT} --run one"));
-    assert_eq!(again.code, Some(1));
-    assert!(again.err.contains("--resume"), "{}", again.err);
+    carom(here, &format!("{SHORT} --run one")).fails(1, &["--resume"]);
     let finished = run_ok(here, "train --resume one");
     assert!(finished.err.contains("is finished") && finished.out.contains("640 shots"), "{}", finished.err);
 }
@@ -98,9 +96,7 @@ fn an_interrupted_run_is_saved_listed_locked_and_resumable() {
     wait_for(&run.join("metrics.jsonl"), &mut child);
     let listed = || json_answer(here, "train --list --json");
     assert_eq!((&listed()["name"], &listed()["state"]), (&name.into(), &"running".into()));
-    let busy = carom(here, &format!("train --resume {name}"));
-    assert_eq!(busy.code, Some(1));
-    assert!(busy.err.contains("another process"), "{}", busy.err);
+    carom(here, &format!("train --resume {name}")).fails(1, &["another process"]);
 
     let interrupt = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(interrupt.unwrap().success());
@@ -219,9 +215,7 @@ fn continue_and_objective_start_resume_and_score_a_run() {
     let objective: f64 = run_ok(here, &line).out.trim().parse().unwrap();
     assert_eq!(read_json(result)["held_out_reward"].as_f64(), Some(objective));
     assert_eq!(run_ok(here, &line).out.trim().parse(), Ok(objective), "a finished run stays as it is");
-    let other = carom(here, &line.replace("--seed 3", "--seed 4"));
-    assert_eq!(other.code, Some(1));
-    assert!(other.err.contains("seed 3, not 4"), "{}", other.err);
+    carom(here, &line.replace("--seed 3", "--seed 4")).fails(1, &["seed 3, not 4"]);
     // TensorBoard finds the file by this part of its name.
     let events = fs::read(here.join("again/events.out.tfevents.carom")).unwrap();
     let has = |part: &[u8]| events.windows(part.len()).any(|window| window == part);

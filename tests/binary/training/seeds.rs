@@ -46,33 +46,21 @@ fn several_seeds_equal_single_runs_and_resume_together() {
 
     // Other settings are refused with an explanation, and so is another number of seeds; with the same settings the run is finished.
     let continued = |rest: &str| carom(here, &format!("{SHORT} --run whole --continue {rest}"));
-    let [fewer, single] = ["--seeds 2", ""].map(continued);
-    assert!(
-        fewer.code == Some(1) && fewer.err.contains("was started with 3 seeds, not 2: --continue resumes a run that"),
-        "{}",
-        fewer.err
-    );
-    assert!(
-        single.code == Some(1) && single.err.contains("was started with 3 seeds, not as a single run"),
-        "{}",
-        single.err
-    );
+    continued("--seeds 2").fails(1, &["was started with 3 seeds, not 2: --continue resumes a run that"]);
+    continued("").fails(1, &["was started with 3 seeds, not as a single run"]);
     for (other, words) in [
         ("--set ranking=0.35", "was started with ranking = 0.0, not 0.35:"),
         ("--set exploration={uniform=0.25}", "was started with exploration.uniform = "),
         ("--from four", "was started without --from, not from four"),
     ] {
-        let refused = continued(&format!("--seeds 3 {other}"));
-        assert!(refused.code == Some(1) && refused.err.contains(words), "{other}: {}", refused.err);
+        let refused = continued(&format!("--seeds 3 {other}")).fails(1, &[words]);
         assert!(refused.err.len() < 250, "nothing is told but what differs: {}", refused.err);
     }
     let single = carom(here, &format!("{} --run four --continue --seeds 2", SHORT.replace("--seed 3", "--seed 4")));
     assert!(single.err.contains("was started as a single run, not with 2 seeds"), "{}", single.err);
-    assert_eq!(continued("--seeds 3").code, Some(0));
+    continued("--seeds 3").ok();
     // A single run in this folder would hide the seeds.
-    let single = carom(here, &format!("{SHORT} --run whole"));
-    assert_eq!(single.code, Some(1));
-    assert!(single.err.contains("--resume"), "{}", single.err);
+    carom(here, &format!("{SHORT} --run whole")).fails(1, &["--resume"]);
 }
 
 #[test]
@@ -95,9 +83,7 @@ fn a_failed_seed_is_reported_even_without_a_spread_file() {
     }
     fs::remove_file(here.join("group/seeds.csv")).unwrap();
     fs::create_dir(here.join("group/seeds.csv")).unwrap();
-    let failed = carom(here, "train --resume group");
-    let words = ["seed 2: no checkpoint in ", "seeds.csv cannot be used"];
-    assert!(failed.code == Some(1) && words.iter().all(|words| failed.err.contains(words)), "{}", failed.err);
+    carom(here, "train --resume group").fails(1, &["seed 2: no checkpoint in ", "seeds.csv cannot be used"]);
 }
 
 /// A scheduler may repeat the same command days later; by then the run that the weights came from may be gone.
@@ -116,13 +102,11 @@ fn a_run_resumes_after_its_source_weights_are_gone() {
         run_unfinished(here, &format!("{} --minutes 0.00001", line("one")));
         let absolute = here.join("one").display().to_string();
         run_unfinished(here, &format!("{} --minutes 0.00001", line(&absolute)));
-        let other = carom(here, &line("two"));
-        assert!(other.code == Some(1) && other.err.contains("was started from one, not from two"), "{}", other.err);
+        carom(here, &line("two")).fails(1, &["was started from one, not from two"]);
         let left_out = carom(here, &line("one").replace(" --set buffer_size=4000", ""));
         assert!(left_out.err.contains("was started with buffer_size = 4000, not "), "{}", left_out.err);
         fs::rename(here.join("one"), here.join("away")).unwrap();
-        let other = carom(here, &line("two"));
-        assert!(other.code == Some(1) && other.err.contains("was started from one, not from two"), "{}", other.err);
+        carom(here, &line("two")).fails(1, &["was started from one, not from two"]);
         let other = carom(here, &line("one").replace("buffer_size=4000", "buffer_size=3000"));
         assert!(other.err.contains("was started with buffer_size = 4000, not 3000:"), "{}", other.err);
         run_ok(here, &line("one"));
@@ -140,8 +124,7 @@ fn a_run_resumes_after_its_source_weights_are_gone() {
         fs::remove_dir_all(here.join("group").join(seed)).unwrap();
     }
     let line = "--steps 64 --evaluation-layouts 5 --seeds 2 --run group --continue";
-    let mixed = carom(here, &format!("train {line}"));
-    assert!(mixed.code == Some(1) && mixed.err.contains("\"from.safetensors\" is in it"), "{}", mixed.err);
+    carom(here, &format!("train {line}")).fails(1, &["\"from.safetensors\" is in it"]);
     run_ok(here, &format!("train --from one {line}"));
 }
 
@@ -175,9 +158,8 @@ fn weights_are_found_by_policy_name() {
     let report = json_answer(here, line);
     assert_eq!((&report["policy"], &report["networks"]), (&"match-one-cushion".into(), &"match-one-cushion".into()));
     for line in ["train --from match-r9", "evaluate --policy match-r9"] {
-        let refused = carom(here, line);
         let words = ["match-r9", "the name of one that was kept, bundled, or one of match-r3, "];
-        assert!(refused.code == Some(1) && words.iter().all(|words| refused.err.contains(words)), "{}", refused.err);
+        carom(here, line).fails(1, &words);
     }
 }
 
@@ -228,19 +210,14 @@ fn a_run_can_start_from_the_weights_of_another() {
 
     fs::write(here.join("large.toml"), "critic_layers = [24]").unwrap();
     for from in ["one", weights] {
-        let large = carom(here, &format!("train --from {from} --config large.toml --run large"));
-        assert_eq!(large.code, Some(2));
-        for words in ["critic", "-16-1", "-24-1", "leave out the settings"] {
-            assert!(large.err.contains(words), "{}", large.err);
-        }
+        carom(here, &format!("train --from {from} --config large.toml --run large"))
+            .fails(2, &["critic", "-16-1", "-24-1", "leave out the settings"]);
     }
 
     run_ok(here, "train --agent thesis-ddpg --table thesis --steps 100 --evaluation-layouts 5 --run thesis");
     let mut large = command(here, "train --from thesis --set actor_layers=[8] --run large");
-    let large = outcome(large.env("RUST_BACKTRACE", "1").spawn().unwrap());
-    assert!(large.code == Some(2) && large.err.lines().count() == 1, "{}", large.err);
-    for words in ["actor with layers of 6-8-2 units", "leave out the settings"] {
-        assert!(large.err.contains(words), "{}", large.err);
-    }
+    let large = outcome(large.env("RUST_BACKTRACE", "1").spawn().unwrap())
+        .fails(2, &["actor with layers of 6-8-2 units", "leave out the settings"]);
+    assert_eq!(large.err.lines().count(), 1, "{}", large.err);
     assert!(!here.join("large").exists());
 }
