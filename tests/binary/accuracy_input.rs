@@ -4,7 +4,7 @@ use std::{fs, path::PathBuf, time::Duration};
 
 use carom::table::Table;
 
-use crate::program::{Outcome, carom_command, finished};
+use crate::program::{Outcome, batch, carom_command, finished};
 
 fn carom(arguments: &[&str]) -> Outcome {
     finished(carom_command(arguments).timeout(Duration::from_secs(60)))
@@ -96,6 +96,6 @@ fn extreme_numbers_are_printed_in_scientific_notation() {
     assert!(late.out.contains("after 1e308 s:"), "{}", late.out);
     let line =
         r#"{"preset":"textbook","layout":[[0,0],[0.5,0],[0,0.4]],"impulse":{"velocity":[1,0,1e-320],"spin":[0,0,0]}}"#;
-    let output = finished(carom_command(&["simulate", "--batch", "-"]).write_stdin(line));
+    let output = batch(&["simulate"], line);
     assert!(output.out.contains("impulse.velocity has 1e-320 m/s upwards"), "{}", output.out);
 }

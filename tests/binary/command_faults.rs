@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::program::{carom as carom_of, carom_command as carom, drill, finished, folder, json_answer, run, stdout};
+use crate::program::{batch, carom, drill, folder, json_answer, run, stdout};
 
 /// Returns the error message of a refused command.
 fn refusal(args: &[&str]) -> String {
@@ -13,8 +13,7 @@ fn refusal(args: &[&str]) -> String {
 
 /// Returns the answer to one line of a batch.
 fn batch_answer(args: &[&str], line: &str) -> Value {
-    let output = finished(carom(&[args, &["--batch", "-"]].concat()).write_stdin(line)).ok();
-    serde_json::from_str(&output.out).unwrap()
+    serde_json::from_str(&batch(args, line).ok().out).unwrap()
 }
 
 const LAYOUT: &str = "-0.5,0 0,0 0.5,0.03";
@@ -64,8 +63,8 @@ fn a_stroke_onto_a_touching_ball_is_a_foul() {
     assert_eq!((&at_it["cushions_before_second"], at_it["events"].is_array()), (&json!(0), true));
     let away = json_answer(&shot("0,0,5,180,3", &["--json"]));
     assert_eq!((&away["point"], away.get("foul")), (&json!(true), None));
-    let batch = json!({"preset": "match", "layout": [[0, 0], [0.0615, 0], [-0.3, 0.02]], "impulse": at_it["impulse"]});
-    let given = batch_answer(&["simulate"], &batch.to_string());
+    let line = json!({"preset": "match", "layout": [[0, 0], [0.0615, 0], [-0.3, 0.02]], "impulse": at_it["impulse"]});
+    let given = batch_answer(&["simulate"], &line.to_string());
     assert_eq!((&given["point"], &given["foul"]), (&json!(false), &json!(foul)));
     drill(home.path(), &[&["save", "frozen"], &frozen[..]].concat());
     let tried = drill(home.path(), &["try", "frozen", "--shot", "0,-0.4,5,0,3", "--skill", "perfect"]).out;
@@ -94,10 +93,9 @@ fn text_output_uses_the_units_of_the_settings() {
     let settings = home.path().join("config/carom");
     std::fs::create_dir_all(&settings).unwrap();
     let outputs = |args: &[&str]| {
-        let [default, json] =
-            [args.to_vec(), [args, &["--json"]].concat()].map(|args| carom_of(home.path(), &args).out);
+        let [default, json] = [args.to_vec(), [args, &["--json"]].concat()].map(|args| carom(home.path(), &args).out);
         std::fs::write(settings.join("config.toml"), "length_unit = \"feet\"\ntip_unit = \"mm\"\n").unwrap();
-        let other = [args.to_vec(), [args, &["--json"]].concat()].map(|args| carom_of(home.path(), &args).out);
+        let other = [args.to_vec(), [args, &["--json"]].concat()].map(|args| carom(home.path(), &args).out);
         std::fs::remove_file(settings.join("config.toml")).unwrap();
         // The name of a session differs every time.
         let nameless =
@@ -119,8 +117,7 @@ fn a_batch_line_may_name_its_own_rule() {
         format!(r#"{{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"cue":{cue}{rule}}}"#)
     };
     let input = [line(""), line(r#","rule":"straight""#)].join("\n");
-    let args = ["simulate", "--batch", "-", "--rule", "three-cushion"];
-    let rules = finished(carom(&args).write_stdin(input)).ok().json();
+    let rules = batch(&["simulate", "--rule", "three-cushion"], input).ok().json();
     assert_eq!(
         rules.iter().map(|line| (&line["rule"], &line["point"])).collect::<Vec<_>>(),
         [(&json!("three-cushion"), &json!(false)), (&json!("straight"), &json!(true))]
@@ -150,7 +147,7 @@ fn a_refused_line_names_field_value_and_accepted_values() {
         (whole.replacen("match", "match\" \"", 1), &[" is not JSON"]),
         (whole.replacen("\"rule\"", "\"preset\": \"thesis\", \"rule\"", 1), &["\"preset\" occurs twice"]),
     ] {
-        let output = finished(carom(&["simulate", "--batch", "-"]).write_stdin(line.clone()));
+        let output = batch(&["simulate"], line.as_str());
         let answer: Value = serde_json::from_str(&output.out).unwrap();
         let error = answer["error"].as_str().unwrap();
         assert!(output.code == Some(2) && error.starts_with("line 1 "), "{error}");
@@ -159,7 +156,7 @@ fn a_refused_line_names_field_value_and_accepted_values() {
         assert!(!jargon.iter().any(|word| error.contains(*word)), "{error}");
     }
     let wrong = json!({"preset": "match", "layout": [[0, 0], [0.5, 0]], "rule": "straight"}).to_string();
-    let output = finished(carom(&["recommend", "--batch", "-"]).write_stdin(wrong));
+    let output = batch(&["recommend"], wrong);
     assert!(output.out.contains("three pairs [x, y]"));
 }
 

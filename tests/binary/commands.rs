@@ -4,12 +4,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::program::{Outcome, carom_command as carom, finished, json_answer, run, stdout};
-
-/// Answers lines of a batch.
-fn batch(args: &[&str], lines: impl Into<Vec<u8>>) -> Outcome {
-    finished(carom(&[args, &["--batch", "-"]].concat()).write_stdin(lines))
-}
+use crate::program::{batch, carom_command as carom, finished, json_answer, run, stdout};
 
 /// Returns the exit code and the message for input that must leave the standard output empty.
 fn refusal(args: &[&str]) -> (i32, String) {

@@ -4,7 +4,7 @@ use std::{fs, path::PathBuf};
 
 use serde_json::Value;
 
-use crate::program::{carom_command, finished, run};
+use crate::program::{batch, run};
 
 const TABLE: &str = "name = \"railed\"\nL = 2.84\nl = 1.42\nR = 0.03075\nm = 0.21\nM = 0.54\nmu_s = 0.2\nmu_r = 0.01\n\
                      mu_sp = 0.0124\ne_ball = 0.95\nmu_b = 0.06\ne_rail = 0.85\nmu_rail = 0.2\ng = 9.81\n\
@@ -60,12 +60,10 @@ fn recommended_strokes_have_room_for_the_cue() {
     let question = serde_json::json!({
         "preset": path, "layout": [[0.0, -0.67925], [-0.5, 0.3], [0.6, 0.1]], "rule": "straight"
     });
-    let ask = |args: &[&str], question: &Value| {
-        finished(carom_command(args).write_stdin(format!("{question}\n"))).ok().json().remove(0)
-    };
-    let advice = ask(&["recommend", "--batch", "-", "--budget-ms", "100"], &question);
+    let ask = |args: &[&str], question: &Value| batch(args, format!("{question}\n")).ok().json().remove(0);
+    let advice = ask(&["recommend", "--budget-ms", "100"], &question);
     let question = serde_json::json!({"preset": path, "layout": question["layout"], "cue": advice["cue"]});
-    let answer = ask(&["simulate", "--batch", "-"], &question);
+    let answer = ask(&["simulate"], &question);
     assert_eq!(answer["cue_room"]["has_room"], true, "{advice} {answer}");
 
     let wrong = table("wrong", "[room]\nnose = 0.5\n");

@@ -73,6 +73,11 @@ pub fn run(args: &[&str]) -> Outcome {
     finished(&mut carom_command(args))
 }
 
+/// Runs a command on the lines of a batch.
+pub fn batch(args: &[&str], lines: impl Into<Vec<u8>>) -> Outcome {
+    finished(carom_command(&[args, &["--batch", "-"]].concat()).write_stdin(lines))
+}
+
 /// Returns the standard output of a command that must succeed.
 #[track_caller]
 pub fn stdout(args: &[&str]) -> String {

@@ -45,10 +45,9 @@ fn logged_results_are_scored_correctly() {
 fn surplus_undos_are_refused_after_the_possible_ones() {
     let folder = folder();
     drill(folder.path(), &["log", "mine", "make", "miss"]);
-    let undone = drill(folder.path(), &["log", "mine", "undo", "undo", "undo"]);
-    assert_eq!(undone.code, Some(1));
+    let undone = drill(folder.path(), &["log", "mine", "undo", "undo", "undo"])
+        .fails(1, &["there is no attempt at mine to undo"]);
     assert!(undone.out.contains("undone; this session has no other attempts"), "{}", undone.out);
-    assert!(undone.err.contains("there is no attempt at mine to undo"), "{}", undone.err);
 }
 
 #[test]
@@ -205,9 +204,7 @@ fn invalid_or_missing_names_and_values_are_named() {
         (&["list", "--category", "snooker"], 2, "three-cushion"),
     ];
     for (args, code, word) in cases {
-        let outcome = drill(folder.path(), args);
-        assert_eq!(outcome.code, Some(code), "{args:?}: {}", outcome.err);
-        assert!(outcome.err.contains(word), "{args:?}: {}", outcome.err);
+        drill(folder.path(), args).fails(code, &[word]);
     }
 }
 
@@ -223,14 +220,9 @@ fn exercises_accept_a_users_table_of_the_same_size() {
     let (own, bundled) = (on(&["--table", file]), on(&[]));
     assert_eq!([&own[0]["table"], &bundled[0]["table"]], ["cellar", "match"]);
     assert_ne!(own[1]["end"], bundled[1]["end"], "the cloth has another friction");
-    let refused = |args: &[&str]| {
-        let outcome = drill(folder.path(), args);
-        assert_eq!(outcome.code, Some(2));
-        outcome.err
-    };
-    let other = refused(&["try", "mine", "--shot", "coach", "--table", "thesis"]);
-    assert!(other.contains("2.84 by 1.42 m") && other.contains("\"thesis\" is another"), "{other}");
-    assert!(refused(&["exam", "--table", file]).contains("leave out --table"));
+    drill(folder.path(), &["try", "mine", "--shot", "coach", "--table", "thesis"])
+        .fails(2, &["2.84 by 1.42 m", "\"thesis\" is another"]);
+    drill(folder.path(), &["exam", "--table", file]).fails(2, &["leave out --table"]);
     let game =
         run_with_input(command(folder.path(), &["play", "--table", file, "--innings", "1", "--json"]), "0,0,0,0,1\n")
             .json();
