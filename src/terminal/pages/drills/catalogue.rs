@@ -3,7 +3,7 @@
 use crate::{
     drills::{Category, Exercise, Filter, Library},
     game::Rule,
-    terminal::pages::neighbour,
+    terminal::pages::{moved_index, neighbour},
 };
 
 /// The exercise library with the state of its list.
@@ -57,7 +57,7 @@ impl Catalogue {
 
     /// Moves the mark by `lines`, downwards if positive.
     pub fn move_mark(&mut self, lines: isize) {
-        self.mark = self.mark.saturating_add_signed(lines).min(self.filtered().len().saturating_sub(1));
+        self.mark = moved_index(self.mark, lines, self.filtered().len());
     }
 
     /// Whether a filter is active.
