@@ -90,11 +90,8 @@ fn constants_have_short_names_where_long_ones_do_not_fit() {
     let player = measured();
     player.says("rolling mu_r");
     let values = player.press("Tab");
-    for part in ["rolling mu_r", "rail grip mu_rail", "fast bounce ", "lean across tilt.y"] {
-        values.says(part);
-    }
-    let wide = values.text(120, 40);
-    assert!(wide.contains(" mu_r ") && wide.contains("friction of rolling balls"), "{wide}");
+    values.says("rolling mu_r").says("rail grip mu_rail").says("fast bounce ").says("lean across tilt.y");
+    values.shows_at((120, 40), &[" mu_r ", "friction of rolling balls"]);
 }
 
 #[test]

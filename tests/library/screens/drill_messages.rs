@@ -37,8 +37,7 @@ fn a_left_match_can_be_resumed_at_the_next_start() {
     assert_eq!(left.app.key_context(), KeyContext::Coach);
     let last = left.app.saved_session().unwrap();
     assert!(last.practice.as_ref().is_some_and(|practice| practice.is_match() && practice.attempts.len() == 1));
-    let mut next = Player::new();
-    next.app = next.app.with_saved_session(Some(last));
+    let next = Player::new().after(&left);
     next.says("c goes on with the match of the last session");
     let on = next.press("c");
     assert_eq!(on.app.key_context(), KeyContext::Drill(DrillContext::Exercise));

@@ -67,8 +67,7 @@ fn the_film_is_drawn_without_colours_and_with_half_blocks() {
         }
     }
     // The other player's ball hides its outline until something has met it.
-    let picture = watching(NO_COLOUR).wait(5.5).text(80, 24);
-    assert!(picture.contains("letters the film's"), "{picture}");
+    watching(NO_COLOUR).wait(5.5).shows_at((80, 24), &["letters the film's"]);
 }
 
 #[test]

@@ -106,9 +106,7 @@ fn a_match_against_the_coach_starts_or_resumes_from_anywhere() {
     assert_eq!(session(&again).id, begun.id);
     Player::new().press(": a g a i n s t Enter").does_not_show(" Commands ");
     let left = again.press("Left Enter Enter");
-    let mut next = Player::new();
-    next.app = next.app.with_saved_session(left.app.saved_session());
-    let gone_on = session(&next.press("F9"));
+    let gone_on = session(&Player::new().after(&left).press("F9"));
     assert_eq!((gone_on.id, gone_on.attempts.len()), (begun.id, 1), "at the next start too");
     let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter F2 F9");
     exam.warns("an exam is under way; leave it before a match");

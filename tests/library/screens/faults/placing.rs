@@ -7,7 +7,7 @@ use carom::{
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Rect;
 
-use crate::screens::player::Player;
+use crate::screens::player::{Player, SIZES};
 
 /// Returns a player who watches a shot in progress.
 fn watching() -> Player {
@@ -46,7 +46,7 @@ fn clicking_a_ball_returns_to_placing_it() {
 
 #[test]
 fn the_hint_line_mentions_tab_while_watching_a_shot() {
-    for (width, height) in [(80, 24), (120, 40)] {
+    for (width, height) in SIZES {
         let text = watching().text(width, height);
         assert!(text.lines().last().unwrap().contains("Tab place"), "{text}");
         let placing = watching().press("Tab").text(width, height);

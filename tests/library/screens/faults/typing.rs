@@ -1,15 +1,12 @@
 //! Numbers that are typed into the form of a new run, and a pasted name.
 
-use carom::terminal::{Effect, KeyContext, TrainingContext, TrainingReport};
+use carom::terminal::{Effect, KeyContext, TrainingContext};
 
-use crate::screens::{
-    player::{Player, TRUE_COLOUR},
-    runs::listing,
-};
+use crate::screens::player::{Player, TRUE_COLOUR};
 
 /// Returns a player at the number of shots in the form.
 fn at_number_of_shots() -> Player {
-    Player::at_runs(TRUE_COLOUR).report(TrainingReport::Runs(Ok(listing()))).press("n Down Down Down")
+    Player::listing(TRUE_COLOUR).press("n Down Down Down")
 }
 
 /// Returns the value of an option of the started run.
