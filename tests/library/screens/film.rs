@@ -117,10 +117,7 @@ fn film_playback_has_event_steps_and_esc_leads_back() {
     let player = player.press("F2 f");
     assert_eq!(player.app.key_context(), KeyContext::Drill(DrillContext::Films), "from the coach's table as well");
     let player = player.press("Enter F2 f");
-    assert_eq!(
-        player.app.key_context(),
-        KeyContext::Drill(DrillContext::Films),
-        "the page is not opened on top of itself"
-    );
+    // The page is not opened on top of itself.
+    assert_eq!(player.app.key_context(), KeyContext::Drill(DrillContext::Films));
     player.press("Esc").says("choose an exercise");
 }

@@ -69,10 +69,8 @@ fn undo_restores_the_previous_table() {
     let player = new().press("Down Down Down Right F2");
     assert_eq!(player.app.coach.table().name, "textbook");
     let player = player.press("Left u u");
-    assert_eq!(
-        (player.app.coach.table().name.as_str(), player.app.coach.layout()),
-        ("match", &Layout::opening(&Table::default()))
-    );
+    assert_eq!(player.app.coach.table().name, "match");
+    assert_eq!(*player.app.coach.layout(), Layout::opening(&Table::default()));
     assert_eq!(player.press("U").app.coach.table().name, "textbook");
 }
 

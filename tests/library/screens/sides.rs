@@ -118,10 +118,8 @@ fn the_coachs_strokes_in_a_match_count_only_for_it() {
         let session = &played.store().sessions().items[0];
         let by_coach: Vec<bool> = session.attempts.iter().map(|attempt| attempt.by_coach).collect();
         assert_eq!((by_coach, session.attempts[1].helped), (vec![false, true], false));
-        assert!(
-            (session.attempts[1].intended.unwrap().speed - meant).abs() < 1e-9,
-            "the displayed model shot is played"
-        );
+        let speed = session.attempts[1].intended.unwrap().speed;
+        assert!((speed - meant).abs() < 1e-9, "the displayed model shot is played");
         assert_eq!(Record::of([session], |_, _| true).tried, 1, "the record is the player's");
     }
 }

@@ -30,10 +30,8 @@ fn the_coachs_shot_is_copied_changed_and_played() {
     player.shows_at((120, 40), &["left", "harder by ", "lengths", "you", "coach"]);
     player.shows_at((80, 24), &["harder by ", " lengths "]);
     let player = report_success_rate(player, 20).press("Space");
-    assert!(
-        player.app.coach.playback.playing && player.app.coach.watched().unwrap().cue.speed == 3.0,
-        "the own stroke is played"
-    );
+    let played = player.app.coach.watched().unwrap().cue.speed;
+    assert!(player.app.coach.playback.playing && played == 3.0, "the own stroke is played");
     let player = player.press("u u u");
     assert!(!player.app.coach.playback.playing, "a change goes back to the stroke");
     player.shows(&["You: as the coach"]);
@@ -69,11 +67,7 @@ fn without_advice_a_stroke_starts_full_at_a_ball() {
     let speed = |player: &Player| player.app.coach.what_if().unwrap().shot.cue.speed;
     assert!((speed(&undone) - 2.7).abs() < 1e-9, "the stroke that was played is back");
     let undone = undone.press("u u");
-    assert_eq!(
-        (undone.app.key_context(), *undone.app.coach.layout()),
-        (KeyContext::OwnStroke, placed),
-        "nothing more to undo"
-    );
+    assert_eq!((undone.app.key_context(), *undone.app.coach.layout()), (KeyContext::OwnStroke, placed));
     undone.warns("the stroke is unchanged");
     let asked = undone.press("Esc Enter").answer();
     assert!(asked.app.coach.what_if().is_none() && asked.app.coach.shot().is_some());
