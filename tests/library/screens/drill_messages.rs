@@ -1,6 +1,7 @@
 //! Messages and questions of the drills: protection against mistaken keys, sources of results, and sessions to resume later.
 
 use super::{
+    mouse::resized,
     player::{Player, TRUE_COLOUR},
     practice::{exercise, session, three_sessions},
 };
@@ -9,7 +10,7 @@ use carom::{
     storage::save_json,
     terminal::{DrillContext, KeyContext, SavedSession},
 };
-use crossterm::event::{KeyModifiers, MouseEvent, MouseEventKind};
+use crossterm::event::MouseEventKind;
 
 #[test]
 fn an_unchanged_stroke_needs_a_second_press() {
@@ -130,12 +131,9 @@ fn an_exercise_shows_ball_positions_and_a_different_table() {
 fn the_wheel_scrolls_the_record() {
     let sessions: Vec<Session> = (1..=30).map(|day| session(day, "opening", Goal::Free, "x-")).collect();
     let positions = [exercise("opening", "From the opening")];
-    let mut player = Player::at_library(TRUE_COLOUR, &positions, &sessions).press("r");
-    player.app.resize(ratatui::layout::Size::new(120, 40));
+    let player = resized(Player::at_library(TRUE_COLOUR, &positions, &sessions).press("r"));
     let before = player.text(120, 40);
-    let kind = MouseEventKind::ScrollDown;
-    player.app.mouse(MouseEvent { kind, column: 20, row: 30, modifiers: KeyModifiers::NONE });
-    let after = player.text(120, 40);
+    let after = player.send_mouse(MouseEventKind::ScrollDown, (20, 30)).text(120, 40);
     // The latest session, of the day after the 30th of November, is listed first.
     assert!(before.contains("2026-12-01") && !after.contains("2026-12-01"), "{before}\n{after}");
 }

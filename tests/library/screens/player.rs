@@ -372,9 +372,7 @@ impl Player {
     }
 
     fn draw(&self, width: u16, height: u16) -> Terminal<TestBackend> {
-        let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
-        terminal.draw(|frame| self.app.draw(frame)).unwrap();
-        terminal
+        drawn(&self.app, width, height)
     }
 
     /// Whether a toast contains `part`.
@@ -470,6 +468,13 @@ impl Player {
     pub fn settings_text(&self) -> String {
         fs::read_to_string(self.path("config.toml")).unwrap_or_default()
     }
+}
+
+/// Returns a terminal with the screen of `app`.
+pub fn drawn(app: &App, width: u16, height: u16) -> Terminal<TestBackend> {
+    let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
+    terminal.draw(|frame| app.draw(frame)).unwrap();
+    terminal
 }
 
 /// Compares the screen at both sizes with the snapshots.

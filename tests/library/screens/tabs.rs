@@ -1,6 +1,6 @@
 //! Switching between screens: the same keys lead everywhere, from anywhere, and nothing is lost.
 
-use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_text};
+use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_text, drawn};
 use carom::{
     drills::Goal,
     terminal::{App, Capabilities, DrillContext, Effect, KeyContext, PageId, TrainingContext},
@@ -147,9 +147,7 @@ fn carom_watch_has_no_tabs() {
     let effect: Option<Effect> = app.handle(&super::keys::key("F2"));
     assert!(effect.is_none() && app.screen == PageId::Training);
     assert!(app.toasts.shown[0].text.contains("no other screens here"));
-    let mut terminal = ratatui::Terminal::new(ratatui::backend::TestBackend::new(80, 24)).unwrap();
-    terminal.draw(|frame| app.draw(frame)).unwrap();
-    let row = first_row(&terminal.backend().to_string());
+    let row = first_row(&drawn(&app, 80, 24).backend().to_string());
     assert!(row.starts_with(" carom  training runs") && !row.contains("Drills"), "{row}");
 }
 

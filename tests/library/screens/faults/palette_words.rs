@@ -46,9 +46,3 @@ fn commands_about_diamonds_are_found() {
     assert!(at_coach("diamond").contains(&Action::Coach(CoachAction::NextInfoPanel)));
     assert!(in_the_library("diamond").contains(&Action::Drill(DrillAction::Search)));
 }
-
-#[test]
-fn an_unmatched_search_shows_a_message() {
-    let player = Player::new().press(": x x x x");
-    assert!(player.text(80, 24).contains("no matching command"));
-}
