@@ -150,8 +150,12 @@ fn aimed_as_the_model_shot(player: Player) -> Player {
     let turn = player.app.drills.turn.as_ref().unwrap();
     let degrees = turn.stroke().phi.to_degrees();
     let fine = ((-72.0 - degrees) * 5.0).round() as usize;
-    let keys = vec!["Left"; fine].join(" ");
-    player.press(&keys).press("C-Left").press(&"h ".repeat(12)).press(&"k ".repeat(18)).press("+ + + + + +")
+    player
+        .press(&"Left ".repeat(fine))
+        .press("C-Left")
+        .press(&"h ".repeat(12))
+        .press(&"k ".repeat(18))
+        .press("+ + + + + +")
 }
 
 #[test]

@@ -91,9 +91,7 @@ fn a_new_run_is_configured_and_started() {
 
 #[test]
 fn an_empty_number_of_shots_is_refused() {
-    let empty = Player::at_runs(TRUE_COLOUR)
-        .press("n Down Down Down Backspace Backspace Backspace Backspace Backspace Backspace");
-    let player = empty.press("Backspace Enter");
+    let player = Player::at_runs(TRUE_COLOUR).press("n Down Down Down").press(&"Backspace ".repeat(7)).press("Enter");
     assert!(player.effects.is_empty());
     player.says("\"\" is not a number of shots; use 1 or more");
 }
@@ -112,8 +110,7 @@ fn the_view_of_a_training_run() {
     let mut scrolled = Player::watching(TRUE_COLOUR);
     scrolled.app.resize(Size::new(80, 24));
     let scrolled = scrolled.press("?");
-    let keys = |key: &str, times| vec![key; times].join(" ");
-    let scrolled = scrolled.press(&keys("Down", 60));
+    let scrolled = scrolled.press(&"Down ".repeat(60));
     scrolled.shows(&["q Ctrl-c              quit", "Ctrl-z                back to the shell; fg continues"]);
     let end = scrolled.text(80, 24);
     let back = scrolled.press("Up");
@@ -342,11 +339,7 @@ fn abandoning_needs_confirmation_and_states_the_loss() {
 fn a_policy_is_saved_under_a_name() {
     let player = Player::watching(TRUE_COLOUR).press("k");
     player.shows(&["keep the networks under the name: 20261120-091500-ddpg-match-r3-1", "Enter take it"]);
-    let mut player = player;
-    for _ in 0..60 {
-        player = player.press("Backspace");
-    }
-    let player = player.press("Enter");
+    let player = player.press(&"Backspace ".repeat(60)).press("Enter");
     player.says("\"\" is no name for a policy; accepted are 1 to 100 letters");
     let player = player.press("a / q Enter");
     player.says("\"a/q\" is no name for a policy");

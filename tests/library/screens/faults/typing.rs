@@ -75,9 +75,7 @@ fn a_run_longer_than_a_day_asks_for_confirmation() {
 fn a_policy_name_can_be_pasted() {
     let mut player = Player::watching(TRUE_COLOUR).press("k");
     assert_eq!(player.app.key_context(), KeyContext::Question { is_typed: true });
-    for _ in 0..100 {
-        player = player.press("Backspace");
-    }
+    player = player.press(&"Backspace ".repeat(100));
     player.app.paste("three-cushions\n");
     player.says("keep the networks under the name: three-cushions");
     let player = player.press("Enter");
