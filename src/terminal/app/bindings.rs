@@ -1,7 +1,7 @@
 //! All key bindings of the program: the tables of all pages, converted to one action type, plus the keys that all pages share.
 
 use crossterm::event::{
-    KeyCode::{Down, End, Enter, Esc, F, Home, PageDown, PageUp, Up},
+    KeyCode::{Down, Enter, Esc, F, PageDown, PageUp, Up},
     KeyEvent,
 };
 
@@ -11,7 +11,7 @@ use crate::terminal::{
     keymap::{
         Binding, Chord, KeyEntry, KeyPage,
         Section::{self, Program},
-        bind, chord_of, ctrl, key, letter,
+        bind, chord_of, ctrl, key, letter, lines,
     },
     pages::coach::keys as coach,
 };
@@ -30,7 +30,7 @@ pub enum Action {
     /// Closes the overlay.
     CloseOverlay,
     /// Scrolls the overlay by lines, down if positive.
-    ScrollOverlay(i16),
+    ScrollOverlay(isize),
     /// Opens the command palette.
     OpenPalette,
     /// Closes the command palette.
@@ -153,9 +153,7 @@ const OVERLAY: &[Binding<Action, Condition>] = &[
         key(Enter, A::CloseOverlay)], Some(("close", 1)), "close this page"),
     bind(Program, Condition::Overlay, &[key(F(1), A::OpenHelp), key(F(6), A::OpenMessages), key(F(8), A::OpenGlossary)], None,
         "open the help, the messages or the glossary instead; the same key closes it"),
-    bind(Program, Condition::Overlay, &[key(Down, A::ScrollOverlay(1)), key(Up, A::ScrollOverlay(-1)), letter('j', A::ScrollOverlay(1)),
-        letter('k', A::ScrollOverlay(-1)), key(PageDown, A::ScrollOverlay(10)), key(PageUp, A::ScrollOverlay(-10)),
-        key(End, A::ScrollOverlay(i16::MAX)), key(Home, A::ScrollOverlay(i16::MIN))], Some(("scroll", 2)), "scroll this page"),
+    bind(Program, Condition::Overlay, lines!(A::ScrollOverlay), Some(("scroll", 2)), "scroll this page"),
 ];
 
 /// The keys of the command palette.
@@ -305,7 +303,7 @@ pub fn find<'a>(
 
 #[cfg(test)]
 mod tests {
-    use crossterm::event::KeyCode::Char;
+    use crossterm::event::KeyCode::{Char, End};
 
     use super::*;
     use crate::terminal::{CalibrationContext, DrillContext, SettingsContext, TrainingContext, keymap::commands_of};
@@ -362,7 +360,7 @@ mod tests {
     fn overlay_keys_are_silent_without_an_overlay() {
         let refuse_all = |_| Some("not now");
         assert_eq!(find(&KeyEvent::from(End), KeyContext::Training(TrainingContext::Form), refuse_all), None);
-        let end = Some(Ok(Action::ScrollOverlay(i16::MAX)));
+        let end = Some(Ok(Action::ScrollOverlay(isize::MAX)));
         for context in KeyContext::PAGES.map(|(context, _)| context) {
             assert_eq!(find(&KeyEvent::from(End), context, |_| None), end, "{context:?}");
         }

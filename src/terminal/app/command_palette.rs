@@ -4,6 +4,7 @@ use crate::terminal::{
     Action, App, Capabilities, Condition, Effect, KeyContext, Keys,
     app::bindings::{AppBinding, listed},
     keymap::keys_text,
+    pages::moved_index,
     ui::{TextField, Typed},
 };
 
@@ -99,7 +100,7 @@ impl CommandPalette {
 
     /// Moves the selection among `count` commands by lines, down if positive.
     pub fn move_mark(&mut self, lines: isize, count: usize) {
-        self.mark = self.mark(count).saturating_add_signed(lines).min(count.saturating_sub(1));
+        self.mark = moved_index(self.mark(count), lines, count);
     }
 
     /// Handles typed or pasted input; returns `false` if the palette does not use the key. The selection resets when the text changes.

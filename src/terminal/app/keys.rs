@@ -5,9 +5,8 @@ use crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 use crate::{
     platform,
     terminal::{
-        Action, App, CalibrationContext, CoachCondition, Condition, Effect, KeyContext, PageId,
+        Action, App, CalibrationContext, CoachCondition, Condition, Effect, KeyContext, PageId, SettingsContext,
         app::{bindings, view},
-        pages::settings::Question,
         ui::Typed,
     },
 };
@@ -58,7 +57,7 @@ impl App {
             return None;
         }
         // While the page waits for a key to bind, every key is an answer and nothing else.
-        let is_recording_key = self.is_recording_key();
+        let is_recording_key = self.key_context() == KeyContext::Settings(SettingsContext::Pressing);
         let find = |key: &KeyEvent| bindings::find(key, self.key_context(), |when| self.disabled_reason(when));
         // The letters that answer a question always answer it, even if the user has bound them to something else.
         let is_answer = matches!(find(key), Some(Ok(Action::Answer(_))));
@@ -106,12 +105,6 @@ impl App {
     /// Whether the screen is too small to show the effect of a key.
     pub(super) const fn is_too_small(&self) -> bool {
         !self.area.is_empty() && view::is_too_small(self.area)
-    }
-
-    const fn is_recording_key(&self) -> bool {
-        matches!((self.screen, &self.settings.question), (PageId::Settings, Some(Question::Key)))
-            && self.overlay.is_none()
-            && self.command_palette.is_none()
     }
 
     /// Handles pasted text.

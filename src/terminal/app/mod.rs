@@ -78,7 +78,7 @@ pub struct App {
     /// The screen that was open before the settings.
     before: PageId,
     /// The overlay that is open, and the index of its first visible line.
-    pub overlay: Option<(Overlay, u16)>,
+    pub overlay: Option<(Overlay, usize)>,
     /// The command palette while it is open.
     pub command_palette: Option<CommandPalette>,
     /// Refusals and failures shown as toasts, and those of earlier.

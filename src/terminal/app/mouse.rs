@@ -14,7 +14,7 @@ use crate::terminal::{
 };
 
 /// Lines that one notch of the wheel scrolls an overlay.
-const OVERLAY_LINES: i16 = 3;
+const OVERLAY_LINES: isize = 3;
 
 impl App {
     /// Handles a mouse event on the screen that was drawn last.
@@ -61,7 +61,7 @@ impl App {
             return self.update(Action::PaletteLine(isize::from(notch)));
         }
         if self.overlay.is_some() {
-            return self.update(Action::ScrollOverlay(i16::from(notch) * OVERLAY_LINES));
+            return self.update(Action::ScrollOverlay(isize::from(notch) * OVERLAY_LINES));
         }
         match self.target(event)? {
             Pointed::Page(Target::Table(_)) => {

@@ -70,9 +70,13 @@ pub trait Page: PageView {
         let taken = self.field_mut().is_some_and(|field| field.handle(typed));
         if taken {
             *self.message_mut() = None;
+            self.on_typed();
         }
         taken
     }
+
+    /// Handles a change of the typed text.
+    fn on_typed(&mut self) {}
 
     /// Advances the animations of the page by `seconds`.
     fn tick(&mut self, _: f64) {}
@@ -126,6 +130,11 @@ impl Target {
     pub fn list(line: Option<usize>, mark: usize) -> Self {
         Self::List(line.map(|line| line.cast_signed() - mark.cast_signed()))
     }
+}
+
+/// Returns the index `steps` after `from` in a list of `count` elements, stopping at its ends.
+pub(super) fn moved_index(from: usize, steps: isize, count: usize) -> usize {
+    from.saturating_add_signed(steps).min(count.saturating_sub(1))
 }
 
 /// Returns the index `steps` after `from` in a list of `count` elements, with wrap-around.

@@ -1,20 +1,27 @@
 //! The shooter's view of the first object ball, with the part that the cue ball covers at impact. While a shot plays, the spin is shown
-//! instead.
+//! instead: the cue ball's face and words.
 
-use ratatui::{layout::Rect, style::Modifier, text::Span};
+use ratatui::{
+    layout::Rect,
+    style::{Modifier, Style},
+    text::Span,
+};
 
 use crate::{
     coach::{Hit, words::capitalize},
     terminal::{
         shot::{FirstImpact, Spin},
-        ui::{Ink, Theme, Ui, draw_field, draw_title, field::Mark, spin::draw_spin},
-        words::rail_name,
+        ui::{Ink, Theme, Ui, draw_face, draw_field, draw_title, face_in, field::Mark, write_right},
+        words::{fixed, rail_name},
     },
 };
 
-/// Rows of the words, and the panel height up to which the fullness is shown only in the title.
+/// Rows of the words, and the height below the title up to which the fullness is shown only in the title, and the words on the spin next
+/// to the face.
 const WORDS: u16 = 3;
 const LOW: u16 = 5;
+/// Columns of the words next to the face.
+const WORDS_WIDTH: u16 = 9;
 /// Character for the part of the object ball behind the cue ball.
 const BEHIND: char = '#';
 
@@ -23,6 +30,43 @@ pub fn draw_spin_or_hit(spin: Option<Spin>, impact: Option<FirstImpact>, area: R
     match spin {
         Some(spin) => draw_spin(&spin, area, ui),
         None => draw_hit_panel(None, impact, area, ui),
+    }
+}
+
+/// Draws the spin. The spot marks where a level cue would have to hit the ball to give it this spin at this speed.
+fn draw_spin(spin: &Spin, area: Rect, ui: &mut Ui) {
+    let inner = draw_title("Spin", area, ui);
+    let is_low = inner.height <= LOW;
+    let room = if is_low {
+        Rect { width: inner.width.saturating_sub(WORDS_WIDTH), ..inner }
+    } else {
+        Rect { height: inner.height - WORDS, ..inner }
+    };
+    let face = face_in(room, ui.caps);
+    let has_spin = !spin.word.is_empty();
+    draw_face(has_spin.then_some(spin.mark), None, face, ui);
+    // Whole numbers: few frames change them.
+    let side = fixed(spin.side.abs(), 0);
+    let words = match side.as_str() {
+        _ if !has_spin => ["at rest".to_owned(), String::new(), String::new()],
+        "0" => [spin.word.to_owned(), "no side".to_owned(), String::new()],
+        _ => {
+            let to = if spin.side > 0.0 { "left" } else { "right" };
+            [spin.word.to_owned(), format!("{to} side"), format!("{side} rad/s")]
+        }
+    };
+    let top = if is_low { inner.y } else { face.bottom() };
+    let styles = [ui.theme.text(), ui.theme.text(), ui.theme.faint()];
+    for ((text, style), row) in words.iter().zip(styles).zip(top..inner.bottom()) {
+        let text = text.as_str();
+        if is_low {
+            let room = usize::from(inner.right() - face.right());
+            let text = if room > text.len() + 1 { text } else { text.trim_end_matches(" side") };
+            // The last column stays free if possible.
+            write_right(ui.buffer, face.right(), inner.right() - u16::from(room > text.len()), row, text, style);
+        } else {
+            write_centred(text, inner, row, style, ui);
+        }
     }
 }
 
@@ -72,9 +116,13 @@ fn words_without_ball(impact: Option<FirstImpact>, theme: &Theme) -> Vec<String>
 /// Writes each line centred.
 fn draw_words(lines: &[String], area: Rect, ui: &mut Ui) {
     for (text, row) in lines.iter().zip(area.y..area.bottom()) {
-        let indent = area.width.saturating_sub(text.len() as u16) / 2;
-        ui.buffer.set_stringn(area.x + indent, row, text, usize::from(area.width - indent), ui.theme.text());
+        write_centred(text, area, row, ui.theme.text(), ui);
     }
+}
+
+fn write_centred(text: &str, area: Rect, row: u16, style: Style, ui: &mut Ui) {
+    let indent = area.width.saturating_sub(text.len() as u16) / 2;
+    ui.buffer.set_stringn(area.x + indent, row, text, usize::from(area.width - indent), style);
 }
 
 /// Draws both balls on a piece of cloth, centred at the top of `area`. The size leaves room even for a grazing hit. Returns the area of the

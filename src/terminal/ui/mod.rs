@@ -11,10 +11,8 @@ pub mod list;
 pub mod message;
 pub mod panel;
 pub mod profile;
-pub mod spin;
 mod sprites;
 pub mod status_line;
-pub mod stroke;
 pub mod table;
 pub mod text;
 pub mod theme;
@@ -37,13 +35,12 @@ pub use self::{
     },
     profile::{draw_profile, side_view_below},
     status_line::{draw_question, draw_status},
-    stroke::stroke_rows,
     table::{Spot, TableView, ball_at, cue_sign, draw_table},
     text::{
         columns, shorten, shorten_start, suffix_within, to_displayable, truncate_lines, wrap, wrap_by, write_right,
     },
     theme::Theme,
-    tip::{draw_face, draw_tip, draw_titled_tip, tip_rows},
+    tip::{draw_face, draw_tip, draw_titled_tip, stroke_rows, tip_rows},
     what_if::draw_what_if,
 };
 use crate::terminal::{

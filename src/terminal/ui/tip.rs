@@ -1,13 +1,18 @@
-//! The cue ball's face: the tip contact and the circle beyond which the tip slips off, or the ball's spin.
+//! The cue ball's face: the tip contact and the circle beyond which the tip slips off, or the ball's spin. Rows with the numbers of a
+//! stroke.
 
 use glam::DVec2;
 use ratatui::layout::Rect;
 
 use crate::{
-    coach::words::{TIP, TipUnit},
+    coach::{
+        Units,
+        words::{TIP, TipUnit},
+    },
     physics::CueInputs,
     table::Table,
     terminal::{
+        Capabilities,
         ui::{Ink, RoundSpot, Ui, draw_field, draw_title, face_in, field::Mark, spot_mark},
         words::fixed,
     },
@@ -50,6 +55,26 @@ pub fn tip_rows(cue: &CueInputs, unit: TipUnit, radius: f64) -> [(&'static str, 
         None => (name, "middle".to_owned()),
     };
     [row(cue.a, ["left", "right"], "side"), row(cue.b, ["up", "down"], "height")]
+}
+
+/// Rows with the numbers of a stroke that the player sets: names and values of aim, tip contact, speed and cue elevation, on a ball of this `radius`, m.
+pub fn stroke_rows(cue: &CueInputs, units: Units, radius: f64, caps: Capabilities) -> [(&'static str, String); 5] {
+    let degree = caps.pick("°", " deg");
+    let [side, height] = tip_rows(cue, units.tip, radius);
+    let (in_a_metre, per_second) = units.length.speed();
+    [
+        ("aim", cue.phi_text(2) + degree),
+        side,
+        height,
+        ("speed", format!("{} {per_second}", fixed(in_a_metre * cue.speed, 2))),
+        (
+            "cue",
+            match fixed(cue.theta.to_degrees(), 1).as_str() {
+                "0.0" => "level".to_owned(),
+                angle => format!("{angle}{degree} up"),
+            },
+        ),
+    ]
 }
 
 /// Draws a ball's face with a spot at a position in ball radii, right and up; the face is grey beyond `limit`.

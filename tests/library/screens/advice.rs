@@ -6,14 +6,13 @@ use std::{
 };
 
 use super::{
-    player::{NEXT_SHOT, OTHER_SHOTS, Player, SHOT, SIZES, TRUE_COLOUR, advice, check, proposal},
+    player::{NEXT_SHOT, OTHER_SHOTS, Player, SHOT, SIZES, TRUE_COLOUR, advice, check, cue, proposal, worker_answers},
     runs::{RUN, RUNS, config},
 };
 use carom::{
     coach::{FirstContact, Skill},
     game::Rule,
     learning::{Policy, run::follow::Update},
-    physics::CueInputs,
     table::Table,
     terminal::{CoachAnswer, CoachEvent, CoachWorker, FollowSlot, InfoPanel, Settings, TrainingReport},
 };
@@ -25,12 +24,12 @@ fn better_shots_are_shown_until_the_answer_arrives() {
     assert!(player.text(80, 24).contains("so far a shot of about 61 %, not judged yet; Esc takes it"));
     let player = player.report_better(OTHER_SHOTS[0], 893);
     check("so_far", &player);
-    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(OTHER_SHOTS[0]).unwrap());
+    assert_eq!(player.shown_cue(), Some(cue(OTHER_SHOTS[0])));
     assert!(player.analysis_job.is_none(), "nothing is studied as long as there may be a better shot");
     let player = player.press("Space");
     assert!(player.text(80, 24).contains("so far") || !player.app.coach.playback.playing);
     let player = player.answer();
-    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap());
+    assert_eq!(player.shown_cue(), Some(cue(SHOT)));
     assert!(player.analysis_job.is_some());
 }
 
@@ -41,10 +40,10 @@ fn escape_accepts_the_best_shot_and_ignores_late_answers() {
     let mut player = player.press("Esc");
     assert!(late.as_ref().unwrap().cancel.load(Ordering::Relaxed));
     player.shows(&["the coach has stopped thinking; this is the best shot so far", "Space play"]);
-    assert_eq!(player.analysis_job.as_ref().unwrap().shot, Some(CueInputs::parse(OTHER_SHOTS[0]).unwrap()));
+    assert_eq!(player.analysis_job.as_ref().unwrap().shot, Some(cue(OTHER_SHOTS[0])));
     player.advice_job = late;
     let player = player.report_better(SHOT, 940).answer();
-    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(OTHER_SHOTS[0]).unwrap());
+    assert_eq!(player.shown_cue(), Some(cue(OTHER_SHOTS[0])));
     assert_eq!(player.app.frame_interval(), None);
     // The estimate is biased by the errors used to choose the shot, so no interval is displayed.
     let text = player.press("v").text(120, 40);
@@ -107,13 +106,9 @@ fn changing_rule_player_or_plan_hides_the_shot() {
     let cancelled = player.analysis_job.clone().unwrap().cancel;
     assert!(cancelled.load(Ordering::Relaxed), "nobody looks at that shot any more");
     let player = player.press("R R S S S S");
-    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap(), "the first request again");
+    assert_eq!(player.shown_cue(), Some(cue(SHOT)), "the first request again");
     let again = player.press("Enter").advice_job.unwrap();
-    assert_eq!(
-        again.former,
-        [SHOT, OTHER_SHOTS[0], OTHER_SHOTS[1]].map(|cue| CueInputs::parse(cue).unwrap()),
-        "they take part again"
-    );
+    assert_eq!(again.former, [SHOT, OTHER_SHOTS[0], OTHER_SHOTS[1]].map(cue), "they take part again");
     let asked = Player::new().press("Enter").answer().press("R R Enter").advice_job.unwrap();
     assert!(asked.query.rule == Rule::ThreeCushion && asked.former.is_empty());
 }
@@ -142,10 +137,10 @@ fn each_listed_shot_has_its_own_paths_and_analysis() {
     let first = player.analysis_job.clone().unwrap();
     let player = player.press("]");
     player.shows(&["Chances · expert 89 % (87-91)", "▸2   89 % yellow, ", "shot 2 of 3: 89 % (87-91)"]);
-    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(OTHER_SHOTS[0]).unwrap());
+    assert_eq!(player.shown_cue(), Some(cue(OTHER_SHOTS[0])));
     assert!(first.cancel.load(Ordering::Relaxed));
     let second = player.analysis_job.clone().unwrap();
-    assert_eq!(second.shot, Some(CueInputs::parse(OTHER_SHOTS[0]).unwrap()));
+    assert_eq!(second.shot, Some(cue(OTHER_SHOTS[0])));
     // A late answer about the first shot is not used for the second one.
     let mut player = player;
     player.analysis_job = Some(first);
@@ -156,11 +151,7 @@ fn each_listed_shot_has_its_own_paths_and_analysis() {
     assert!(!player.text(80, 24).contains("being computed"));
     // Back at the first shot, the analysis is already available.
     let player = player.press("[ [");
-    assert_eq!(
-        player.app.coach.shot().unwrap().cue,
-        CueInputs::parse(OTHER_SHOTS[1]).unwrap(),
-        "after the first comes the last"
-    );
+    assert_eq!(player.shown_cue(), Some(cue(OTHER_SHOTS[1])), "after the first comes the last");
     let mut player = player.press("[");
     player.analysis_job = None;
     let player = player.press("Space Esc");
@@ -173,21 +164,10 @@ fn margins_and_maps() {
     assert!(player.text(80, 24).contains("being computed"));
     let player = player.finish_analysis();
     check("margins", &player);
-    let large = player.text(200, 60);
-    assert!(
-        large.contains("Margins")
-            && large.contains("Map: aim, speed")
-            && large.contains("tightest: errors leave it first"),
-        "{large}"
-    );
+    player.shows_at((200, 60), &["Margins", "Map: aim, speed", "tightest: errors leave it first"]);
     // The direction of each margin is displayed at both sizes.
-    for (size, ways) in [
-        ((120, 40), ["right", "left", "lower", "higher", "softer", "harder"]),
-        ((80, 24), ["side", "hght", "cue", "aim", "spd", "R"]),
-    ] {
-        let text = player.text(size.0, size.1);
-        assert!(ways.iter().all(|way| text.contains(way)), "{text}");
-    }
+    player.shows_at((120, 40), &["right", "left", "lower", "higher", "softer", "harder"]);
+    player.shows_at((80, 24), &["side", "hght", "cue", "aim", "spd", "R"]);
     let picture = player.picture(120, 40);
     let (point, tip) = (Color::Rgb(0x5c, 0xbd, 0x72), Color::Rgb(0x1f, 0x63, 0xc8));
     // The map of direction and speed is in columns 45 to 70: the stroke in its middle, surrounded by points made.
@@ -211,9 +191,8 @@ fn margins_maps_and_speeds_use_the_units_of_the_settings() {
         .finish_analysis();
     player.shows(&["Tip ±0.7 in"]);
     assert!(player.text(80, 24).contains("R right, L left: in ° ft/s"));
-    for (width, height) in SIZES {
-        let text = player.text(width, height);
-        assert!(!text.contains(" mm") && !text.contains("m/s"), "{text}");
+    for size in SIZES {
+        player.hides_at(size, &[" mm", "m/s"]);
     }
     player.press("v v Space Right").shows(&[" ft/s "]);
 }
@@ -224,8 +203,7 @@ fn the_plan_shows_the_next_shot() {
     let before = player.picture(120, 40);
     let player = player.press("v v v").finish_analysis();
     check("plan", &player);
-    let large = player.text(200, 60);
-    assert!(large.contains("Plan · next point on average 97 %") && large.contains("next 100 % very hard"), "{large}");
+    player.shows_at((200, 60), &["Plan · next point on average 97 %", "next 100 % very hard"]);
     assert_eq!(player.app.coach.info, InfoPanel::Plan);
     // The end positions of the balls are drawn around their intended places.
     let yellow = Color::Rgb(0xf6, 0xc3, 0x24);
@@ -234,11 +212,7 @@ fn the_plan_shows_the_next_shot() {
     let end = player.app.coach.shot().unwrap().recording.final_layout();
     let player = player.press("n");
     assert_eq!(*player.app.coach.layout(), end);
-    assert_eq!(
-        player.app.coach.shot().unwrap().cue,
-        CueInputs::parse(NEXT_SHOT).unwrap(),
-        "the next shot is there at once"
-    );
+    assert_eq!(player.shown_cue(), Some(cue(NEXT_SHOT)), "the next shot is there at once");
     player.shows(&[
         "Plan · next point on average 97 %",
         "now  100 % very hard",
@@ -263,8 +237,7 @@ fn the_real_coach_reports_progress_then_advice_then_next_shot() {
     let mut worker = CoachWorker::with_simulation_limit(30_000);
     let mut player = Player::new().press("Enter");
     let job = player.advice_job.clone().unwrap();
-    let mut answers = Vec::new();
-    worker.answer(&job, |answer| answers.push(answer));
+    let answers = worker_answers(&mut worker, &job);
     assert!(
         answers.len() > 1 && answers[..answers.len() - 1].iter().all(|one| matches!(one.event, CoachEvent::Better(_)))
     );
@@ -274,8 +247,7 @@ fn the_real_coach_reports_progress_then_advice_then_next_shot() {
     let best = player.app.coach.proposal().unwrap().clone();
     assert!(best.shot.solved && best.made.is_some_and(|made| made.rate > 0.8) && best.next.is_some());
     let job = player.analysis_job.clone().unwrap();
-    let mut answers = Vec::new();
-    worker.answer(&job, |answer| answers.push(answer));
+    let answers = worker_answers(&mut worker, &job);
     assert_eq!(answers.len(), 3, "why it leads, the closer look, and the next shot");
     for CoachAnswer { id, event } in answers {
         player = player.tell(id, event);
@@ -284,18 +256,15 @@ fn the_real_coach_reports_progress_then_advice_then_next_shot() {
     let player = player.press("n");
     assert!(player.app.coach.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
     // The coach was cancelled: it reports only the end, at once.
-    let mut answers = Vec::new();
     job.cancel.store(true, Ordering::Relaxed);
-    worker.answer(&job, |answer| answers.push(answer));
-    assert!(matches!(&answers[..], [CoachAnswer { event: CoachEvent::Next(None), .. }]));
+    assert!(matches!(&worker_answers(&mut worker, &job)[..], [CoachAnswer { event: CoachEvent::Next(None), .. }]));
 }
 
 #[test]
 fn a_perfect_player_gets_the_first_point_found() {
     let player = Player::new().press("S S S S S Enter");
-    let mut answers = Vec::new();
-    CoachWorker::with_simulation_limit(30_000)
-        .answer(&player.advice_job.clone().unwrap(), |answer| answers.push(answer));
+    let job = player.advice_job.clone().unwrap();
+    let answers = worker_answers(&mut CoachWorker::with_simulation_limit(30_000), &job);
     let [CoachAnswer { event: CoachEvent::Advice(advice), .. }] = &answers[..] else { panic!("{answers:?}") };
     assert!(advice.effort.unwrap().simulations < 1000 && advice.proposals[0].shot.solved);
     let player = answers.into_iter().fold(player, |player, CoachAnswer { id, event }| player.tell(id, event));

@@ -7,11 +7,10 @@ use std::{
 
 use super::{
     keys::key,
-    player::{ASCII, NO_COLOUR, Player, SHOT, TRUE_COLOUR, advice, check, check_at, proposal},
+    player::{ASCII, NO_COLOUR, Player, SHOT, TRUE_COLOUR, advice, advice_of, check, check_at, cue, proposal},
 };
 use carom::{
     coach::{Difference, Kiss, Skill, Why},
-    physics::CueInputs,
     table::CueBall,
     terminal::{Advice, CoachEvent, Effect, Effort, PageId, Proposal, Shot},
 };
@@ -22,14 +21,12 @@ use ratatui::{layout::Size, style::Color};
 #[test]
 fn skill_and_rule_are_explained_until_a_shot_is_shown() {
     let player = Player::new();
-    for part in
-        ["Shots for an expert at straight rail.", "S: how well you play; R: the rule.", "F3: drills; F9: a match."]
-    {
-        assert!(player.text(80, 24).contains(part), "{part}");
-    }
+    let words =
+        ["Shots for an expert at straight rail.", "S: how well you play; R: the rule.", "F3: drills; F9: a match."];
+    player.shows_at((80, 24), &words);
     let player = player.press("R R S");
-    assert!(player.text(80, 24).contains("S: how well you play; R: the rule."), "it fits next to the longest names");
-    assert!(player.text(80, 24).contains("Shots for a world-class player"));
+    // The explanation fits next to the longest names.
+    player.shows_at((80, 24), &["S: how well you play; R: the rule.", "Shots for a world-class player"]);
     player.shows(&["three-cushion."]);
     player.press("Enter").answer().does_not_show("Shots for");
 }
@@ -43,8 +40,7 @@ fn the_start_screen() {
 fn balls_move_by_plain_coarse_and_fine_steps() {
     let player = Player::new().press("2 Right S-Right C-Up l L");
     player.shows(&["▸● yellow  -490.0    1.0", "● white   -710.0  182.5", "223.7 mm from white; step 10 mm"]);
-    let text = player.text(80, 24);
-    assert!(text.contains("yellow at x -490.0 mm, y 1.0 mm"), "{text}");
+    player.shows_at((80, 24), &["yellow at x -490.0 mm, y 1.0 mm"]);
 }
 
 #[test]
@@ -77,10 +73,8 @@ fn a_moved_ball_stops_at_the_rail() {
 #[test]
 fn without_a_shot_the_panel_shows_the_ball_positions() {
     let placing = Player::new().press("Enter").answer().press("v Esc Left");
-    let text = placing.text(80, 24);
-    assert!(text.contains("Balls") && !text.contains("Chances"), "{text}");
-    let text = placing.press("v").text(80, 24);
-    assert!(text.contains("without a shot the panel shows"), "{text}");
+    placing.shows_at((80, 24), &["Balls"]).hides_at((80, 24), &["Chances"]);
+    placing.press("v").shows_at((80, 24), &["without a shot the panel shows"]);
 }
 
 #[test]
@@ -100,23 +94,16 @@ fn the_thinking_coach_can_be_stopped() {
 fn a_shot_is_recommended() {
     let player = Player::new().press("Enter").answer();
     check("recommended", &player);
-    let text = player.text(120, 40);
-    for part in ["expert makes it 94 % (92-95)", "Yellow, an eighth full on the left; two tips of", "noses top 1.52 "] {
-        assert!(text.contains(part), "{part}\n{text}");
-    }
+    let large = ["expert makes it 94 % (92-95)", "Yellow, an eighth full on the left; two tips of", "noses top 1.52 "];
+    player.shows_at((120, 40), &large);
     // At the smaller size: the sentence, the card next to the table, and the aim in the title or in a row.
+    let small =
+        ["Yellow, an eighth full on the left; two tips of", "yellow 1/8", "on the left", "2 tips left", "3 tips above"];
+    player.shows_at((80, 24), &small);
     let text = player.text(80, 24);
-    for part in
-        ["Yellow, an eighth full on the left; two tips of", "yellow 1/8", "on the left", "2 tips left", "3 tips above"]
-    {
-        assert!(text.contains(part), "{part}\n{text}");
-    }
     assert!(["aim top 1.52 → bottom 2.82, at noses", "nose to nose"].iter().any(|aim| text.contains(aim)), "{text}");
     // The thesis' numbers are one key away.
-    let text = player.press("N").text(120, 40);
-    for part in ["0.200 R, 6.2 mm left", "288.00° ", "V0", "ω0"] {
-        assert!(text.contains(part), "{part}\n{text}");
-    }
+    player.press("N").shows_at((120, 40), &["0.200 R, 6.2 mm left", "288.00° ", "V0", "ω0"]);
 }
 
 #[test]
@@ -130,8 +117,7 @@ fn long_cue_ball_courses_are_complete_at_80_columns() {
             let shot = proposal(&job.table, &job.layout, cue, 490);
             let (words, units) = (shot.shot.words.clone(), player.app.coach.units);
             assert!(words.between.len() >= 5, "{cue}: {words:?}");
-            let advice = Advice { proposals: vec![shot], seed: 1, effort: None, found: None };
-            let text = player.tell(job.id, CoachEvent::Advice(advice)).text(80, 24);
+            let text = player.tell(job.id, CoachEvent::Advice(advice_of(vec![shot]))).text(80, 24);
             let rows: Vec<&str> = text.lines().map(|row| row.trim_matches(['"', ' '])).collect();
             let way = words.short_course(CueBall::White, units);
             assert!(rows.join(" ").contains(way.trim_end_matches('.')), "{way}\n{text}");
@@ -228,11 +214,10 @@ fn contacts_or_all_events_are_listed_and_stepped_through() {
 fn a_recommended_miss_is_labelled_as_best_attempt() {
     let mut player = Player::new().press("Enter");
     let job = player.advice_job.take().unwrap();
-    let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(SHOT).unwrap(), false, "policy").unwrap();
+    let shot = Shot::new(&job.table, &job.layout, cue(SHOT), false, "policy").unwrap();
     let attempt = Proposal { shot: Arc::new(shot), made: None, risk: None, next: None, is_early: false };
     let effort = Some(Effort { simulations: 4321, elapsed: Duration::from_secs(2) });
-    let player =
-        player.tell(job.id, CoachEvent::Advice(Advice { proposals: vec![attempt], seed: 1, effort, found: None }));
+    let player = player.tell(job.id, CoachEvent::Advice(Advice { effort, ..advice_of(vec![attempt]) }));
     assert!(player.text(120, 40).contains("Contacts 0/"));
     assert!(player.text(80, 24).contains("no point found in 4321 simulations; this is the best attempt"));
 }
@@ -266,11 +251,7 @@ fn the_next_shot_starts_from_the_end_positions() {
     let player = player.press("n");
     assert_eq!(*player.app.coach.layout(), end);
     assert!(player.app.coach.shot().is_none());
-    assert_eq!(
-        player.advice_job.as_ref().unwrap().layout,
-        end,
-        "the next shot is not known yet, so the coach is asked"
-    );
+    assert_eq!(player.advice_job.as_ref().unwrap().layout, end, "the coach is asked for the next shot");
     let player = player.press("Esc u");
     assert!(player.app.coach.shot().is_some(), "undo brings the shot back as well");
 }
@@ -318,25 +299,16 @@ fn the_coach_screens_are_complete_without_colours() {
         let player = player.press("2");
         player.is_plain().shows(&["Y yellow  -710.0    0.0", "121.0 mm from white; step 10 mm", "Enter ask"]);
         let player = player.press("v v").finish_analysis();
-        let signs = [
-            "Margins",
-            "4.33 right  2.31 left",
-            "speed   1.51 softer wide harder",
-            "# point",
-            "- one ball",
-            "X the stro",
-        ];
-        let text = player.is_plain().text(120, 40);
-        assert!(signs.iter().all(|sign| text.contains(sign)), "{text}");
-        let text = player.text(80, 24);
-        assert!(text.contains("side  R4.33  L2.31") && text.contains("# point - one ball"), "{text}");
+        let map = ["Margins", "# point", "- one ball", "X the stro"];
+        player.is_plain().shows_at((120, 40), &map);
+        player.shows_at((120, 40), &["4.33 right  2.31 left", "speed   1.51 softer wide harder"]);
+        player.shows_at((80, 24), &["side  R4.33  L2.31", "# point - one ball"]);
         player.does_not_show("too few");
         let plan = player.press("v");
         plan.is_plain().shows(&["now  94 % yellow, ", "next 100 % very hard"]);
         // At 80 columns there is no room to explain the distances below them.
-        let stops =
-            [(80, 24, "stop half within W 75, Y 45, R 95 cm"), (120, 40, "stop white 75, yellow 45, red 95 cm")];
-        assert!(stops.iter().all(|&(width, height, words)| plan.text(width, height).contains(words)));
+        plan.shows_at((80, 24), &["stop half within W 75, Y 45, R 95 cm"]);
+        plan.shows_at((120, 40), &["stop white 75, yellow 45, red 95 cm"]);
         if caps == ASCII {
             check_at(&[(120, 40)], "ascii_plan", &plan);
         }
@@ -370,8 +342,7 @@ fn a_too_small_terminal_names_both_sizes() {
     for (width, height) in [(80, 23), (20, 5), (1, 1), (0, 0)] {
         player.picture(width, height);
     }
-    let text = player.text(40, 10);
-    assert!(text.contains("40×10") && text.contains("80×24"), "{text}");
+    player.shows_at((40, 10), &["40×10", "80×24"]);
 }
 
 #[test]

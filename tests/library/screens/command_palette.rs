@@ -44,25 +44,16 @@ fn an_unavailable_command_explains_why_and_keeps_the_palette_open() {
 
 #[test]
 fn a_key_with_two_contexts_is_listed_once() {
-    let placing = Player::new().press(": y e l l o w").text(80, 24);
-    assert!(
-        placing.contains("1 of 69")
-            && placing.contains("select the yellow ball")
-            && !placing.contains("leave the shot"),
-        "{placing}"
-    );
-    let watching = Player::new().press("Enter").answer().press(": y e l l o w").text(80, 24);
-    assert!(
-        watching.contains("1 of 69") && watching.contains("leave the shot and select the yellow ball"),
-        "{watching}"
-    );
+    let placing = Player::new().press(": y e l l o w");
+    placing.shows_at((80, 24), &["1 of 69", "select the yellow ball"]).hides_at((80, 24), &["leave the shot"]);
+    let watching = Player::new().press("Enter").answer().press(": y e l l o w");
+    watching.shows_at((80, 24), &["1 of 69", "leave the shot and select the yellow ball"]);
 }
 
 #[test]
 fn remapped_letters_are_typed_and_shown_as_keys() {
     let player = Player::with_settings(TRUE_COLOUR, "[keys]\n\"x\" = \"u\"\n");
-    let text = player.press("Left : x").text(120, 40);
-    assert!(text.contains("x u ") && text.contains("undo the last change"), "{text}");
+    player.press("Left : x").shows_at((120, 40), &["x u ", "undo the last change"]);
 }
 
 #[test]

@@ -2,47 +2,41 @@
 
 use carom::{
     table::Table,
-    terminal::{App, Capabilities, Mapping},
+    terminal::{Capabilities, Mapping},
 };
-use ratatui::{Terminal, backend::TestBackend, buffer::Buffer, layout::Rect, style::Modifier};
+use ratatui::{layout::Rect, style::Modifier};
 
 use super::{
-    player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR},
+    player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR},
     practice::exercise,
 };
 
-fn picture(app: &App, (width, height): (u16, u16)) -> Buffer {
-    let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
-    terminal.draw(|frame| app.draw(frame)).unwrap();
-    terminal.backend().buffer().clone()
-}
-
 /// Returns every page, filled with content.
-fn pages(caps: Capabilities) -> Vec<(&'static str, App)> {
+fn pages(caps: Capabilities) -> Vec<(&'static str, Player)> {
     let coach = || Player::with(caps).press("Enter").answer();
     let drills = || Player::at_library(caps, &[], &[]);
     let mut all = vec![
-        ("placing", Player::with(caps).app),
-        ("advice", coach().app),
-        ("playing", coach().press("Space").wait(1.0).app),
-        ("balls", coach().press("v v v").app),
-        ("commands", Player::with(caps).press(":").app),
-        ("help", Player::with(caps).press("?").app),
-        ("settings", Player::with(caps).press("F5").app),
-        ("keys", Player::with(caps).press("F5 Tab").app),
-        ("calibration", Player::with(caps).press("F7").app),
-        ("calibration's values", Player::with(caps).press("F7 Tab").app),
-        ("marks", Player::with(caps).press("F7 Enter").app),
-        ("calibration's long words", Player::with(caps).press(&format!("F7{}", " Down".repeat(7))).app),
-        ("library", drills().app),
-        ("exercise", Player::practising(caps).app),
-        ("stroke", Player::practising(caps).press("L L L H h k K").app),
-        ("played", Player::practising(caps).press("Space Space").wait(60.0).app),
-        ("record", drills().press("r").app),
-        ("form", Player::at_runs(caps).press("n").app),
-        ("watch", Player::watching(caps).app),
+        ("placing", Player::with(caps)),
+        ("advice", coach()),
+        ("playing", coach().press("Space").wait(1.0)),
+        ("balls", coach().press("v v v")),
+        ("commands", Player::with(caps).press(":")),
+        ("help", Player::with(caps).press("?")),
+        ("settings", Player::with(caps).press("F5")),
+        ("keys", Player::with(caps).press("F5 Tab")),
+        ("calibration", Player::with(caps).press("F7")),
+        ("calibration's values", Player::with(caps).press("F7 Tab")),
+        ("marks", Player::with(caps).press("F7 Enter")),
+        ("calibration's long words", Player::with(caps).press(&format!("F7{}", " Down".repeat(7)))),
+        ("library", drills()),
+        ("exercise", Player::practising(caps)),
+        ("stroke", Player::practising(caps).press("L L L H h k K")),
+        ("played", Player::practising(caps).press("Space Space").wait(60.0)),
+        ("record", drills().press("r")),
+        ("form", Player::at_runs(caps).press("n")),
+        ("watch", Player::watching(caps)),
     ];
-    all.extend((1..4).map(|views| ("view", coach().press(&"v ".repeat(views)).app)));
+    all.extend((1..4).map(|views| ("view", coach().press(&"v ".repeat(views)))));
     all
 }
 
@@ -50,16 +44,16 @@ fn pages(caps: Capabilities) -> Vec<(&'static str, App)> {
 fn no_text_touches_the_right_edge() {
     let mut found = Vec::new();
     for caps in [TRUE_COLOUR, NO_COLOUR, ASCII] {
-        for (page, app) in pages(caps) {
-            for size in [(80, 24), (90, 28), (100, 30), (120, 40), (160, 50)] {
-                let picture = picture(&app, size);
-                for y in 0..size.1 {
-                    let end: String = (size.0 - 8..size.0).map(|x| picture[(x, y)].symbol()).collect();
+        for (page, player) in pages(caps) {
+            for (width, height) in [(80, 24), (90, 28), (100, 30), (120, 40), (160, 50)] {
+                let picture = player.picture(width, height);
+                for y in 0..height {
+                    let end: String = (width - 8..width).map(|x| picture[(x, y)].symbol()).collect();
                     let last = end.chars().last().unwrap();
                     // An axis may end at the edge of its chart, with a number.
                     let is_axis = end.chars().all(|letter| letter.is_ascii_digit() || " .kM".contains(letter));
                     if last.is_alphanumeric() && !is_axis {
-                        found.push(format!("{page} {size:?}, row {y}: {end}"));
+                        found.push(format!("{page} {width}×{height}, row {y}: {end}"));
                     }
                 }
             }
@@ -70,17 +64,17 @@ fn no_text_touches_the_right_edge() {
 
 #[test]
 fn overlays_cover_the_page_completely() {
-    for size in [(80, 24), (120, 40)] {
-        let paper = picture(&Player::new().app, size)[(size.0 - 1, size.1 - 1)].bg;
+    for (width, height) in SIZES {
+        let paper = Player::new().picture(width, height)[(width - 1, height - 1)].bg;
         for keys in [":", "?"] {
-            let picture = picture(&Player::new().press(keys).app, size);
-            for y in 1..size.1 - 2 {
+            let picture = Player::new().press(keys).picture(width, height);
+            for y in 1..height - 2 {
                 let is_table =
                     |x: u16| picture[(x, y)].bg != paper && !picture[(x, y)].modifier.contains(Modifier::REVERSED);
-                assert_eq!((0..size.0).find(|x| is_table(*x)), None, "{keys} {size:?}, row {y}");
+                assert_eq!((0..width).find(|x| is_table(*x)), None, "{keys} {width}×{height}, row {y}");
                 if keys == ":" {
-                    let beside: String = [0, 1, size.0 - 2, size.0 - 1].map(|x| picture[(x, y)].symbol()).concat();
-                    assert_eq!(beside.trim(), "", "{size:?}, row {y}");
+                    let beside: String = [0, 1, width - 2, width - 1].map(|x| picture[(x, y)].symbol()).concat();
+                    assert_eq!(beside.trim(), "", "{width}×{height}, row {y}");
                 }
             }
         }
@@ -90,7 +84,7 @@ fn overlays_cover_the_page_completely() {
 #[test]
 fn the_light_theme_has_no_cloth_colour_among_text() {
     let player = Player::new().press("T");
-    let light = picture(&player.app, (80, 24));
+    let light = player.picture(80, 24);
     let (paper, text) = (light[(79, 23)].bg, 18);
     for y in text..24 {
         for x in 0..40 {
@@ -104,15 +98,14 @@ fn the_light_theme_has_no_cloth_colour_among_text() {
 #[test]
 fn without_colours_the_cue_is_drawn_until_the_stroke() {
     for (caps, signs) in [(NO_COLOUR, ["╱", "╲", "│", "─"]), (ASCII, ["/", "\\", "|", "-"])] {
-        let size = (120, 40);
         let bed = Mapping::fit(&Table::default(), Rect::new(4, 1, 112, 29)).bed;
-        let cue = |app: &App| {
-            let picture = picture(app, size);
+        let cue = |player: &Player| {
+            let picture = player.picture(120, 40);
             bed.positions().filter(|at| signs.contains(&picture[*at].symbol())).count()
         };
         let ready = Player::with(caps).press("Enter").answer();
-        assert!(cue(&ready.app) >= 4, "{}", ready.text(120, 40));
-        assert_eq!(cue(&ready.press("Space").wait(0.5).app), 0);
+        assert!(cue(&ready) >= 4, "{}", ready.text(120, 40));
+        assert_eq!(cue(&ready.press("Space").wait(0.5)), 0);
     }
 }
 
@@ -120,7 +113,7 @@ fn without_colours_the_cue_is_drawn_until_the_stroke() {
 fn wide_characters_stay_in_their_columns() {
     let own = exercise("own", &"당구 연습 ".repeat(8));
     let player = Player::at_library(TRUE_COLOUR, &[own], &[]).press("Left");
-    let picture = picture(&player.app, (80, 24));
+    let picture = player.picture(80, 24);
     let y = (0..24).find(|y| picture[(2, *y)].symbol() == "당").expect("the position is listed");
     assert_eq!(picture[(28, y)].symbol(), "-", "the grade has its place");
     assert!((26..32).any(|x| picture[(x, y)].symbol() == "…"), "the title is cut");
@@ -135,7 +128,7 @@ fn text_fields_support_cursor_editing() {
     assert_eq!(player.app.drills.catalogue.filter.text, None);
     let player = Player::new().press(": n d o Home u C-Right");
     assert_eq!(player.app.command_palette.as_ref().unwrap().words.text(), "undo");
-    let picture = picture(&player.app, (80, 24));
+    let picture = player.picture(80, 24);
     let reversed = (0..40).filter(|x| picture[(*x, 2)].modifier.contains(Modifier::REVERSED));
     assert_eq!(reversed.collect::<Vec<_>>(), [11], "the cursor is seen behind the words");
     let kept = Player::watching(TRUE_COLOUR).press("k C-u a c Left b");

@@ -1,6 +1,7 @@
 //! Messages and questions of the drills: protection against mistaken keys, sources of results, and sessions to resume later.
 
 use super::{
+    mouse::resized,
     player::{Player, TRUE_COLOUR},
     practice::{exercise, session, three_sessions},
 };
@@ -9,7 +10,7 @@ use carom::{
     storage::save_json,
     terminal::{DrillContext, KeyContext, SavedSession},
 };
-use crossterm::event::{KeyModifiers, MouseEvent, MouseEventKind};
+use crossterm::event::MouseEventKind;
 
 #[test]
 fn an_unchanged_stroke_needs_a_second_press() {
@@ -37,8 +38,7 @@ fn a_left_match_can_be_resumed_at_the_next_start() {
     assert_eq!(left.app.key_context(), KeyContext::Coach);
     let last = left.app.saved_session().unwrap();
     assert!(last.practice.as_ref().is_some_and(|practice| practice.is_match() && practice.attempts.len() == 1));
-    let mut next = Player::new();
-    next.app = next.app.with_saved_session(Some(last));
+    let next = Player::new().after(&left);
     next.says("c goes on with the match of the last session");
     let on = next.press("c");
     assert_eq!(on.app.key_context(), KeyContext::Drill(DrillContext::Exercise));
@@ -99,10 +99,8 @@ fn an_empty_search_offers_other_categories() {
     let elsewhere = none.app.drills.catalogue.matches_elsewhere();
     let found = none.press("Enter");
     let catalogue = &found.app.drills.catalogue;
-    assert_eq!(
-        (catalogue.filtered().len(), catalogue.filter.category, catalogue.matches_elsewhere()),
-        (elsewhere, None, 0)
-    );
+    let listed = (catalogue.filtered().len(), catalogue.filter.category, catalogue.matches_elsewhere());
+    assert_eq!(listed, (elsewhere, None, 0));
     assert!(elsewhere > 1, "{elsewhere}");
     found.shows(&[": \"natural\"", "Esc end search"]);
     let all = found.press("Esc");
@@ -133,12 +131,9 @@ fn an_exercise_shows_ball_positions_and_a_different_table() {
 fn the_wheel_scrolls_the_record() {
     let sessions: Vec<Session> = (1..=30).map(|day| session(day, "opening", Goal::Free, "x-")).collect();
     let positions = [exercise("opening", "From the opening")];
-    let mut player = Player::at_library(TRUE_COLOUR, &positions, &sessions).press("r");
-    player.app.resize(ratatui::layout::Size::new(120, 40));
+    let player = resized(Player::at_library(TRUE_COLOUR, &positions, &sessions).press("r"));
     let before = player.text(120, 40);
-    let kind = MouseEventKind::ScrollDown;
-    player.app.mouse(MouseEvent { kind, column: 20, row: 30, modifiers: KeyModifiers::NONE });
-    let after = player.text(120, 40);
+    let after = player.send_mouse(MouseEventKind::ScrollDown, (20, 30)).text(120, 40);
     // The latest session, of the day after the 30th of November, is listed first.
     assert!(before.contains("2026-12-01") && !after.contains("2026-12-01"), "{before}\n{after}");
 }

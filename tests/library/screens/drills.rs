@@ -103,10 +103,10 @@ fn a_stroke_is_set_with_keys() {
     let plain = Player::practising(ASCII).press("S-Right S-Right");
     check_at(&[(80, 24)], "aiming_ascii", &plain);
     plain.is_plain();
-    let large = Player::practising(TRUE_COLOUR).text(200, 60);
-    for part in ["Your stroke", "Tip", "Hit", "Task", "yellow 100 % full", "The first shot of every match."] {
-        assert!(large.contains(part), "{part}\n{large}");
-    }
+    Player::practising(TRUE_COLOUR).shows_at(
+        (200, 60),
+        &["Your stroke", "Tip", "Hit", "Task", "yellow 100 % full", "The first shot of every match."],
+    );
     let far = Player::practising(TRUE_COLOUR).press("H H H H H H H H H");
     far.says("further out the tip would slip off the ball");
 }
@@ -122,8 +122,7 @@ fn long_texts_are_paged() {
     let (task, large) = (player.text(80, 24), player.text(120, 40));
     assert!(task.contains("cushions do the rest.") && task.contains("PgDn 1/2") && task.contains('…'), "{task}");
     assert!(large.contains("balls: white ") && !large.contains("PgDn"), "{large}");
-    let places = player.press("PageDown").text(80, 24);
-    assert!(places.contains("balls: white ") && places.contains("PgDn 2/2"), "{places}");
+    player.press("PageDown").shows_at((80, 24), &["balls: white ", "PgDn 2/2"]);
     let player = Player::practising(TRUE_COLOUR).press("v");
     player.says("cue at least").says("Yours: ");
     is_page(&player, "Task: straight · PgDn 1/2", false);
@@ -151,8 +150,12 @@ fn aimed_as_the_model_shot(player: Player) -> Player {
     let turn = player.app.drills.turn.as_ref().unwrap();
     let degrees = turn.stroke().phi.to_degrees();
     let fine = ((-72.0 - degrees) * 5.0).round() as usize;
-    let keys = vec!["Left"; fine].join(" ");
-    player.press(&keys).press("C-Left").press(&"h ".repeat(12)).press(&"k ".repeat(18)).press("+ + + + + +")
+    player
+        .press(&"Left ".repeat(fine))
+        .press("C-Left")
+        .press(&"h ".repeat(12))
+        .press(&"k ".repeat(18))
+        .press("+ + + + + +")
 }
 
 #[test]
@@ -377,8 +380,7 @@ fn unreadable_files_are_named_and_unchanged() {
     player.warns("version 9");
     player.shows(&["some saved data cannot be read: F6 lists it"]);
     let all = player.press("F6");
-    let text = all.text(200, 40);
-    assert!(text.contains("version 9") && text.contains("broken.json"), "{text}");
+    all.shows_at((200, 40), &["version 9", "broken.json"]);
     let player = all;
     assert_eq!(std::fs::read(player.path("positions/broken.json")).unwrap(), b"{\"half");
 }

@@ -67,8 +67,7 @@ fn the_film_is_drawn_without_colours_and_with_half_blocks() {
         }
     }
     // The other player's ball hides its outline until something has met it.
-    let picture = watching(NO_COLOUR).wait(5.5).text(80, 24);
-    assert!(picture.contains("letters the film's"), "{picture}");
+    watching(NO_COLOUR).wait(5.5).shows_at((80, 24), &["letters the film's"]);
 }
 
 #[test]
@@ -118,10 +117,7 @@ fn film_playback_has_event_steps_and_esc_leads_back() {
     let player = player.press("F2 f");
     assert_eq!(player.app.key_context(), KeyContext::Drill(DrillContext::Films), "from the coach's table as well");
     let player = player.press("Enter F2 f");
-    assert_eq!(
-        player.app.key_context(),
-        KeyContext::Drill(DrillContext::Films),
-        "the page is not opened on top of itself"
-    );
+    // The page is not opened on top of itself.
+    assert_eq!(player.app.key_context(), KeyContext::Drill(DrillContext::Films));
     player.press("Esc").says("choose an exercise");
 }

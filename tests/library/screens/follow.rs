@@ -5,11 +5,10 @@ use carom::{
     table::{Layout, Table},
     terminal::{Activity, App, Effect, FollowedTableState, KeyContext, Seat, SharedTable, TableWatcher},
 };
-use ratatui::{Terminal, backend::TestBackend};
 
 use super::{
     keys::key,
-    player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, places},
+    player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, drawn, places},
 };
 
 /// Returns a player with a name.
@@ -36,10 +35,8 @@ fn following(caps: carom::terminal::Capabilities) -> App {
 }
 
 fn picture(app: &mut App, (width, height): (u16, u16)) -> String {
-    let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
     app.resize((width, height).into());
-    terminal.draw(|frame| app.draw(frame)).unwrap();
-    terminal.backend().to_string()
+    drawn(app, width, height).backend().to_string()
 }
 
 #[test]

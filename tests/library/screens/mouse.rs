@@ -6,37 +6,32 @@ use super::{
 };
 use carom::{
     table::Table,
-    terminal::{App, KeyContext, Mapping, Overlay, PageId},
+    terminal::{KeyContext, Mapping, Overlay, PageId},
 };
 use crossterm::event::{KeyModifiers, MouseButton, MouseEvent, MouseEventKind};
 use glam::DVec2;
 use proptest::prelude::*;
 use ratatui::layout::{Rect, Size};
 
-const PRESS: MouseEventKind = MouseEventKind::Down(MouseButton::Left);
-const DRAG: MouseEventKind = MouseEventKind::Drag(MouseButton::Left);
-const SIZE: Size = Size::new(120, 40);
+pub const PRESS: MouseEventKind = MouseEventKind::Down(MouseButton::Left);
+pub const DRAG: MouseEventKind = MouseEventKind::Drag(MouseButton::Left);
 const RELEASE: MouseEventKind = MouseEventKind::Up(MouseButton::Left);
 
 /// Returns the mapping of the table on the coach's screen at 120×40.
-fn mapping() -> Mapping {
+pub fn mapping() -> Mapping {
     Mapping::fit(&Table::default(), Rect::new(4, 1, 112, 29))
 }
 
-fn event(kind: MouseEventKind, (column, row): (u16, u16)) -> MouseEvent {
-    MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE }
-}
-
 impl Player {
-    fn send_mouse(mut self, kind: MouseEventKind, cell: (u16, u16)) -> Self {
-        self.app.mouse(event(kind, cell));
+    pub fn send_mouse(mut self, kind: MouseEventKind, (column, row): (u16, u16)) -> Self {
+        self.app.mouse(MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE });
         self
     }
 }
 
-/// Resizes to 120×40 and runs the requested tasks.
-fn resized(mut player: Player) -> Player {
-    player.app.resize(SIZE);
+/// Resizes to 120×40.
+pub fn resized(mut player: Player) -> Player {
+    player.app.resize(Size::new(120, 40));
     player
 }
 
@@ -144,11 +139,8 @@ fn the_wheel_without_a_shot_shows_no_warning() {
 fn the_wheel_scrolls_the_help_and_the_command_palette() {
     let player = resized(Player::new().press("?")).send_mouse(MouseEventKind::ScrollDown, (3, 3));
     assert_eq!(player.app.overlay, Some((Overlay::Help, 3)));
-    assert_eq!(
-        player.send_mouse(PRESS, (60, 15)).app.overlay,
-        Some((Overlay::Help, 3)),
-        "what lies below is not reached"
-    );
+    let clicked = player.send_mouse(PRESS, (60, 15));
+    assert_eq!(clicked.app.overlay, Some((Overlay::Help, 3)), "what lies below is not reached");
     let player = resized(Player::new().press(":")).send_mouse(MouseEventKind::ScrollDown, (3, 3));
     assert_eq!(player.app.command_palette.as_ref().unwrap().mark(9), 1);
 }
@@ -172,16 +164,14 @@ fn clicking_a_tab_opens_its_screen() {
 
 #[test]
 fn the_selection_in_the_library_follows_wheel_and_click() {
-    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]);
-    player.app.resize(SIZE);
+    let player = resized(Player::at_library(TRUE_COLOUR, &[], &[]));
     let text = player.text(120, 40);
-    let marked = |app: &App| app.drills.catalogue.mark;
-    assert_eq!(marked(&player.app), 0);
-    player.app.mouse(event(MouseEventKind::ScrollDown, (5, 10)));
-    player.app.mouse(event(MouseEventKind::ScrollDown, (100, 10)));
-    assert_eq!(marked(&player.app), 1, "only over the list");
+    assert_eq!(player.app.drills.catalogue.mark, 0);
+    let player =
+        player.send_mouse(MouseEventKind::ScrollDown, (5, 10)).send_mouse(MouseEventKind::ScrollDown, (100, 10));
+    assert_eq!(player.app.drills.catalogue.mark, 1, "only over the list");
     // The heading of the first category is in the second row of the page's area, and its exercises follow.
-    player.app.mouse(event(PRESS, (5, 7)));
+    let player = player.send_mouse(PRESS, (5, 7));
     let title = player.app.drills.catalogue.marked().unwrap().title.clone();
     let row = text.lines().nth(7).unwrap();
     assert!(row.contains(title.split_whitespace().next().unwrap()), "{title}: {row}");
@@ -203,17 +193,16 @@ fn the_selection_in_the_settings_follows_wheel_and_click() {
 
 #[test]
 fn the_selection_in_the_runs_follows_wheel_and_click() {
-    let mut player = Player::listing(TRUE_COLOUR);
-    player.app.resize(SIZE);
+    let player = resized(Player::listing(TRUE_COLOUR));
     let text = player.text(120, 40);
     let row = |name: &str| text.lines().position(|line| line.contains(name)).unwrap() as u16;
     let (first, second) = (row(RUN), row(OTHER_RUN));
     assert_eq!(player.app.training.list.mark(), 0);
-    player.app.mouse(event(PRESS, (5, second)));
+    let player = player.send_mouse(PRESS, (5, second));
     assert_eq!(player.app.training.list.mark(), usize::from(second - first));
-    player.app.mouse(event(MouseEventKind::ScrollUp, (5, second)));
+    let player = player.send_mouse(MouseEventKind::ScrollUp, (5, second));
     assert_eq!(player.app.training.list.mark(), usize::from(second - first) - 1);
-    player.app.mouse(event(PRESS, (5, 0)));
+    let player = player.send_mouse(PRESS, (5, 0));
     assert_eq!(player.app.training.list.mark(), usize::from(second - first) - 1);
 }
 

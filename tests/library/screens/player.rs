@@ -61,6 +61,11 @@ pub struct Player {
     folder: TempDir,
 }
 
+/// Returns the stroke that is written like this.
+pub fn cue(text: &str) -> CueInputs {
+    CueInputs::parse(text).unwrap()
+}
+
 /// Returns the player's folders; tests report the runs themselves.
 pub fn places(folder: &Path) -> DataPaths {
     DataPaths { runs: RUNS.into(), policies: "/policies".into(), ..DataPaths::under(folder) }
@@ -68,7 +73,7 @@ pub fn places(folder: &Path) -> DataPaths {
 
 /// Returns a proposal whose shot succeeds in `made` of 1000 attempts.
 pub fn proposal(table: &Table, layout: &Layout, cue: &str, made: usize) -> Proposal {
-    let shot = Shot::new(table, layout, CueInputs::parse(cue).unwrap(), true, "policy").unwrap();
+    let shot = Shot::new(table, layout, self::cue(cue), true, "policy").unwrap();
     Proposal {
         shot: Arc::new(shot),
         made: Some(SuccessRate::new(made, 1000)),
@@ -83,7 +88,19 @@ pub fn advice(job: &CoachJob) -> Advice {
     let proposal = |cue, made| proposal(&job.table, &job.layout, cue, made);
     let best = proposal(SHOT, 940);
     let others = OTHER_SHOTS.into_iter().zip([893, 620]).map(|(cue, made)| proposal(cue, made));
-    Advice { proposals: std::iter::once(best).chain(others).collect(), seed: 1, effort: None, found: None }
+    advice_of(std::iter::once(best).chain(others).collect())
+}
+
+/// Returns the coach's advice with these proposals.
+pub fn advice_of(proposals: Vec<Proposal>) -> Advice {
+    Advice { proposals, seed: 1, effort: None, found: None }
+}
+
+/// Returns all answers of the real coach to a request.
+pub fn worker_answers(worker: &mut CoachWorker, job: &CoachJob) -> Vec<CoachAnswer> {
+    let mut answers = Vec::new();
+    worker.answer(job, |answer| answers.push(answer));
+    answers
 }
 
 /// Returns a model shot of the coach.
@@ -122,6 +139,12 @@ impl Player {
 
     pub fn with(caps: Capabilities) -> Self {
         Self::in_folder(caps, tempfile::tempdir().unwrap())
+    }
+
+    /// At the next start after `earlier` has left.
+    pub fn after(mut self, earlier: &Self) -> Self {
+        self.app = self.app.with_saved_session(earlier.app.saved_session());
+        self
     }
 
     /// At the coach.
@@ -282,6 +305,11 @@ impl Player {
         self.tell(job.id, CoachEvent::Advice(advice))
     }
 
+    /// Returns the stroke of the coach's page's shown shot.
+    pub fn shown_cue(&self) -> Option<CueInputs> {
+        self.app.coach.shot().map(|shot| shot.cue)
+    }
+
     /// Lets the coach report this shot as the best so far, with `made` of 1000 attempts.
     pub fn report_better(self, cue: &str, made: usize) -> Self {
         let job = self.advice_job.clone().expect("the coach was asked");
@@ -302,7 +330,7 @@ impl Player {
         let end = self.app.coach.shot().unwrap().recording.final_layout();
         let next = proposal(&job.table, &end, NEXT_SHOT, 1000);
         self.tell(job.id, CoachEvent::Analysis(study.unwrap()))
-            .tell(job.id, CoachEvent::Next(Some(Advice { proposals: vec![next], seed: 1, effort: None, found: None })))
+            .tell(job.id, CoachEvent::Next(Some(advice_of(vec![next]))))
     }
 
     pub fn report(mut self, report: TrainingReport) -> Self {
@@ -344,9 +372,7 @@ impl Player {
     }
 
     fn draw(&self, width: u16, height: u16) -> Terminal<TestBackend> {
-        let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
-        terminal.draw(|frame| self.app.draw(frame)).unwrap();
-        terminal
+        drawn(&self.app, width, height)
     }
 
     /// Whether a toast contains `part`.
@@ -373,14 +399,31 @@ impl Player {
         self
     }
 
+    /// Asserts that the texts are on the screen of this size.
+    #[track_caller]
+    pub fn shows_at(&self, (width, height): (u16, u16), parts: &[&str]) -> &Self {
+        let text = self.text(width, height);
+        for part in parts {
+            assert!(text.contains(part), "{part}\n{text}");
+        }
+        self
+    }
+
     /// Asserts that the texts are on the screen at both sizes.
     #[track_caller]
     pub fn shows(&self, parts: &[&str]) -> &Self {
-        for (width, height) in SIZES {
-            let text = self.text(width, height);
-            for part in parts {
-                assert!(text.contains(part), "{part}\n{text}");
-            }
+        for size in SIZES {
+            self.shows_at(size, parts);
+        }
+        self
+    }
+
+    /// Asserts that none of the texts is on the screen of this size.
+    #[track_caller]
+    pub fn hides_at(&self, (width, height): (u16, u16), parts: &[&str]) -> &Self {
+        let text = self.text(width, height);
+        for part in parts {
+            assert!(!text.contains(part), "{part}\n{text}");
         }
         self
     }
@@ -400,9 +443,7 @@ impl Player {
 
     #[track_caller]
     pub fn does_not_show(&self, part: &str) -> &Self {
-        let text = self.text(120, 40);
-        assert!(!text.contains(part), "{part}\n{text}");
-        self
+        self.hides_at((120, 40), &[part])
     }
 
     pub fn store(&self) -> Store {
@@ -427,6 +468,13 @@ impl Player {
     pub fn settings_text(&self) -> String {
         fs::read_to_string(self.path("config.toml")).unwrap_or_default()
     }
+}
+
+/// Returns a terminal with the screen of `app`.
+pub fn drawn(app: &App, width: u16, height: u16) -> Terminal<TestBackend> {
+    let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
+    terminal.draw(|frame| app.draw(frame)).unwrap();
+    terminal
 }
 
 /// Compares the screen at both sizes with the snapshots.

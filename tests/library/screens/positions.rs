@@ -47,10 +47,8 @@ fn an_invalid_position_is_refused_and_remains_editable() {
     let player = player.press("Backspace Backspace").type_in("1d").press("Enter");
     assert_eq!(player.app.coach.layout().balls[0], layout("2d,1d 6d,2d 4d,3.5d").balls[0]);
     let player = player.press("p").type_in("nonsense").press("Esc Left");
-    assert!(
-        player.app.coach.layout().balls[0].x < layout("2d,1d 6d,2d 4d,3.5d").balls[0].x,
-        "the keys are the table's again"
-    );
+    let white = player.app.coach.layout().balls[0];
+    assert!(white.x < layout("2d,1d 6d,2d 4d,3.5d").balls[0].x, "the keys are the table's again");
 }
 
 #[test]

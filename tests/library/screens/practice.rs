@@ -4,11 +4,10 @@ use carom::{
     coach::Skill,
     drills::{Attempt, Category, Exercise, Goal, Session, Venue},
     game::Rule,
-    physics::CueInputs,
     table::{Layout, Table},
 };
 
-use super::player::SHOT;
+use super::player::{SHOT, cue};
 
 /// Returns an exercise at the opening position, with the shot that makes the point.
 pub fn exercise(name: &str, title: &str) -> Exercise {
@@ -23,7 +22,7 @@ pub fn exercise(name: &str, title: &str) -> Exercise {
         point: "The first shot of every match. Hit yellow thin with left side and let the cushions do the rest."
             .to_owned(),
         tags: vec!["opening".to_owned()],
-        shot: Some(CueInputs::parse(SHOT).unwrap()),
+        shot: Some(cue(SHOT)),
         par: None,
     }
 }

@@ -2,10 +2,10 @@
 
 use super::{
     drills::{check, played},
-    player::{ASCII, OTHER_SHOTS, Player, TRUE_COLOUR},
+    player::{ASCII, OTHER_SHOTS, Player, TRUE_COLOUR, cue},
     practice::{exercise, session, three_sessions},
 };
-use carom::{drills::Goal, physics::CueInputs};
+use carom::drills::Goal;
 
 #[test]
 fn the_record_of_a_player() {
@@ -20,7 +20,7 @@ fn the_record_of_a_player() {
     few.press("w").says("no estimate of your skill yet");
     let others = OTHER_SHOTS.iter().zip([7, 8]).map(|(shot, number)| {
         let mut other = session(number, "other", Goal::Free, "x-x");
-        other.exercises[0].shot = Some(CueInputs::parse(shot).unwrap());
+        other.exercises[0].shot = Some(cue(shot));
         other
     });
     let sessions: Vec<_> = three_sessions().into_iter().chain(others).collect();

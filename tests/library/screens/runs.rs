@@ -11,12 +11,12 @@ use carom::{
         metrics::Record,
         status::{Phase, RunStatus},
     },
-    physics::CueInputs,
     table::{Layout, Table},
+    terminal::{TrainerFailure, TrainingReport},
 };
 use serde_json::json;
 
-use super::player::SHOT;
+use super::player::{SHOT, cue};
 
 pub const RUNS: &str = "/runs";
 pub const RUN: &str = "20261120-091500-ddpg-match-r3-1";
@@ -98,9 +98,14 @@ pub fn record(n: u64) -> Record {
 
 pub fn examples(after: u64) -> Examples {
     let table = Table::default();
-    let cue = CueInputs::parse(SHOT).unwrap();
-    let shot = |reward| Example { layout: Layout::opening(&table), cue, reward };
+    let shot = |reward| Example { layout: Layout::opening(&table), cue: cue(SHOT), reward };
     Examples { after, shots: vec![shot(0.0), shot(1.0), shot(1.0)] }
+}
+
+/// Returns the report that the trainer of [`RUN`] has failed.
+pub fn trainer_failed(process: Option<u32>, sentence: &str) -> TrainingReport {
+    let failure = TrainerFailure { process, sentence: sentence.to_owned() };
+    TrainingReport::TrainerFailed(Path::new(RUNS).join(RUN), failure)
 }
 
 /// Returns a full update of a run in progress.

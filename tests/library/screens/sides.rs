@@ -1,10 +1,10 @@
 //! Both players' balls: whichever side is at the table, every ball keeps its position, its colour and its name.
 
 use super::{
-    player::{NO_COLOUR, Player},
+    player::{NO_COLOUR, Player, cue},
     practice::exercise,
 };
-use carom::{drills::Record, physics::CueInputs};
+use carom::drills::Record;
 
 /// The initial speed of a stroke, m/s.
 const FIRST_SPEED: f64 = 2.5;
@@ -57,8 +57,7 @@ impl Player {
 #[test]
 fn in_a_match_a_miss_passes_the_turn() {
     let player = Player::practising(NO_COLOUR).press("o o o");
-    player.says("Score: match").says("inning 1 of 10");
-    player.says("Stroke of white");
+    player.says("Score: match").says("inning 1 of 10").says("Stroke of white");
     let missed = player.miss();
     missed.says("white: 0, best 0").says("inning 1 of 10");
     let next = missed.press("Enter");
@@ -104,29 +103,23 @@ const SHOT: &str = "0,0.2,2,140,3";
 
 #[test]
 fn the_coachs_strokes_in_a_match_count_only_for_it() {
-    for (model_shot, meant) in [(Some(SHOT), CueInputs::parse(SHOT).unwrap().speed), (None, FIRST_SPEED)] {
+    for (model_shot, meant) in [(Some(SHOT), cue(SHOT).speed), (None, FIRST_SPEED)] {
         let turn = against_the_coach(model_shot, "");
         let words = if model_shot.is_some() {
             "with errors as large as yours; Space plays it"
         } else {
             "Space plays full at a ball"
         };
-        for says in ["The coach's turn: straight", "Stroke of yellow", words] {
-            turn.says(says);
-        }
+        turn.says("The coach's turn: straight").says("Stroke of yellow").says(words);
         let turn = turn.press("Left");
         turn.warns("the coach plays this stroke: Space");
         let played = turn.press("Space Enter");
-        for says in ["coach (yellow): ", "you (white): 0, best 0", " (the coach)", "the coach's hand: "] {
-            played.says(says);
-        }
+        played.says("coach (yellow): ").says("you (white): 0, best 0").says(" (the coach)").says("the coach's hand: ");
         let session = &played.store().sessions().items[0];
         let by_coach: Vec<bool> = session.attempts.iter().map(|attempt| attempt.by_coach).collect();
         assert_eq!((by_coach, session.attempts[1].helped), (vec![false, true], false));
-        assert!(
-            (session.attempts[1].intended.unwrap().speed - meant).abs() < 1e-9,
-            "the displayed model shot is played"
-        );
+        let speed = session.attempts[1].intended.unwrap().speed;
+        assert!((speed - meant).abs() < 1e-9, "the displayed model shot is played");
         assert_eq!(Record::of([session], |_, _| true).tried, 1, "the record is the player's");
     }
 }

@@ -1,14 +1,9 @@
 //! Display of a shot: the table, the hit and the spin.
 
-use std::sync::Arc;
-
-use carom::{
-    physics::CueInputs,
-    terminal::{Advice, Capabilities, CoachEvent, Glyphs, Proposal, Shot},
-};
+use carom::terminal::{Capabilities, CoachEvent, Glyphs, Proposal};
 use ratatui::{buffer::Buffer, style::Color};
 
-use super::player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, check, check_at};
+use super::player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, advice_of, check, check_at, proposal};
 
 const OCTANTS: Capabilities = Capabilities { glyphs: Glyphs::Octant, ..TRUE_COLOUR };
 
@@ -16,9 +11,8 @@ const OCTANTS: Capabilities = Capabilities { glyphs: Glyphs::Octant, ..TRUE_COLO
 fn advised(caps: Capabilities, cue: &str) -> Player {
     let mut player = Player::with(caps).press("Enter");
     let job = player.advice_job.take().unwrap();
-    let shot = Shot::new(&job.table, &job.layout, CueInputs::parse(cue).unwrap(), true, "policy").unwrap();
-    let proposal = Proposal { shot: Arc::new(shot), made: None, risk: None, next: None, is_early: false };
-    player.tell(job.id, CoachEvent::Advice(Advice { proposals: vec![proposal], seed: 1, effort: None, found: None }))
+    let shot = Proposal { made: None, next: None, ..proposal(&job.table, &job.layout, cue, 0) };
+    player.tell(job.id, CoachEvent::Advice(advice_of(vec![shot])))
 }
 
 /// Counts the cells of the table with this foreground colour.
@@ -64,12 +58,10 @@ fn the_spin_replaces_the_hit_during_playback() {
         } else {
             player.is_plain();
         }
-        for (width, height) in SIZES {
-            let text = player.text(width, height);
-            assert!(text.contains("Spin") && text.contains("left") && !text.contains("Hit"), "{text}");
+        for size in SIZES {
+            player.shows_at(size, &["Spin", "left"]).hides_at(size, &["Hit"]);
         }
-        let text = player.press("End").text(80, 24);
-        assert!(text.contains("Hit") && !text.contains("Spin"), "{text}");
+        player.press("End").shows_at((80, 24), &["Hit"]).hides_at((80, 24), &["Spin"]);
     }
 }
 
@@ -92,12 +84,6 @@ fn a_first_cushion_is_named_instead_of_the_fullness() {
     let bank = advised(TRUE_COLOUR, "0,0,3,-173,4");
     let contact = bank.app.coach.shot().unwrap().words.first;
     assert_eq!(contact.map(|hit| hit.ball), Some(1), "back from the short rail to the yellow ball");
-    for (width, height) in SIZES {
-        let text = bank.text(width, height);
-        for words in ["left rail", "first, then", "yellow "] {
-            assert!(text.contains(words), "{words}\n{text}");
-        }
-    }
-    let nothing = advised(TRUE_COLOUR, "0,0,0,-45,0.2").text(120, 40);
-    assert!(nothing.contains("nothing"), "{nothing}");
+    bank.shows(&["left rail", "first, then", "yellow "]);
+    advised(TRUE_COLOUR, "0,0,0,-45,0.2").shows_at((120, 40), &["nothing"]);
 }

@@ -1,6 +1,6 @@
 //! Switching between screens: the same keys lead everywhere, from anywhere, and nothing is lost.
 
-use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_text};
+use super::player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check_text, drawn};
 use carom::{
     drills::Goal,
     terminal::{App, Capabilities, DrillContext, Effect, KeyContext, PageId, TrainingContext},
@@ -106,9 +106,7 @@ fn a_match_against_the_coach_starts_or_resumes_from_anywhere() {
     assert_eq!(session(&again).id, begun.id);
     Player::new().press(": a g a i n s t Enter").does_not_show(" Commands ");
     let left = again.press("Left Enter Enter");
-    let mut next = Player::new();
-    next.app = next.app.with_saved_session(left.app.saved_session());
-    let gone_on = session(&next.press("F9"));
+    let gone_on = session(&Player::new().after(&left).press("F9"));
     assert_eq!((gone_on.id, gone_on.attempts.len()), (begun.id, 1), "at the next start too");
     let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter F2 F9");
     exam.warns("an exam is under way; leave it before a match");
@@ -149,9 +147,7 @@ fn carom_watch_has_no_tabs() {
     let effect: Option<Effect> = app.handle(&super::keys::key("F2"));
     assert!(effect.is_none() && app.screen == PageId::Training);
     assert!(app.toasts.shown[0].text.contains("no other screens here"));
-    let mut terminal = ratatui::Terminal::new(ratatui::backend::TestBackend::new(80, 24)).unwrap();
-    terminal.draw(|frame| app.draw(frame)).unwrap();
-    let row = first_row(&terminal.backend().to_string());
+    let row = first_row(&drawn(&app, 80, 24).backend().to_string());
     assert!(row.starts_with(" carom  training runs") && !row.contains("Drills"), "{row}");
 }
 

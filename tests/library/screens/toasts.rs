@@ -1,12 +1,10 @@
 //! Toasts through the real app: their position, their duration, and that they hide nothing that needs an answer.
 
-use std::path::Path;
-
 use super::{
     player::{ASCII, NO_COLOUR, Player, SIZES, TRUE_COLOUR, check, check_at},
-    runs::{RUN, RUNS},
+    runs::trainer_failed,
 };
-use carom::terminal::{CoachEvent, TrainerFailure, TrainingReport};
+use carom::terminal::CoachEvent;
 use ratatui::style::Color;
 
 /// Returns a player whose coach has refused with sentences of these numbers of words.
@@ -54,8 +52,7 @@ fn toasts_expire_and_answers_vanish_with_the_next_key() {
 #[test]
 fn background_failures_are_shown_and_stay_in_the_messages() {
     let mut player = Player::new().press("F5");
-    let failure = TrainerFailure { process: None, sentence: "the disk is full".to_owned() };
-    player.app.receive_training(TrainingReport::TrainerFailed(Path::new(RUNS).join(RUN), failure));
+    player.app.receive_training(trainer_failed(None, "the disk is full"));
     player.warns("the disk is full");
     assert_eq!(player.app.toasts.take_unlogged().len(), 1, "the failure is logged once");
     assert!(player.app.toasts.take_unlogged().is_empty());
@@ -81,10 +78,7 @@ fn no_toast_covers_the_messages_page() {
 #[test]
 fn refusals_over_the_messages_page_are_not_recorded() {
     let refused = Player::new().press("F6 x");
-    for (width, height) in SIZES {
-        let text = refused.text(width, height);
-        assert!(text.contains("close this first: Esc") && text.contains("No messages so far"), "{text}");
-    }
+    refused.shows(&["close this first: Esc", "No messages so far"]);
     let closed = refused.press("F6");
     assert_eq!((closed.app.overlay, closed.app.toasts.messages().len()), (None, 0));
     closed.warns_nothing();
@@ -93,19 +87,14 @@ fn refusals_over_the_messages_page_are_not_recorded() {
 #[test]
 fn a_failure_appears_once_on_the_open_messages_page() {
     let count = |player: &Player, (width, height)| player.text(width, height).matches("the disk is full").count();
-    let fail = |player: &mut Player| {
-        let failure = TrainerFailure { process: None, sentence: "the disk is full".to_owned() };
-        player.app.receive_training(TrainingReport::TrainerFailed(Path::new(RUNS).join(RUN), failure));
-    };
-    let mut open = Player::new().press("F6");
-    fail(&mut open);
+    let failure = || trainer_failed(None, "the disk is full");
+    let open = Player::new().press("F6").report(failure());
     assert_eq!(SIZES.map(|size| count(&open, size)), [1, 1], "{}", open.text(80, 24));
     assert!(!open.text(80, 24).contains('┌'), "{}", open.text(80, 24));
     open.press("q").warns_nothing();
     // If the first lines are out of sight, the failure is shown in a toast over the others.
     let many: Vec<usize> = (1..=40).collect();
-    let mut scrolled = with_refusals(Player::new(), &many).press("F6 Down");
-    fail(&mut scrolled);
+    let scrolled = with_refusals(Player::new(), &many).press("F6 Down").report(failure());
     assert!(scrolled.text(80, 24).contains('┌'), "{}", scrolled.text(80, 24));
     scrolled.press("q").warns("the disk is full");
 }
@@ -116,10 +105,7 @@ fn toasts_never_hide_questions() {
     player.app.paste(&"half a code ".repeat(40));
     let player = player.press("Enter");
     check_at(&[(80, 24)], "toasts_question", &player);
-    for (width, height) in SIZES {
-        let text = player.text(width, height);
-        assert!(text.contains("paste or type the code of a position") && text.contains("Enter take it"), "{text}");
-    }
+    player.shows(&["paste or type the code of a position", "Enter take it"]);
     let name = Player::watching(TRUE_COLOUR).press("k Backspace / Enter");
     let text = name.text(80, 24);
     assert!(text.contains("keep the networks under the name") && name.has_toast("is no name"), "{text}");

@@ -5,7 +5,7 @@ use std::{path::Path, sync::Arc, time::Duration};
 use super::{
     keys::key,
     player::{ASCII, NO_COLOUR, Player, TRUE_COLOUR, check, check_at},
-    runs::{OTHER_RUN, RUN, RUNS, config, examples, full_update, listing, record, status, summary},
+    runs::{OTHER_RUN, RUN, RUNS, config, examples, full_update, listing, record, status, summary, trainer_failed},
 };
 use carom::{
     game::Rule,
@@ -26,10 +26,6 @@ use carom::{
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 use proptest::prelude::*;
 use ratatui::layout::Size;
-
-fn failure(process: Option<u32>, sentence: &str) -> TrainerFailure {
-    TrainerFailure { process, sentence: sentence.to_owned() }
-}
 
 #[test]
 fn the_list_of_runs() {
@@ -85,18 +81,17 @@ fn a_new_run_is_configured_and_started() {
     assert_eq!(arguments[9..], ["--seed", "2", "--from", &format!("{RUNS}/{RUN}"), "--run", folder]);
     assert!(folder.starts_with("/runs/20") && folder.ends_with("-ddpg-textbook-one-cushion-2"), "{folder}");
     assert_eq!(player.followed_run(0).as_deref(), Some(launch.folder.as_path()));
+    let failure = TrainerFailure { process: Some(7), sentence: "the disk is full".to_owned() };
     let missing = Update { condition: Some(Condition::Missing), ..Update::default() };
     let failed = player
         .report(TrainingReport::Followed(FollowSlot::Main, launch.folder.clone(), Box::new(missing)))
-        .report(TrainingReport::TrainerFailed(launch.folder.clone(), failure(Some(7), "the disk is full")));
+        .report(TrainingReport::TrainerFailed(launch.folder.clone(), failure));
     failed.says("the disk is full");
 }
 
 #[test]
 fn an_empty_number_of_shots_is_refused() {
-    let empty = Player::at_runs(TRUE_COLOUR)
-        .press("n Down Down Down Backspace Backspace Backspace Backspace Backspace Backspace");
-    let player = empty.press("Backspace Enter");
+    let player = Player::at_runs(TRUE_COLOUR).press("n Down Down Down").press(&"Backspace ".repeat(7)).press("Enter");
     assert!(player.effects.is_empty());
     player.says("\"\" is not a number of shots; use 1 or more");
 }
@@ -105,23 +100,17 @@ fn an_empty_number_of_shots_is_refused() {
 fn the_view_of_a_training_run() {
     let player = Player::watching(TRUE_COLOUR);
     check("watch", &player);
-    for part in
-        ["1,200,000", "34", "433", "2 h 26 min", "46 min 12 s", "0.153", "60 %", "Shot 3 of 3", "point", "training"]
-    {
-        player.says(part);
-    }
-    let large = player.text(200, 60);
-    for part in
-        ["F4 Training", "ddpg for r3 on \"match\"", "mean reward", "held-out success", "Shot 3 of 3", "1,200,000"]
-    {
-        assert!(large.contains(part), "{part}\n{large}");
-    }
+    let figures = ["1,200,000", "34", "433", "2 h 26 min", "46 min 12 s", "0.153", "60 %", "Shot 3 of 3"];
+    player.shows_at((120, 40), &figures).says("point").says("training");
+    player.shows_at(
+        (200, 60),
+        &["F4 Training", "ddpg for r3 on \"match\"", "mean reward", "held-out success", "Shot 3 of 3", "1,200,000"],
+    );
     player.press("?").shows(&["enlarge", "more lines below"]);
     let mut scrolled = Player::watching(TRUE_COLOUR);
     scrolled.app.resize(Size::new(80, 24));
     let scrolled = scrolled.press("?");
-    let keys = |key: &str, times| vec![key; times].join(" ");
-    let scrolled = scrolled.press(&keys("Down", 60));
+    let scrolled = scrolled.press(&"Down ".repeat(60));
     scrolled.shows(&["q Ctrl-c              quit", "Ctrl-z                back to the shell; fg continues"]);
     let end = scrolled.text(80, 24);
     let back = scrolled.press("Up");
@@ -262,17 +251,14 @@ fn a_held_key_starts_a_run_only_once() {
     assert_eq!(player.press("r r").effects.len(), 1, "also from the list, only once");
     let again = died().press("r").condition(Condition::InPhase(Phase::Training), None).condition(Condition::Died, None);
     assert_eq!(again.press("r").effects.len(), 2, "the run has trained and died again");
-    let folder = Path::new(RUNS).join(RUN);
-    let failed = died().press("r").report(TrainingReport::TrainerFailed(folder, failure(Some(7), "the disk is full")));
+    let failed = died().press("r").report(trainer_failed(Some(7), "the disk is full"));
     failed.says("the disk is full");
     assert_eq!(failed.press("r").effects.len(), 2);
 }
 
 #[test]
 fn a_refused_second_trainer_is_not_reported() {
-    let folder = || Path::new(RUNS).join(RUN);
-    let refused =
-        |process| TrainingReport::TrainerFailed(folder(), failure(Some(process), "another process is training"));
+    let refused = |process| trainer_failed(Some(process), "another process is training");
     let silent = |player: &Player| player.app.toasts.shown.is_empty();
     let at_work = Player::watching(TRUE_COLOUR).report(refused(7));
     assert!(silent(&at_work));
@@ -353,11 +339,7 @@ fn abandoning_needs_confirmation_and_states_the_loss() {
 fn a_policy_is_saved_under_a_name() {
     let player = Player::watching(TRUE_COLOUR).press("k");
     player.shows(&["keep the networks under the name: 20261120-091500-ddpg-match-r3-1", "Enter take it"]);
-    let mut player = player;
-    for _ in 0..60 {
-        player = player.press("Backspace");
-    }
-    let player = player.press("Enter");
+    let player = player.press(&"Backspace ".repeat(60)).press("Enter");
     player.says("\"\" is no name for a policy; accepted are 1 to 100 letters");
     let player = player.press("a / q Enter");
     player.says("\"a/q\" is no name for a policy");
@@ -469,7 +451,7 @@ proptest! {
                 3 => player.update(FollowSlot::Compared, OTHER_RUN, full_update()),
                 4 => player.condition(Condition::Died, None),
                 5 => player.condition(Condition::InPhase(Phase::Finished), None),
-                6 => player.report(TrainingReport::TrainerFailed(Path::new(RUNS).join(RUN), failure(None, "it failed"))),
+                6 => player.report(trainer_failed(None, "it failed")),
                 7 => player.has_policy(true),
                 _ => player,
             };

@@ -1,10 +1,10 @@
 //! Undo and redo: strokes that are set, and balls that come from elsewhere, also on another table.
 
 use super::{
-    player::{OTHER_SHOTS, Player, SHOT, TRUE_COLOUR},
+    player::{OTHER_SHOTS, Player, SHOT, TRUE_COLOUR, cue},
     practice::exercise,
 };
-use carom::{drills::Exercise, game::Rule, physics::CueInputs, table::Layout, terminal::Mode};
+use carom::{drills::Exercise, game::Rule, table::Layout, terminal::Mode};
 
 #[test]
 fn changes_of_the_stroke_are_undone_one_by_one() {
@@ -71,39 +71,36 @@ fn undoing_the_switch_of_balls_keeps_the_selection() {
 
 #[test]
 fn undoing_a_change_of_terms_restores_the_shot() {
-    let cue = |player: &Player| player.app.coach.shot().map(|shot| shot.cue);
-    let known = CueInputs::parse(SHOT).unwrap();
     for (key, message) in [
         ("S", "the player: expert (average above 2.5); its shot is shown"),
         ("R", "what counts: straight; its shot is shown"),
         ("P", "the next point counts too; its shot is shown"),
     ] {
         let changed = Player::new().press("Enter").answer().press(key);
-        assert_eq!(cue(&changed), None, "{key}");
+        assert_eq!(changed.shown_cue(), None, "{key}");
         changed.says("Enter asks the coach, u undoes it");
         let back = changed.press("u");
-        assert_eq!(cue(&back), Some(known), "{key}");
+        assert_eq!(back.shown_cue(), Some(cue(SHOT)), "{key}");
         assert_eq!(back.app.coach.mode, Mode::Watching, "{key}: told as it was");
         back.says(message);
         let again = back.press("U");
-        assert_eq!(cue(&again), None, "{key}");
+        assert_eq!(again.shown_cue(), None, "{key}");
         again.press("u u").says("there is nothing to undo");
     }
 }
 
 #[test]
 fn shots_are_remembered_for_several_players() {
-    let cue = |player: &Player| player.app.coach.shot().map(|shot| shot.cue);
     let others = Player::new().press("Enter").answer().press("S Enter").report_better(OTHER_SHOTS[0], 893).press("Esc");
-    let other = cue(&others);
-    assert_eq!(other, Some(CueInputs::parse(OTHER_SHOTS[0]).unwrap()));
+    let other = others.shown_cue();
+    assert_eq!(other, Some(cue(OTHER_SHOTS[0])));
     let back = others.press("u");
-    assert_eq!(cue(&back), Some(CueInputs::parse(SHOT).unwrap()), "the answer for another player replaces nothing");
+    assert_eq!(back.shown_cue(), Some(cue(SHOT)), "the answer for another player replaces nothing");
     let again = back.press("U");
-    assert_eq!(cue(&again), other);
+    assert_eq!(again.shown_cue(), other);
     let round = again.press("S S S S S");
-    assert_eq!(cue(&round), Some(CueInputs::parse(SHOT).unwrap()), "the first player again");
+    assert_eq!(round.shown_cue(), Some(cue(SHOT)), "the first player again");
     let moved = round.press("1 Right");
-    assert_eq!(cue(&moved), None);
-    assert_eq!(cue(&moved.press("S")), None, "a shot is for the balls where they lay");
+    assert_eq!(moved.shown_cue(), None);
+    assert_eq!(moved.press("S").shown_cue(), None, "a shot is for the balls where they lay");
 }

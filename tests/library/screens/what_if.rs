@@ -1,8 +1,7 @@
 //! What-if mode: the coach's shot is taken over as the player's own stroke, changed, played and left, at the coach and in an exercise.
 
-use super::player::{ASCII, NO_COLOUR, OTHER_SHOTS, Player, SHOT, TRUE_COLOUR};
+use super::player::{ASCII, NO_COLOUR, OTHER_SHOTS, Player, SHOT, SIZES, TRUE_COLOUR, cue, worker_answers};
 use carom::{
-    physics::CueInputs,
     statistics::SuccessRate,
     terminal::{Capabilities, CoachEvent, CoachWorker, KeyContext},
 };
@@ -23,39 +22,26 @@ fn the_coachs_shot_is_copied_changed_and_played() {
     let player = in_what_if_mode(TRUE_COLOUR);
     assert_eq!(player.app.key_context(), KeyContext::OwnStroke);
     player.shows(&["You … % · coach 94 %", "You: as the coach", "Esc leave"]);
-    assert_eq!(
-        player.success_rate_job.as_ref().unwrap().stroke.as_ref().map(|(cue, _)| *cue),
-        Some(CueInputs::parse(SHOT).unwrap())
-    );
+    assert_eq!(player.success_rate_job.as_ref().unwrap().stroke.as_ref().unwrap().0, cue(SHOT));
     let player = report_success_rate(player, 880);
     player.shows(&["You 88 % · coach 94 %", "Point, if played exactly: "]);
     let player = player.press("S-Up l l S-Right");
     player.shows(&["You … % · coach 94 %", "No point, if played exactly: ", "You: "]);
-    let large = player.text(120, 40);
-    for part in ["left", "harder by ", "lengths", "you", "coach"] {
-        assert!(large.contains(part), "{part}\n{large}");
-    }
-    let small = player.text(80, 24);
-    assert!(small.contains("harder by ") && small.contains(" lengths "), "{small}");
+    player.shows_at((120, 40), &["left", "harder by ", "lengths", "you", "coach"]);
+    player.shows_at((80, 24), &["harder by ", " lengths "]);
     let player = report_success_rate(player, 20).press("Space");
-    assert!(
-        player.app.coach.playback.playing && player.app.coach.watched().unwrap().cue.speed == 3.0,
-        "the own stroke is played"
-    );
+    let played = player.app.coach.watched().unwrap().cue.speed;
+    assert!(player.app.coach.playback.playing && played == 3.0, "the own stroke is played");
     let player = player.press("u u u");
     assert!(!player.app.coach.playback.playing, "a change goes back to the stroke");
     player.shows(&["You: as the coach"]);
     let player = player.press("U Esc");
     assert_eq!(player.app.key_context(), KeyContext::Coach);
-    assert_eq!(player.app.coach.shot().unwrap().cue, CueInputs::parse(SHOT).unwrap());
+    assert_eq!(player.shown_cue(), Some(cue(SHOT)));
     player.does_not_show("You 2").does_not_show("You: ");
     assert!(player.analysis_job.is_some(), "the closer look at the coach's shot goes on");
     let other = player.press("] w");
-    assert_eq!(
-        other.app.coach.shot().unwrap().cue,
-        CueInputs::parse(OTHER_SHOTS[0]).unwrap(),
-        "whichever is shown is taken over"
-    );
+    assert_eq!(other.shown_cue(), Some(cue(OTHER_SHOTS[0])), "whichever is shown is taken over");
 }
 
 #[test]
@@ -81,11 +67,7 @@ fn without_advice_a_stroke_starts_full_at_a_ball() {
     let speed = |player: &Player| player.app.coach.what_if().unwrap().shot.cue.speed;
     assert!((speed(&undone) - 2.7).abs() < 1e-9, "the stroke that was played is back");
     let undone = undone.press("u u");
-    assert_eq!(
-        (undone.app.key_context(), *undone.app.coach.layout()),
-        (KeyContext::OwnStroke, placed),
-        "nothing more to undo"
-    );
+    assert_eq!((undone.app.key_context(), *undone.app.coach.layout()), (KeyContext::OwnStroke, placed));
     undone.warns("the stroke is unchanged");
     let asked = undone.press("Esc Enter").answer();
     assert!(asked.app.coach.what_if().is_none() && asked.app.coach.shot().is_some());
@@ -99,34 +81,25 @@ fn without_advice_a_stroke_starts_full_at_a_ball() {
 #[test]
 fn speeds_are_in_feet_with_lengths_in_feet() {
     let player = Player::with_settings(TRUE_COLOUR, "length_unit = \"feet\"\n").press("Enter").answer().press("w");
-    for (width, height) in [(80, 24), (120, 40), (200, 60)] {
-        let text = player.text(width, height);
-        assert!(text.contains("8.20 ft/s") && !text.contains("m/s"), "{text}");
+    for size in [(80, 24), (120, 40), (200, 60)] {
+        player.shows_at(size, &["8.20 ft/s"]).hides_at(size, &["m/s"]);
     }
-    let numbers = player.press("Esc N").text(120, 40);
-    assert!(numbers.contains("8.20 ft/s, the cue") && !numbers.contains("m/s"), "{numbers}");
+    player.press("Esc N").shows_at((120, 40), &["8.20 ft/s, the cue"]).does_not_show("m/s");
     // Speeds of two digits have their unit, too.
     let harder = Player::with_settings(TRUE_COLOUR, "length_unit = \"feet\"\n").press("Enter").answer();
     let harder = harder.press("w Up Up Up Up Up Up Up Up");
-    let text = harder.text(80, 24);
-    assert!(text.contains("speed 1") && text.contains(" ft/s"), "{text}");
+    harder.shows_at((80, 24), &["speed 1", " ft/s"]);
 }
 
 #[test]
 fn the_stroke_is_shown_in_the_units_of_the_keys() {
     let player = in_what_if_mode(TRUE_COLOUR);
-    for (width, height) in [(80, 24), (120, 40)] {
-        let text = player.text(width, height);
-        assert!(["aim ", "288.00°", "2 tips", "2.50 m/s", "6.0° up"].iter().all(|part| text.contains(part)), "{text}");
-        assert!(!text.contains("ω0"), "{text}");
+    for size in SIZES {
+        player.shows_at(size, &["aim ", "288.00°", "2 tips", "2.50 m/s", "6.0° up"]).hides_at(size, &["ω0"]);
     }
     // The smallest steps of every key are visible.
-    let small = player.press("C-Right l Up +").text(80, 24);
-    for part in ["287.99°", "1.8 tips", "2.60 m/s", "7.0° up"] {
-        assert!(small.contains(part), "{part}\n{small}");
-    }
-    let numbers = Player::new().press("Enter").answer().press("N w").text(80, 24);
-    assert!(numbers.contains("ω0"), "{numbers}");
+    player.press("C-Right l Up +").shows_at((80, 24), &["287.99°", "1.8 tips", "2.60 m/s", "7.0° up"]);
+    Player::new().press("Enter").answer().press("N w").shows_at((80, 24), &["ω0"]);
 }
 
 #[test]
@@ -149,8 +122,7 @@ fn both_paths_are_distinguishable_without_colours() {
 fn the_success_rate_of_a_stroke_comes_from_the_coach() {
     let mut player = in_what_if_mode(TRUE_COLOUR);
     let job = player.success_rate_job.take().unwrap();
-    let mut answers = Vec::new();
-    CoachWorker::with_simulation_limit(1).answer(&job, |answer| answers.push(answer));
+    let answers = worker_answers(&mut CoachWorker::with_simulation_limit(1), &job);
     let [answer] = &answers[..] else { panic!("{answers:?}") };
     let CoachEvent::StrokeRated(made) = answer.event else { panic!("{answer:?}") };
     assert!(answer.id == job.id && (0.2..0.8).contains(&made.rate), "{made:?}");
@@ -176,7 +148,7 @@ fn copying_the_model_shot_marks_the_attempt_helped() {
     let attempt = &ended.store().sessions().items[0].attempts[0];
     assert!(attempt.helped, "{attempt:?}");
     let meant = attempt.intended.unwrap();
-    assert!((meant.speed - CueInputs::parse(SHOT).unwrap().speed).abs() < 1e-9, "the stroke stays set: {meant:?}");
+    assert!((meant.speed - cue(SHOT).speed).abs() < 1e-9, "the stroke stays set: {meant:?}");
 }
 
 #[test]

@@ -109,10 +109,10 @@ fn notes(place: KeyContext) -> Vec<String> {
 }
 
 /// Draws the overlay `what`, scrolled to line `top`. Returns the first row below its text.
-pub fn draw(app: &App, what: Overlay, top: u16, parts: &PageArea, ui: &mut Ui) -> u16 {
+pub fn draw(app: &App, what: Overlay, top: usize, parts: &PageArea, ui: &mut Ui) -> u16 {
     let (page, lines) = (page(parts.screen), lines(app, what, parts.screen));
     let last = lines.len().saturating_sub(usize::from(page.height));
-    let first = usize::from(top).min(last);
+    let first = top.min(last);
     for (line, row) in lines[first..].iter().zip(page.y..page.bottom()) {
         ui.buffer.set_line(page.x, row, line, page.width);
     }
@@ -125,8 +125,8 @@ pub fn draw(app: &App, what: Overlay, top: u16, parts: &PageArea, ui: &mut Ui) -
 }
 
 /// The topmost line when the overlay is scrolled to its end.
-pub fn end(app: &App, what: Overlay, area: Rect) -> u16 {
-    lines(app, what, area).len().saturating_sub(usize::from(page(area).height)) as u16
+pub fn end(app: &App, what: Overlay, area: Rect) -> usize {
+    lines(app, what, area).len().saturating_sub(usize::from(page(area).height))
 }
 
 /// The part of the screen that shows the lines.

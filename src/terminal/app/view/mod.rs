@@ -5,23 +5,22 @@ mod glossary;
 mod help;
 mod hints;
 mod tabs;
-mod target;
 mod toasts;
 mod too_small;
 
-use ratatui::{buffer::Buffer, layout::Rect};
+use ratatui::{
+    buffer::Buffer,
+    layout::{Position, Rect},
+};
 
 use self::{hints::draw_hints, tabs::draw_tabs, toasts::draw_toasts};
 use crate::terminal::{
-    App, Overlay, Toast,
-    pages::{Page, PageArea},
+    App, KeyContext, Overlay, PageId, Toast,
+    pages::{Page, PageArea, Target},
     ui::{Ui, draw_question, draw_status},
 };
 
-pub use self::{
-    help::end as overlay_end,
-    target::{Pointed, pointed_at},
-};
+pub use self::help::end as overlay_end;
 
 /// Smallest screen, columns and rows, with room for the table and its panels.
 pub const MIN_SIZE: (u16, u16) = (80, 24);
@@ -69,4 +68,27 @@ pub fn draw(app: &App, area: Rect, buffer: &mut Buffer) {
     // The first row belongs to the header.
     let room = Rect::new(area.x, area.y + 1, area.width, foot.saturating_sub(area.y + 1));
     draw_toasts(app.toasts.shown.iter().filter(is_drawn), room, ui);
+}
+
+/// Something on the screen that reacts to the mouse.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pointed {
+    /// The tab of a screen.
+    Tab(PageId),
+    /// Something on the open page.
+    Page(Target),
+}
+
+/// Finds the target at a cell of the screen in `area`, assuming that no overlay is open.
+pub fn pointed_at(app: &App, area: Rect, at: Position) -> Option<Pointed> {
+    if is_too_small(area) {
+        return None;
+    }
+    let header = Rect { height: 1, ..area };
+    if let Some((screen, ..)) = tabs::tabs(app, header).into_iter().find(|(_, place, _)| place.contains(at)) {
+        return Some(Pointed::Tab(screen));
+    }
+    let is_question = matches!(app.key_context(), KeyContext::Question { .. });
+    let target = (!is_question).then(|| app.page().target(&page_area(app, area), at));
+    target.flatten().map(Pointed::Page)
 }

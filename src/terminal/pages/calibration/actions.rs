@@ -70,9 +70,7 @@ impl CalibrationPage {
                 return Some(self.report_left_out(self.sheet().test().name, is_out));
             }
             Action::MarkStroke(by) => self.sheet_mut().move_stroke(by),
-            Action::EnterStroke => {
-                self.open_form(Form::new(self.sheet().test()));
-            }
+            Action::EnterStroke => self.open_form(Form::new(self.sheet().test())),
             Action::EditStroke => {
                 let sheet = self.sheet();
                 let (place, entry) = sheet.marked_stroke()?;

@@ -8,7 +8,7 @@ use crate::{
         Calibration, DAILY_TESTS, Edit, Entries, Entry, EntryProblem, NextTest, PROTOCOL, Test, next_day_doubt, prior,
     },
     table::{Table, TableDoubt},
-    terminal::{Evaluation, EvaluationTask},
+    terminal::{Evaluation, EvaluationTask, pages::moved_index},
 };
 
 /// Default name of a table that the user did not name.
@@ -77,7 +77,7 @@ impl Sheet {
 
     /// Moves the mark by `by` tests, downwards if positive.
     pub fn move_mark(&mut self, by: isize) {
-        self.mark = self.mark.saturating_add_signed(by).min(self.tests().count() - 1);
+        self.mark = moved_index(self.mark, by, self.tests().count());
         self.stroke = None;
     }
 
@@ -117,8 +117,7 @@ impl Sheet {
 
     /// Moves the mark among the strokes of the test.
     pub fn move_stroke(&mut self, by: isize) {
-        let last = self.strokes(self.test()).len().saturating_sub(1);
-        self.stroke = Some(self.stroke().saturating_add_signed(by).min(last));
+        self.stroke = Some(moved_index(self.stroke(), by, self.strokes(self.test()).len()));
     }
 
     /// Whether the player has left a test out.

@@ -111,9 +111,8 @@ impl CoachPage {
 
     /// Changes the player's own stroke.
     pub(super) fn change_stroke(&mut self, change: StrokeChange) -> Option<Effect> {
-        let (table, layout) = (Arc::clone(&self.history.present().table), *self.layout());
         let mut stroke = self.own_stroke.as_ref()?.stroke.clone();
-        match stroke.change(change, &table, &layout) {
+        match stroke.change(change, self.table(), self.layout()) {
             Ok(()) => self.simulate_stroke(stroke),
             Err(error) => self.refuse(error),
         }
@@ -130,10 +129,9 @@ impl CoachPage {
     /// # Errors
     /// Returns a message if the words do not describe a possible stroke.
     pub(super) fn set_stroke_in_words(&mut self, words: &str) -> Result<Option<Effect>, String> {
-        let (table, layout, cue_ball) = (Arc::clone(&self.history.present().table), *self.layout(), self.cue_ball());
         let Some(own) = &self.own_stroke else { return Ok(None) };
         let mut stroke = own.stroke.clone();
-        stroke.apply_text(words, &table, &layout, cue_ball).map_err(|error| error.to_string())?;
+        stroke.apply_text(words, self.table(), self.layout(), self.cue_ball()).map_err(|error| error.to_string())?;
         Ok(self.simulate_stroke(stroke))
     }
 

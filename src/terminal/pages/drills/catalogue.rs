@@ -3,7 +3,7 @@
 use crate::{
     drills::{Category, Exercise, Filter, Library},
     game::Rule,
-    terminal::pages::neighbour,
+    terminal::pages::{moved_index, neighbour},
 };
 
 /// The exercise library with the state of its list.
@@ -30,9 +30,7 @@ impl Catalogue {
 
     /// Replaces the library. The mark stays on its exercise if the new library contains it.
     pub fn set_library(&mut self, library: Library) {
-        let marked = self.marked().map(|exercise| exercise.name.clone());
-        self.library = library;
-        self.mark_named(&marked.unwrap_or_default());
+        self.keeping_mark(|list| list.library = library);
     }
 
     /// The exercises that are shown.
@@ -57,7 +55,7 @@ impl Catalogue {
 
     /// Moves the mark by `lines`, downwards if positive.
     pub fn move_mark(&mut self, lines: isize) {
-        self.mark = self.mark.saturating_add_signed(lines).min(self.filtered().len().saturating_sub(1));
+        self.mark = moved_index(self.mark, lines, self.filtered().len());
     }
 
     /// Whether a filter is active.
@@ -65,23 +63,23 @@ impl Catalogue {
         self.filter != Filter::default()
     }
 
-    /// Changes the filter. The mark stays on its exercise if that is still shown.
-    fn refilter(&mut self, change: impl FnOnce(&mut Filter)) {
+    /// Changes what is listed. The mark stays on its exercise if that is still shown.
+    fn keeping_mark(&mut self, change: impl FnOnce(&mut Self)) {
         let marked = self.marked().map(|exercise| exercise.name.clone());
-        change(&mut self.filter);
+        change(self);
         self.mark_named(&marked.unwrap_or_default());
     }
 
     /// Shows all exercises.
     pub fn show_all(&mut self) {
-        self.refilter(|filter| *filter = Filter::default());
+        self.keeping_mark(|list| list.filter = Filter::default());
     }
 
     /// Shows the category `step` further on. The cycle contains "all categories" between the last and the first.
     pub fn choose_category(&mut self, step: isize) {
-        self.refilter(|filter| {
+        self.keeping_mark(|list| {
             let all: Vec<_> = std::iter::once(None).chain(Category::ALL.map(Some)).collect();
-            filter.category = neighbour(&all, filter.category, step);
+            list.filter.category = neighbour(&all, list.filter.category, step);
         });
     }
 
@@ -93,7 +91,7 @@ impl Catalogue {
 
     /// Shows one grade only; the same grade again shows all grades.
     pub fn choose_grade(&mut self, grade: u8) {
-        self.refilter(|filter| filter.grade = if filter.grade == Some(grade) { None } else { Some(grade) });
+        self.keeping_mark(|list| list.filter.grade = (list.filter.grade != Some(grade)).then_some(grade));
     }
 
     /// Number of matches of the search in other categories and grades, if it has no match in the current list; otherwise 0.
@@ -121,7 +119,7 @@ impl Catalogue {
 
     /// Shows the exercises that contain `text`. Unless the marked one has it in its title, marks the first exercise that does.
     pub fn search(&mut self, text: &str) {
-        self.refilter(|filter| filter.text = (!text.is_empty()).then(|| text.to_owned()));
+        self.keeping_mark(|list| list.filter.text = (!text.is_empty()).then(|| text.to_owned()));
         let sought = text.to_lowercase();
         let is_titled = |exercise: &Exercise| exercise.title.to_lowercase().contains(&sought);
         if !self.marked().is_some_and(is_titled)

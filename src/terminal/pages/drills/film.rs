@@ -4,6 +4,7 @@ use crate::{
     study::filmed::FilmedShot,
     terminal::{
         FilmReplay,
+        pages::moved_index,
         shot::{
             Playback, PlaybackKey,
             film::{ListedShot, listed},
@@ -30,7 +31,7 @@ impl FilmsScreen {
 
     /// Moves the mark by `lines`, downwards if positive.
     pub fn move_mark(&mut self, lines: isize) {
-        self.mark = self.mark.saturating_add_signed(lines).min(listed().len().saturating_sub(1));
+        self.mark = moved_index(self.mark, lines, listed().len());
     }
 
     /// Marks the shot that is `shots` after the marked one, and returns it to be fitted and simulated. Returns `None` if there is no

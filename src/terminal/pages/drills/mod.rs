@@ -38,7 +38,7 @@ use crate::{
             drills::{film::FilmsScreen, goals::Lengths},
             next_skill,
         },
-        ui::{Message, TextField, Typed},
+        ui::{Message, TextField},
     },
 };
 
@@ -272,13 +272,6 @@ impl DrillsPage {
         }
     }
 
-    /// Lists the exercises that contain the typed search text.
-    fn search(&mut self) {
-        if let Some(Question::Search { typed, .. }) = &self.question {
-            self.catalogue.search(typed.text().trim());
-        }
-    }
-
     /// Draws the random seed of a session.
     fn seed(&mut self) -> u64 {
         self.rng.random()
@@ -334,13 +327,10 @@ impl Page for DrillsPage {
         }
     }
 
-    fn input(&mut self, typed: Typed) -> bool {
-        let taken = self.field_mut().is_some_and(|field| field.handle(typed));
-        if taken {
-            self.message = None;
-            self.search();
+    fn on_typed(&mut self) {
+        if let Some(Question::Search { typed, .. }) = &self.question {
+            self.catalogue.search(typed.text().trim());
         }
-        taken
     }
 
     fn tick(&mut self, seconds: f64) {

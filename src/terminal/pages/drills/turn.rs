@@ -388,10 +388,10 @@ impl Turn {
 
     /// Handles the end of saving a session, successful or not. Requests a new model shot if the next position is a different one.
     pub(super) fn on_saved(&mut self, session: &Session) -> Vec<DrillTask> {
-        let Some(ahead) = self.unsaved.take_if(|ahead| ahead.id == session.id) else { return Vec::new() };
-        if ahead != *session {
-            self.unsaved = Some(ahead);
+        if self.unsaved.as_ref().is_none_or(|ahead| ahead.id != session.id) {
+            return Vec::new();
         }
+        self.unsaved.take_if(|ahead| ahead == session);
         self.session = session.clone();
         if self.place_next() { self.request_model_shot() } else { Vec::new() }
     }

@@ -10,7 +10,7 @@ use crate::{
         config::{ENTRIES, Entry},
         keymap::Chord,
         pages::{
-            Page as _,
+            Page as _, moved_index,
             settings::{MAX_TEXT_LENGTH, Question, SettingsPage, TABLE},
             wrapping_index,
         },
@@ -35,7 +35,7 @@ impl SettingsPage {
             Action::ToggleKeys if self.page == Page::Keys => self.page = Page::Values,
             Action::ToggleKeys => self.page = Page::Keys,
             Action::MoveMark(lines) if self.page == Page::Keys => self.keys.move_mark(lines),
-            Action::MoveMark(lines) => self.mark = self.mark.saturating_add_signed(lines).min(ENTRIES.len() - 1),
+            Action::MoveMark(lines) => self.mark = moved_index(self.mark, lines, ENTRIES.len()),
             Action::ChooseKeyPage(pages) => self.keys.choose_page(pages),
             Action::ChangeValue(step) => return self.step(step),
             Action::TypeValue => self.question = Some(Question::Value(TextField::new(MAX_TEXT_LENGTH))),

@@ -8,7 +8,7 @@ use crate::terminal::{
         Chord, KeyEntry, KeyPage, commands_of,
         remap::{chord as chord_named, name},
     },
-    pages::wrapping_index,
+    pages::{moved_index, wrapping_index},
 };
 
 /// The list of key bindings, with its marked command.
@@ -42,8 +42,7 @@ impl OwnKeys {
 
     /// Moves the mark by `lines`, downwards if positive.
     pub fn move_mark(&mut self, lines: isize) {
-        let count = self.page().entries.len();
-        self.mark = self.mark.saturating_add_signed(lines).min(count.saturating_sub(1));
+        self.mark = moved_index(self.mark, lines, self.page().entries.len());
     }
 
     /// Cycles through the pages whose keys are listed, forwards if positive.

@@ -3,7 +3,7 @@
 //! A new set of shots is played once and stops at its last shot. After that nothing moves until the next set arrives or the user
 //! starts the replay again.
 
-use crate::terminal::{Reel, ReplayShot, shot::Playback};
+use crate::terminal::{Reel, ReplayShot, pages::moved_index, shot::Playback};
 
 /// Time between two frames, s.
 pub const INTERVAL: f64 = 0.1;
@@ -115,8 +115,7 @@ impl Replay {
     pub fn step(&mut self, shots: isize) {
         let count = self.reel.as_ref().map_or(0, |reel| reel.shots.len());
         if count > 0 {
-            let index = self.index.saturating_add_signed(shots).min(count - 1);
-            self.show(index);
+            self.show(moved_index(self.index, shots, count));
         }
         self.motion = Motion::Stopped;
         self.stopped_by_user = true;

@@ -1,9 +1,12 @@
 //! The list of training runs and its marked (selected) run.
 
-use crate::learning::run::{
-    follow::Condition,
-    list::{Listing, Summary},
-    status::Phase,
+use crate::{
+    learning::run::{
+        follow::Condition,
+        list::{Listing, Summary},
+        status::Phase,
+    },
+    terminal::pages::moved_index,
 };
 
 /// The list of runs.
@@ -51,8 +54,7 @@ impl RunList {
 
     /// Moves the mark by `lines`, downwards if positive, within the list.
     pub fn move_mark(&mut self, lines: isize) {
-        let last = self.runs().len().saturating_sub(1);
-        let mark = self.mark().saturating_add_signed(lines).min(last);
+        let mark = moved_index(self.mark(), lines, self.runs().len());
         self.marked = self.runs().get(mark).map(|run| run.name.clone());
     }
 

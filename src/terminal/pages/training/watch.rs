@@ -64,12 +64,11 @@ pub struct Watch {
 impl Watch {
     /// Creates the state for the run in `folder`, which has not been read yet. `runs` is the folder to which names are relative.
     pub fn new(folder: &Path, runs: &Path, opening: u64) -> Self {
-        let (charts, replay) = (Charts::default(), Replay::default());
         Self {
             own: NamedRun::new(folder, runs, opening),
             other: None,
-            charts,
-            replay,
+            charts: Charts::default(),
+            replay: Replay::default(),
             has_policy: false,
             failure: None,
         }

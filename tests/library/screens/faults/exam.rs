@@ -130,19 +130,13 @@ fn attempts_noted_by_another_program_are_not_overwritten() {
 #[test]
 fn earlier_sessions_stay_available_until_resumed() {
     let place = |player: &Player| *player.app.coach.layout();
-    let next = |player: &Player| {
-        let last = player.app.saved_session();
-        let mut next = Player::new();
-        next.app = next.app.with_saved_session(last);
-        next
-    };
     let first = Player::new().press("r");
     let left = place(&first);
     // A mistaken key at the next start, and at the one after it.
-    let second = next(&first).press("r");
-    let third = next(&second).press("o r");
+    let second = Player::new().after(&first).press("r");
+    let third = Player::new().after(&second).press("o r");
     let (at_second, at_third) = (place(&second), place(&third));
-    let fourth = next(&third).press("c");
+    let fourth = Player::new().after(&third).press("c");
     assert_eq!(place(&fourth), at_third);
     fourth.says("c goes back to the one before");
     let back = fourth.press("c");
@@ -152,25 +146,19 @@ fn earlier_sessions_stay_available_until_resumed() {
     back.press("c").says("no unfinished exam or earlier session");
 }
 
-/// Returns the next start after `player` has left.
-fn next_start(player: &Player) -> Player {
-    let mut next = Player::new();
-    next.app = next.app.with_saved_session(player.app.saved_session());
-    next
-}
-
 #[test]
 fn an_exam_that_is_left_without_a_stroke_comes_after_everything_else() {
     let left = Player::new().press("r");
     let place = *left.app.coach.layout();
-    let exam = next_start(&left).press("F3 e Enter Space Space Enter Enter Esc y F2 c");
+    let exam = Player::new().after(&left).press("F3 e Enter Space Space Enter Enter Esc y F2 c");
     exam.says("exercise 2 of 20");
     // With a stroke in it, it is what the player wants.
-    let played = next_start(&left).press("F3 e Enter Space Space Enter Enter Esc y F2 c Space Space Enter Enter Esc y");
+    let played =
+        Player::new().after(&left).press("F3 e Enter Space Space Enter Enter Esc y F2 c Space Space Enter Enter Esc y");
     played.says("c on the coach's page (F2) goes on with it");
     played.press("F2 c").says("exercise 3 of 20");
     for leave in ["Esc y F2", "F2"] {
-        let declined = next_start(&left).press("F3 e Enter Space Space Enter Enter Esc y F2 c").press(leave);
+        let declined = Player::new().after(&left).press("F3 e Enter Space Space Enter Enter Esc y F2 c").press(leave);
         assert_ne!(*declined.app.coach.layout(), place);
         let back = declined.press("c");
         assert_eq!((back.app.key_context(), *back.app.coach.layout()), (KeyContext::Coach, place), "{leave}");
@@ -194,10 +182,10 @@ fn exams_that_are_left_without_a_stroke_take_turns() {
 #[test]
 fn a_declined_exam_does_not_hide_the_last_session_at_the_next_start() {
     let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter Esc y F2 c");
-    next_start(&exam).press("c").says("exercise 2 of 20");
+    Player::new().after(&exam).press("c").says("exercise 2 of 20");
     let declined = exam.press("Esc y F2 r");
     let place = *declined.app.coach.layout();
-    let next = next_start(&declined);
+    let next = Player::new().after(&declined);
     next.says("c goes on from where the last session ended");
     let back = next.press("c");
     assert_eq!((back.app.key_context(), *back.app.coach.layout()), (KeyContext::Coach, place));

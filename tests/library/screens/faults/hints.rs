@@ -1,6 +1,6 @@
 //! Keys of an exercise that no hint mentioned.
 
-use crate::screens::player::{Player, TRUE_COLOUR};
+use crate::screens::player::{Player, SIZES, TRUE_COLOUR};
 
 fn hints(player: &Player, width: u16, height: u16) -> String {
     player.text(width, height).lines().last().unwrap().to_owned()
@@ -10,14 +10,12 @@ fn hints(player: &Player, width: u16, height: u16) -> String {
 fn hints_mention_notes_goals_and_shifts() {
     let aiming = Player::practising(TRUE_COLOUR);
     let line = hints(&aiming, 120, 40);
-    for part in ["←→ aim", "hjkl tip", "↓↑ speed", "v hint", "m n made/miss", "o goal", "x shift"] {
-        assert!(line.contains(part), "{part}: {line}");
-    }
+    let hinted = ["←→ aim", "hjkl tip", "↓↑ speed", "v hint", "m n made/miss", "o goal", "x shift"];
+    assert!(hinted.iter().all(|part| line.contains(part)), "{line}");
     // There is no room in the last row, so the hint is in the row above it.
-    let small = aiming.text(80, 24);
-    assert!(small.contains("m made, n missed"), "{small}");
+    aiming.shows_at((80, 24), &["m made, n missed"]);
     let ended = aiming.press("Space Space").wait(60.0);
-    for (width, height) in [(80, 24), (120, 40)] {
+    for (width, height) in SIZES {
         let line = hints(&ended, width, height);
         assert!(line.contains("Enter next") && line.contains("m n made/miss"), "{line}");
     }
@@ -31,9 +29,7 @@ fn hints_mention_notes_goals_and_shifts() {
 fn exam_hints_omit_notes_goals_and_shifts() {
     let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter");
     let line = hints(&exam, 200, 60);
-    for part in ["made/miss", "goal", "shift"] {
-        assert!(!line.contains(part), "{part}: {line}");
-    }
+    assert!(["made/miss", "goal", "shift"].iter().all(|part| !line.contains(part)), "{line}");
     assert!(!exam.text(80, 24).contains("m made"));
 }
 

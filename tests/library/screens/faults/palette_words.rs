@@ -4,18 +4,19 @@ use carom::terminal::{Action, CoachAction, DrillAction};
 
 use crate::screens::player::{Player, TRUE_COLOUR};
 
-/// Returns the selected actions after this word was typed, at the coach's table.
-fn at_coach(word: &str) -> Vec<Action> {
-    let mut player = Player::new().press(":");
+/// Returns the selected actions after this word was typed.
+fn found(player: Player, word: &str) -> Vec<Action> {
+    let mut player = player.press(":");
     player.app.paste(word);
     player.app.command_palette.as_ref().unwrap().matching(player.app.commands()).iter().map(|one| one.action).collect()
 }
 
-/// The same in the library.
+fn at_coach(word: &str) -> Vec<Action> {
+    found(Player::new(), word)
+}
+
 fn in_the_library(word: &str) -> Vec<Action> {
-    let mut player = Player::at_library(TRUE_COLOUR, &[], &[]).press(":");
-    player.app.paste(word);
-    player.app.command_palette.as_ref().unwrap().matching(player.app.commands()).iter().map(|one| one.action).collect()
+    found(Player::at_library(TRUE_COLOUR, &[], &[]), word)
 }
 
 #[test]
@@ -44,10 +45,4 @@ fn share_and_save_are_found_by_synonyms() {
 fn commands_about_diamonds_are_found() {
     assert!(at_coach("diamond").contains(&Action::Coach(CoachAction::NextInfoPanel)));
     assert!(in_the_library("diamond").contains(&Action::Drill(DrillAction::Search)));
-}
-
-#[test]
-fn an_unmatched_search_shows_a_message() {
-    let player = Player::new().press(": x x x x");
-    assert!(player.text(80, 24).contains("no matching command"));
 }

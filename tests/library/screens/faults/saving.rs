@@ -4,13 +4,9 @@ use carom::terminal::{KeyContext, PageId};
 
 use crate::screens::player::{Player, check};
 
-fn at_coach() -> Player {
-    Player::new()
-}
-
 #[test]
 fn the_title_prompt_opens_over_the_coachs_page() {
-    let player = at_coach().press("Right");
+    let player = Player::new().press("Right");
     let table = player.text(120, 40);
     let asked = player.press("s");
     check("save", &asked);
@@ -26,21 +22,21 @@ fn the_title_prompt_opens_over_the_coachs_page() {
 
 #[test]
 fn an_invalid_title_can_be_corrected_and_escape_cancels() {
-    let refused = at_coach().press("s").type_in("??").press("Enter");
+    let refused = Player::new().press("s").type_in("??").press("Enter");
     refused.says("gives no name").says("if you like): ??");
     let saved = refused.press("Backspace Backspace").type_in("mine").press("Enter");
     saved.says("saved as mine");
-    let left = at_coach().press("s").type_in("q1").press("Esc");
+    let left = Player::new().press("s").type_in("q1").press("Esc");
     assert_eq!(left.app.key_context(), KeyContext::Coach);
     assert!(left.store().positions().items.is_empty());
-    let mut pasted = at_coach().press("s");
+    let mut pasted = Player::new().press("s");
     pasted.app.paste("from a\nchat");
     pasted.says("if you like): from a chat");
 }
 
 #[test]
 fn a_late_save_result_does_not_replace_an_open_prompt() {
-    let mut player = at_coach().press("s").type_in("mine").press("Enter p").type_in("2d,");
+    let mut player = Player::new().press("s").type_in("mine").press("Enter p").type_in("2d,");
     let position = player.store().positions().items[0].clone();
     player.app.coach.saved(Box::new(position), Ok(false));
     player.says("mine is not saved: there is another of this name").says("share code)").says("2d,");
@@ -49,7 +45,7 @@ fn a_late_save_result_does_not_replace_an_open_prompt() {
 
 #[test]
 fn replacing_needs_confirmation_and_bundled_names_are_refused() {
-    let twice = at_coach().press("s").type_in("mine").press("Enter Right s").type_in("mine").press("Enter");
+    let twice = Player::new().press("s").type_in("mine").press("Enter Right s").type_in("mine").press("Enter");
     twice.says("there is a position called mine already; replace it?");
     let first = twice.store().positions().items[0].layout;
     let kept = twice.press("n");
@@ -64,7 +60,7 @@ fn replacing_needs_confirmation_and_bundled_names_are_refused() {
 
 #[test]
 fn typed_text_survives_switching_screens() {
-    let player = at_coach().press("s").type_in("half").press("F4 F2");
+    let player = Player::new().press("s").type_in("half").press("F4 F2");
     player.says("if you like): half");
     assert_eq!(player.type_in("t").press("F1 Esc Enter").store().positions().items[0].name, "halft");
 }

@@ -29,34 +29,27 @@ fn practice_is_saved_while_its_page_is_open() {
     assert!(noted.press("F2").app.saved_session().is_none(), "the coach's table is unchanged");
 }
 
-/// Returns the next start after `player` has left, with this text in the settings file.
-fn next_start(player: &Player, settings: &str) -> Player {
-    let last = player.app.saved_session();
-    let mut next = Player::with_settings(TRUE_COLOUR, settings);
-    next.app = next.app.with_saved_session(last);
-    next
-}
-
 #[test]
 fn rule_player_and_plan_are_restored_unless_settings_changed() {
     let terms = |player: &Player| player.app.coach.query.terms();
     let chosen = Player::new().press("R S P");
     let left = terms(&chosen);
     assert!(left.rule == Rule::OneCushion && left.skill != Skill::EXPERT && !left.plan);
-    let second = next_start(&chosen, "");
+    let second = Player::new().after(&chosen);
     assert_eq!(terms(&second), left);
     second.does_not_show("c goes on");
     assert_eq!(second.app.coach.layout(), Player::new().app.coach.layout());
     assert!(second.app.saved_session().is_none(), "the file stays as it is");
     // A setting takes precedence over the previous session if it has changed since; each setting is independent.
-    let set = next_start(&chosen, "skill = \"club\"");
+    let set = Player::with_settings(TRUE_COLOUR, "skill = \"club\"").after(&chosen);
     assert_eq!(terms(&set), Terms { skill: Skill::CLUB, ..left });
     // What was left at one start holds at the one after it.
-    let third = next_start(&second.press("r"), "");
+    let third = Player::new().after(&second.press("r"));
     assert_eq!(terms(&third), left);
     // Changes on the settings screen take effect immediately.
     let fourth = third.press("F5 Home Down Down Down Down Right F2 r");
     assert_eq!(terms(&fourth).rule, Rule::ThreeCushion);
-    assert_eq!(terms(&next_start(&fourth, "rule = \"three-cushion\"")), Terms { rule: Rule::ThreeCushion, ..left });
-    assert_eq!(terms(&next_start(&fourth, "rule = \"straight\"")).rule, Rule::StraightRail);
+    let fifth = |settings: &str| terms(&Player::with_settings(TRUE_COLOUR, settings).after(&fourth));
+    assert_eq!(fifth("rule = \"three-cushion\""), Terms { rule: Rule::ThreeCushion, ..left });
+    assert_eq!(fifth("rule = \"straight\"").rule, Rule::StraightRail);
 }

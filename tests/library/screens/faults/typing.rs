@@ -1,15 +1,12 @@
 //! Numbers that are typed into the form of a new run, and a pasted name.
 
-use carom::terminal::{Effect, KeyContext, TrainingContext, TrainingReport};
+use carom::terminal::{Effect, KeyContext, TrainingContext};
 
-use crate::screens::{
-    player::{Player, TRUE_COLOUR},
-    runs::listing,
-};
+use crate::screens::player::{Player, TRUE_COLOUR};
 
 /// Returns a player at the number of shots in the form.
 fn at_number_of_shots() -> Player {
-    Player::at_runs(TRUE_COLOUR).report(TrainingReport::Runs(Ok(listing()))).press("n Down Down Down")
+    Player::listing(TRUE_COLOUR).press("n Down Down Down")
 }
 
 /// Returns the value of an option of the started run.
@@ -78,9 +75,7 @@ fn a_run_longer_than_a_day_asks_for_confirmation() {
 fn a_policy_name_can_be_pasted() {
     let mut player = Player::watching(TRUE_COLOUR).press("k");
     assert_eq!(player.app.key_context(), KeyContext::Question { is_typed: true });
-    for _ in 0..100 {
-        player = player.press("Backspace");
-    }
+    player = player.press(&"Backspace ".repeat(100));
     player.app.paste("three-cushions\n");
     player.says("keep the networks under the name: three-cushions");
     let player = player.press("Enter");

@@ -69,10 +69,10 @@ fn has_implausible_entry(page: &CalibrationPage, test: &Test) -> bool {
 
 /// Whether the stroke with index `place` among all entries is implausible or one of its marks looks misread.
 fn is_doubtful(page: &CalibrationPage, place: usize, entry: &Entry) -> bool {
-    let Some(found) = page.sheet().calibration() else { return !entry.readings(&page.table).1.is_empty() };
-    !entry.readings(&page.table).1.is_empty()
-        || found.misread().contains(&(place + 1))
-        || found.outlier_strokes.iter().any(|strange| strange.trial == place + 1)
+    let is_strange = |found: &Calibration| {
+        found.misread().contains(&(place + 1)) || found.outlier_strokes.iter().any(|one| one.trial == place + 1)
+    };
+    !entry.readings(&page.table).1.is_empty() || page.sheet().calibration().is_some_and(is_strange)
 }
 
 fn draw_strokes(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> Rect {

@@ -85,13 +85,8 @@ fn draw_ball(coach: &CoachPage, ball: usize, area: Rect, ui: &mut Ui) {
         write_right(ui.buffer, area.x, area.x + X_DIAMONDS_END, area.y, &fixed(diamonds.x, 2), style);
         write_right(ui.buffer, area.x, area.x + Y_DIAMONDS_END, area.y, &fixed(diamonds.y, 2), style);
     }
-    ui.buffer.set_stringn(
-        area.x + MOTION,
-        area.y,
-        motion,
-        usize::from(area.width.saturating_sub(MOTION)),
-        ui.theme.faint(),
-    );
+    let motion = Line::styled(motion, ui.theme.faint());
+    ui.buffer.set_line(area.x + MOTION, area.y, &motion, area.width.saturating_sub(MOTION));
 }
 
 fn more(coach: &CoachPage, theme: &Theme) -> Vec<Line<'static>> {

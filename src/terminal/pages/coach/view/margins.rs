@@ -1,6 +1,10 @@
 //! The panel "Margins": the error margin of each input of the stroke, next to the player's usual error.
 
-use ratatui::{layout::Rect, style::Style, text::Span};
+use ratatui::{
+    layout::Rect,
+    style::Style,
+    text::{Line, Span},
+};
 
 use crate::{
     coach::{
@@ -79,13 +83,8 @@ pub fn draw_margins(
         let note = inner.y + 1 + rows.len() as u16;
         if tightest.is_some() && note < inner.bottom() {
             let words = format!("{} tightest: errors leave it first", ui.caps.pick("▸", ">"));
-            ui.buffer.set_stringn(
-                inner.x + 1,
-                note,
-                words,
-                usize::from(inner.width.saturating_sub(1)),
-                ui.theme.faint(),
-            );
+            let words = Line::styled(words, ui.theme.faint());
+            ui.buffer.set_line(inner.x + 1, note, &words, inner.width.saturating_sub(1));
         }
     } else {
         let places = (0..2).flat_map(|column| (inner.y..inner.bottom()).map(move |y| (column, y)));

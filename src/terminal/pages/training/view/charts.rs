@@ -1,6 +1,6 @@
 //! The charts of a watched run and of the run to compare with.
 
-use ratatui::layout::Rect;
+use ratatui::{layout::Rect, text::Line};
 
 use crate::{
     learning::run::{follow::Followed, quantity::Quantity},
@@ -21,13 +21,8 @@ pub fn draw(watch: &Watch, area: Rect, ui: &mut Ui) {
     let drawn = charts.drawn();
     if drawn.is_empty() {
         let words = "No chart is shown; 1 to 9 show some, ? lists them.";
-        ui.buffer.set_stringn(
-            area.x + 3,
-            area.y + 1,
-            words,
-            usize::from(area.width.saturating_sub(4)),
-            ui.theme.faint(),
-        );
+        let line = Line::styled(words, ui.theme.faint());
+        ui.buffer.set_line(area.x + 3, area.y + 1, &line, area.width.saturating_sub(4));
         return;
     }
     for (&n, (place, is_last)) in drawn.iter().zip(grid(drawn.len(), area)) {
