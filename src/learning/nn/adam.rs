@@ -4,7 +4,7 @@ use candle_core::{CpuStorage, InplaceOp2, InplaceOp3, Layout, Result, Tensor, Va
 use candle_nn::Optimizer;
 use pulp::Arch;
 
-use super::tensors::{stored_values, values};
+use super::{stored_values, values};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdamConfig {

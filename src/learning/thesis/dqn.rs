@@ -13,13 +13,14 @@ use super::{
     environment::{DISCRETE_ACTIONS, Environment, Observation, STATES},
     exploration::Epsilon,
     q_learning::{check_episode, check_epsilon},
-    replay::{self, Batch, REPLAY_BUFFER, number},
+    replay::{self, Batch, REPLAY_BUFFER},
 };
 use crate::learning::{
     learner::{Progress, UpdateStats, note_of},
     nn::{
         adam::{Adam, AdamConfig},
         mlp::Mlp,
+        number,
         squared_error::squared_error,
         weights::{Reader, WeightsError, Writer},
     },
