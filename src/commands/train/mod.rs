@@ -26,7 +26,7 @@ use crate::{
     game::Reward,
     learning::{
         agents::AGENTS,
-        ddpg::learner::MIN_ACTOR_LEARNING_RATE,
+        ddpg::trainer::MIN_ACTOR_LEARNING_RATE,
         evaluation::Score,
         learner::StartError,
         run::{Ending, Limits, Run, RunError, contains_run, discard, seeds::is_group},
