@@ -88,7 +88,7 @@ impl Trainer {
     }
 
     /// Converts stored shots to a minibatch.
-    pub(super) fn batch(&self, shots: &[Transition]) -> candle_core::Result<ShotBatch> {
+    fn batch(&self, shots: &[Transition]) -> candle_core::Result<ShotBatch> {
         let observations = shots.iter().map(|shot| self.tables.contextual(shot.observation, shot.context)).collect();
         Ok(ShotBatch {
             observed: ObservationBatch::new(self.task.hyperparameters.inputs(), observations)?,
@@ -98,7 +98,7 @@ impl Trainer {
     }
 
     /// Factor of the initial learning rates: half a cosine from 1 at the first shot to 0 at the last.
-    pub fn lr_factor(&self) -> f64 {
+    fn lr_factor(&self) -> f64 {
         let done = (self.shots as f64 / self.task.plan.shots as f64).min(1.0);
         0.5 * (1.0 + (std::f64::consts::PI * done).cos())
     }

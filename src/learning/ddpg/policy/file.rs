@@ -45,12 +45,6 @@ pub(in crate::learning) fn bundled_bytes(name: &str) -> Option<&'static [u8]> {
     BUNDLED.iter().find(|(bundled, _)| *bundled == name).map(|(_, bytes)| *bytes)
 }
 
-/// Reads the bytes of a policy file.
-pub(super) fn read(path: &Path) -> Result<Vec<u8>, PolicyError> {
-    let refuse = |reason| PolicyError::Read(path.display().to_string(), reason);
-    storage::read(path, storage::MAX_LARGE_FILE).map_err(refuse)
-}
-
 /// Origin of a policy: the run that trained it, and its evaluation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Origin {
@@ -151,7 +145,15 @@ impl Policy {
     /// # Errors
     /// Fails if the file is missing, damaged, from another program, or for other features or actions.
     pub fn load(path: &Path) -> Result<Self, PolicyError> {
-        Self::of_file(&read(path)?, &path.display().to_string())
+        Self::load_with_bytes(path).map(|(policy, _)| policy)
+    }
+
+    /// Loads a policy and returns the file's bytes, too: a run may replace the file before the caller could read it again.
+    pub(super) fn load_with_bytes(path: &Path) -> Result<(Self, Vec<u8>), PolicyError> {
+        let origin = path.display().to_string();
+        let bytes =
+            storage::read(path, storage::MAX_LARGE_FILE).map_err(|reason| PolicyError::Read(origin.clone(), reason))?;
+        Ok((Self::of_file(&bytes, &origin)?, bytes))
     }
 
     /// Parses a policy file after checking its checksum: nothing else would reveal a changed weight. Files of earlier versions have no

@@ -5,10 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::{
-    Policy,
-    file::{PolicyError, read},
-};
+use super::{Policy, file::PolicyError};
 use crate::storage::{NAME_RULE, is_name, write_atomic};
 
 /// Extension of the files.
@@ -60,9 +57,7 @@ pub fn save(folder: &Path, policy: &Path, name: &str, replaces: bool) -> Result<
     if kept.exists() && !replaces {
         return Err(SavePolicyError::Exists(name.to_owned()));
     }
-    // Checks the bytes that are copied: a run may replace the file at any moment.
-    let bytes = read(policy)?;
-    Policy::of_file(&bytes, &policy.display().to_string())?;
+    let (_, bytes) = Policy::load_with_bytes(policy)?;
     write_atomic(&kept, &bytes).map_err(|reason| SavePolicyError::File { path: kept.display().to_string(), reason })?;
     Ok(kept)
 }
