@@ -128,7 +128,7 @@ fn build_spec(args: &Args, base: Option<Base>) -> Result<TrainingSpec, Failure> 
     let known = base.filter(|base| base.agent == agent).map(|base| base.settings);
     let settings = settings(args, known.unwrap_or_else(|| json!({})), &agent)?;
     let layouts = args.evaluation_layouts as usize;
-    let every = args.evaluate_every.unwrap_or(Schedule::for_shots(args.steps).evaluate_every);
+    let every = args.evaluate_every.unwrap_or(Schedule::default_interval(args.steps));
     let plan = TrainingPlan { reward, seed: args.seed, shots: args.steps };
     Ok(TrainingSpec { agent, plan, settings, schedule: Schedule::new(every, layouts), table })
 }

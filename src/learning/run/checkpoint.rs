@@ -251,7 +251,7 @@ mod tests {
     use std::fs;
 
     fn state() -> State {
-        State { schedule: Schedule::for_shots(100), from: None, accumulator: Accumulator::default() }
+        State { schedule: Schedule::new(10_000, 2_000), from: None, accumulator: Accumulator::default() }
     }
 
     /// A folder with two checkpoints, and the shots played at each.
