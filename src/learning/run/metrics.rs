@@ -200,14 +200,18 @@ mod tests {
 
     /// Writes lines with these numbers of shots.
     fn write(file: &mut MetricsFile, shots: &[u64]) {
-        shots.iter().for_each(|shots| file.push(&record(*shots)));
+        for shots in shots {
+            file.push(&record(*shots));
+        }
         file.flush().unwrap();
     }
 
     #[test]
     fn resuming_drops_later_and_incomplete_lines() {
         let (_folder, path, mut file) = opened(5);
-        [1, 2, 3].iter().for_each(|shots| write(&mut file, &[*shots]));
+        for shots in [1, 2, 3] {
+            write(&mut file, &[shots]);
+        }
         let torn = fs::read_to_string(&path).unwrap() + "{\"time/total";
         assert!(notices(&path, 3, 100).is_empty());
         fs::write(&path, &torn).unwrap();
