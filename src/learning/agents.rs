@@ -1,7 +1,7 @@
 //! The agents that can be trained, by name.
 
 use super::{
-    ddpg::learner::AGENT as DDPG,
+    ddpg::trainer::AGENT as DDPG,
     learner::AgentKind,
     thesis::{agent::kind_of, ddpg::PlainDdpg, dqn::Dqn, q_learning::QLearning},
 };

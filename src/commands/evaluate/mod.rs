@@ -131,15 +131,10 @@ pub struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let (spec, records) = if args.merge.is_empty() {
-        let (spec, records) = measure(args)?;
-        if let Some(shard) = args.shard {
-            return Ok(json_line(&Part { spec, shard, records })?);
-        }
-        (spec, records)
-    } else {
-        merge(&args.merge)?
-    };
+    let (spec, records) = if args.merge.is_empty() { measure(args)? } else { merge(&args.merge)? };
+    if let Some(shard) = args.shard {
+        return Ok(json_line(&Part { spec, shard, records })?);
+    }
     if !args.against.is_empty() {
         let comparison = Comparison::of(&spec, &records, &args.against)?;
         return if args.json { Ok(json_line(&comparison)?) } else { print_line(comparison) };

@@ -37,9 +37,6 @@ pub struct Robustness {
     /// The predictions, if there were any.
     #[serde(flatten)]
     reliability: Option<Reliability>,
-    /// Make probability on each layout.
-    #[serde(skip)]
-    chances: Vec<f64>,
 }
 
 /// Predictions of the recommender or the networks, compared with the observations.
@@ -117,9 +114,10 @@ pub fn chance(
 }
 
 impl Robustness {
-    /// Computes the statistics from the make probability on every layout; `chances` must not be empty.
-    pub fn new(skill: Skill, doubt: Doubt, chances: Vec<f64>) -> Self {
-        let mut sorted = chances.clone();
+    /// Computes the statistics from the make probability on every layout, and compares it with the predictions, if there were any;
+    /// `chances` must not be empty.
+    pub fn new(skill: Skill, doubt: Doubt, chances: &[f64], predicted: Option<&[Option<f64>]>) -> Self {
+        let mut sorted = chances.to_vec();
         sorted.sort_by(f64::total_cmp);
         // One layout at either extreme is added, as Agresti and Coull (1998) add attempts: a small sample of rates near 1 seldom contains
         // the rare layouts that are missed, so its own deviation is too small.
@@ -131,17 +129,11 @@ impl Robustness {
         Self {
             skill,
             doubt,
-            make_probability: mean_and_deviation(&chances).0,
+            make_probability: mean_and_deviation(chances).0,
             make_interval: is_enough.then_some(interval),
             worst_tenth: is_enough.then(|| sorted[sorted.len() / 10]),
-            reliability: None,
-            chances,
+            reliability: predicted.map(|predicted| Reliability::new(predicted, chances)),
         }
-    }
-
-    /// Adds the comparison with the predictions.
-    pub fn compare(&mut self, predicted: &[Option<f64>]) {
-        self.reliability = Some(Reliability::new(predicted, &self.chances));
     }
 }
 
@@ -173,7 +165,7 @@ mod tests {
 
     #[test]
     fn few_layouts_give_no_interval() {
-        let of = |chances: &[f64]| Robustness::new(Skill::CLUB, Doubt::FULL, chances.to_vec());
+        let of = |chances: &[f64]| Robustness::new(Skill::CLUB, Doubt::FULL, chances, None);
         let few = of(&[0.737; 9]);
         assert_eq!((few.make_interval, few.worst_tenth), (None, None));
         assert!(

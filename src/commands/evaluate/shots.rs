@@ -234,11 +234,7 @@ fn report<'a>(spec: &'a Spec, records: &[ShotRecord]) -> EvaluationReport<'a> {
     // Predictions are compared with the player's attempts, or otherwise with the shot itself if the reward is 0 or 1.
     let compares_shots = spec.player == "policy" && spec.skill.is_none() && spec.is_yes_or_no && has_predicted;
     let robustness = spec.skill.zip(chances).map(|(skill, chances)| {
-        let mut robustness = Robustness::new(skill, spec.doubt, chances);
-        if has_predicted {
-            robustness.compare(&predicted);
-        }
-        robustness
+        Robustness::new(skill, spec.doubt, &chances, has_predicted.then_some(predicted.as_slice()))
     });
     let successes = records.iter().filter(|record| record.earned >= 1.0).count();
     EvaluationReport {

@@ -172,35 +172,6 @@ fn difference(one: &Value, two: &Value) -> Option<(String, String)> {
     Some((name.clone(), format!("{value} and {}", two[name.as_str()])))
 }
 
-/// Reasons why parts cannot be merged.
-#[derive(Debug, thiserror::Error)]
-pub enum MergeError {
-    /// A file cannot be read.
-    #[error("{} cannot be read: {error}", path.display())]
-    File { path: PathBuf, error: std::io::Error },
-    /// Its content is not a part.
-    #[error("{} is not a part of an evaluation, as carom evaluate --shard prints it: {}", path.display(), describe_content_error(error))]
-    Contents { path: PathBuf, error: serde_json::Error },
-    /// The parts measured different things.
-    #[error("{} and {} are parts of different evaluations: {what}", one.display(), other.display())]
-    Different { one: PathBuf, other: PathBuf, what: String },
-    /// Two files contain the same part.
-    #[error("{} holds part {shard}, which another file holds too", path.display())]
-    Twice { path: PathBuf, shard: Shard },
-    /// Parts are missing.
-    #[error("part {shard} is missing; give the files of all parts")]
-    Missing { shard: Shard },
-}
-
-impl From<MergeError> for Failure {
-    fn from(error: MergeError) -> Self {
-        match error {
-            MergeError::File { .. } => Self::failed(error),
-            _ => Self::wrong_input(error),
-        }
-    }
-}
-
 /// Explains where the content stops being a part, without the jargon of the JSON library.
 fn describe_content_error(error: &serde_json::Error) -> String {
     if error.is_data() {
@@ -210,44 +181,56 @@ fn describe_content_error(error: &serde_json::Error) -> String {
 }
 
 /// Merges the parts in these files into the whole.
-pub fn merge(files: &[PathBuf]) -> Result<(Spec, Records), MergeError> {
+pub fn merge(files: &[PathBuf]) -> Result<(Spec, Records), Failure> {
+    let missing =
+        |shard: Shard| Failure::wrong_input(format_args!("part {shard} is missing; give the files of all parts"));
     let mut whole: Option<Part> = None;
     let mut seen = BTreeSet::new();
     for path in files {
         let part = read(path)?;
-        let different = |what| MergeError::Different { one: files[0].clone(), other: path.clone(), what };
+        let (first, shown) = (files[0].display(), path.display());
+        let different = |what: &str| {
+            Failure::wrong_input(format_args!("{first} and {shown} are parts of different evaluations: {what}"))
+        };
         // Check this first, because parts of another evaluation may have the same number.
         if let Some(what) = whole.as_ref().and_then(|whole| whole.difference(&part)) {
-            return Err(different(what));
+            return Err(different(&what));
         }
         if !seen.insert(part.shard.part) {
-            return Err(MergeError::Twice { path: path.clone(), shard: part.shard });
+            let shard = part.shard;
+            return Err(Failure::wrong_input(format_args!("{shown} holds part {shard}, which another file holds too")));
         }
         match &mut whole {
             None => whole = Some(part),
             Some(whole) => {
                 whole.spec.complete_from(&part.spec);
                 if !whole.records.append(part.records) {
-                    return Err(different("other records".to_owned()));
+                    return Err(different("other records"));
                 }
             }
         }
     }
     // The command line requires at least one file.
     let Some(Part { spec, shard: Shard { of, .. }, mut records }) = whole else {
-        return Err(MergeError::Missing { shard: Shard::WHOLE });
+        return Err(missing(Shard::WHOLE));
     };
     if let Some(part) = (1..=of).find(|part| !seen.contains(part)) {
-        return Err(MergeError::Missing { shard: Shard { part, of } });
+        return Err(missing(Shard { part, of }));
     }
     records.sort();
     Ok((spec, records))
 }
 
-fn read(path: &Path) -> Result<Part, MergeError> {
+fn read(path: &Path) -> Result<Part, Failure> {
+    let shown = path.display();
     let text = storage::read(path, storage::MAX_LARGE_FILE)
-        .map_err(|error| MergeError::File { path: path.to_owned(), error })?;
-    serde_json::from_slice(&text).map_err(|error| MergeError::Contents { path: path.to_owned(), error })
+        .map_err(|error| Failure::failed(format_args!("{shown} cannot be read: {error}")))?;
+    serde_json::from_slice(&text).map_err(|error| {
+        Failure::wrong_input(format_args!(
+            "{shown} is not a part of an evaluation, as carom evaluate --shard prints it: {}",
+            describe_content_error(&error)
+        ))
+    })
 }
 
 impl Records {

@@ -26,7 +26,7 @@ use crate::{
     game::Reward,
     learning::{
         agents::AGENTS,
-        ddpg::learner::MIN_ACTOR_LEARNING_RATE,
+        ddpg::trainer::MIN_ACTOR_LEARNING_RATE,
         evaluation::Score,
         learner::StartError,
         run::{Ending, Limits, Run, RunError, contains_run, discard, seeds::is_group},
@@ -73,6 +73,7 @@ pub struct Args {
     #[arg(long, value_name = "SHOTS", value_parser = whole_number_from(1_u64))]
     evaluate_every: Option<u64>,
     /// Number of held-out layouts of a measurement.
+    // The default is enough for a standard error of half a percent near 0.95.
     #[arg(long, value_name = "N", default_value_t = 2_000, value_parser = whole_number(1..=10_000_000_u32))]
     evaluation_layouts: u32,
     /// The run's folder. Default: a new one among the user's runs, named after the start time and what is trained, with -2, -3 and so on

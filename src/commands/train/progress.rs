@@ -68,21 +68,7 @@ impl Progress {
         self.bar.finish_and_clear();
         self.unwritten.map_or(Ok(()), Err)
     }
-}
 
-/// Formats a measurement as a line; `None` if the record has none.
-pub fn format_record(record: &Record) -> Option<String> {
-    let Record { seconds, shots, .. } = record;
-    let speed = *shots as f64 / seconds.max(1e-9);
-    summary(record).map(|summary| format!("{seconds:.0} s, {shots} shots, {speed:.0} shots/s, {summary}"))
-}
-
-fn summary(record: &Record) -> Option<String> {
-    let reward = record.held_out_reward?;
-    Some(format!("critic loss {:.4}, held-out reward {reward:.4}", record.critic_loss))
-}
-
-impl Progress {
     /// Prints a report.
     pub fn report(&mut self, report: Report<'_>) {
         match report {
@@ -109,4 +95,16 @@ impl Progress {
             print_note(format_args!("{line}{whose}"));
         }
     }
+}
+
+/// Formats a measurement as a line; `None` if the record has none.
+pub fn format_record(record: &Record) -> Option<String> {
+    let Record { seconds, shots, .. } = record;
+    let speed = *shots as f64 / seconds.max(1e-9);
+    summary(record).map(|summary| format!("{seconds:.0} s, {shots} shots, {speed:.0} shots/s, {summary}"))
+}
+
+fn summary(record: &Record) -> Option<String> {
+    let reward = record.held_out_reward?;
+    Some(format!("critic loss {:.4}, held-out reward {reward:.4}", record.critic_loss))
 }

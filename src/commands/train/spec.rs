@@ -128,7 +128,7 @@ fn build_spec(args: &Args, base: Option<Base>) -> Result<TrainingSpec, Failure> 
     let known = base.filter(|base| base.agent == agent).map(|base| base.settings);
     let settings = settings(args, known.unwrap_or_else(|| json!({})), &agent)?;
     let layouts = args.evaluation_layouts as usize;
-    let every = args.evaluate_every.unwrap_or(Schedule::for_shots(args.steps).evaluate_every);
+    let every = args.evaluate_every.unwrap_or(Schedule::default_interval(args.steps));
     let plan = TrainingPlan { reward, seed: args.seed, shots: args.steps };
     Ok(TrainingSpec { agent, plan, settings, schedule: Schedule::new(every, layouts), table })
 }
@@ -238,7 +238,7 @@ fn stored_spec(folder: &Path) -> Option<(TrainingSpec, Option<Provenance>, Optio
 fn settings(args: &Args, known: Value, agent: &str) -> Result<Value, Failure> {
     // An unknown agent is refused by name when the run starts.
     let Ok(kind) = AgentKind::named(agent) else { return Ok(known) };
-    let [mut settings, mut from_file, mut from_pairs] = [known, json!({}), json!({})];
+    let (mut from_file, mut from_pairs) = (json!({}), json!({}));
     let defaults = (kind.settings)(&json!({})).unwrap_or_default();
     if let Some(path) = &args.config {
         let shown = format!("the settings in {}", path.display());
@@ -256,7 +256,7 @@ fn settings(args: &Args, known: Value, agent: &str) -> Result<Value, Failure> {
         replace(&mut from_pairs, &format!("{name} = {value}"), &shown, &defaults)?;
     }
     let current = |settings: &Value| (kind.current_names)(settings).map_err(|error| failure(error.into()));
-    settings = current(&settings)?;
+    let mut settings = current(&known)?;
     for changes in [from_file, from_pairs] {
         merge_settings(&mut settings, &current(&changes)?, &defaults);
     }

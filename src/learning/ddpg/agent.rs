@@ -18,7 +18,10 @@ use super::{
 };
 use crate::learning::{
     learner::UpdateStats,
-    nn::adam::{Adam, soft_update},
+    nn::{
+        adam::{Adam, soft_update},
+        number,
+    },
 };
 
 /// Absolute output of the actor above which the hyperbolic tangent (0.96 here) has hardly any slope.
@@ -97,7 +100,6 @@ impl Ddpg {
 
         soft_update(self.target.critic.parameters(), self.online.critic.parameters(), self.hyper.tau)?;
         soft_update(self.target.actor.parameters(), self.online.actor.parameters(), self.hyper.tau)?;
-        let number = |tensor: &Tensor| tensor.to_scalar::<f32>().map(f64::from);
         Ok(UpdateStats { loss: number(&loss)?, value: number(&probability)? })
     }
 
@@ -199,19 +201,15 @@ mod tests {
             ..Hyperparameters::default()
         };
         let agent = Ddpg::new(hyper, &mut rng).unwrap();
-        for network in [&agent.online.actor, &agent.online.critic] {
-            let parameters = network.parameters();
-            let values: Vec<f32> = (0..parameters.elem_count()).map(|_| rng.random_range(-0.3..0.3)).collect();
-            parameters.set(&Tensor::from_vec(values, parameters.shape(), &Device::Cpu).unwrap()).unwrap();
-        }
         // The critic ignores the features that have no slopes.
-        let critic = &agent.online.critic;
-        let mut values = critic.parameters().to_vec1::<f32>().unwrap();
-        for feature in FREE_PATHS {
-            let first = (STATE_FEATURES + feature) * layers[0];
-            values[first..first + layers[0]].fill(0.0);
+        for (network, ignored) in [(&agent.online.actor, [].as_slice()), (&agent.online.critic, &FREE_PATHS)] {
+            let parameters = network.parameters();
+            let mut values: Vec<f32> = (0..parameters.elem_count()).map(|_| rng.random_range(-0.3..0.3)).collect();
+            for feature in ignored {
+                values[(STATE_FEATURES + feature) * layers[0]..][..layers[0]].fill(0.0);
+            }
+            parameters.set(&Tensor::new(values, &Device::Cpu).unwrap()).unwrap();
         }
-        critic.parameters().set(&Tensor::new(values, &Device::Cpu).unwrap()).unwrap();
         let table = Arc::new(Table::default());
         let observations =
             (0..20).map(|index| Observation::new(&Layout::random(&table, &mut rng), index % 4)).collect();

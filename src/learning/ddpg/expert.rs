@@ -115,14 +115,11 @@ impl Expert<'_> {
         let all: Vec<_> = proposals.iter().copied().chain(tried).collect();
         // Keeps the strokes that make the point without errors.
         let without_errors = Context { errors: 0.0, ..self.context };
-        let mut makes_point = |(observation, action): &(Observation, Action)| {
+        let mut candidates: Vec<Candidate> =
+            all.into_iter().map(|(observation, action)| Candidate::new(observation, action)).collect();
+        candidates.retain(|Candidate { observation, action, .. }| {
             self.tables.attempt(self.reward, self.layout, (observation, *action), without_errors, rng) >= 1.0
-        };
-        let mut candidates: Vec<Candidate> = all
-            .into_iter()
-            .filter(&mut makes_point)
-            .map(|(observation, action)| Candidate::new(observation, action))
-            .collect();
+        });
         self.sort_by_critic(&mut candidates)?;
         truncate_diverse(&mut candidates, SCREENED, SCREENED_PER_OBSERVATION);
         let mut removed = Vec::new();

@@ -13,7 +13,6 @@ pub mod exploration;
 pub mod features;
 pub mod first_contact;
 pub mod hyperparameters;
-pub mod learner;
 pub mod networks;
 pub mod observation;
 pub mod observation_batch;

@@ -14,7 +14,7 @@ use super::{
     paths::Paths,
 };
 use crate::{
-    learning::nn::tensors::{stored_values, values},
+    learning::nn::{stored_values, values},
     table::{Rail, Table},
 };
 

@@ -4,7 +4,7 @@ use candle_core::{CpuStorage, InplaceOp2, InplaceOp3, Layout, Result, Tensor, Va
 use candle_nn::Optimizer;
 use pulp::Arch;
 
-use super::tensors::{stored_values, values};
+use super::{stored_values, values};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdamConfig {
@@ -62,8 +62,7 @@ impl Optimizer for Adam {
             .zip(&self.moments)
             .filter_map(|(variable, moments)| Some((variable, moments, gradients.get(variable)?)))
             .collect();
-        let squares: Vec<f64> = found.iter().map(|(.., gradient)| squares(gradient)).collect::<Result<_>>()?;
-        let length = squares.iter().sum::<f64>().sqrt();
+        let length = found.iter().map(|(.., gradient)| squares(gradient)).sum::<Result<f64>>()?.sqrt();
         let AdamConfig { learning_rate, max_grad_norm } = self.config;
         // A step with such a gradient would destroy the network.
         if !length.is_finite() {

@@ -7,7 +7,7 @@ use pulp::Arch;
 
 use super::{
     matmul::{Matrix, product, product_into},
-    tensors::{stored_values, values},
+    stored_values, values,
 };
 
 /// One pass through the network with layer sizes `sizes`, from inputs (rows x inputs) and flat parameters to outputs.

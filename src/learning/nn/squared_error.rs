@@ -2,7 +2,7 @@
 
 use candle_core::{CpuStorage, CustomOp2, Layout, Result, Shape, Tensor, bail};
 
-use super::tensors::values;
+use super::values;
 
 /// The mean squared difference of predictions and targets. It has a gradient with respect to the predictions only.
 struct SquaredError;

@@ -211,10 +211,8 @@ pub fn bytes(learner: &dyn Learner, state: &State) -> Result<Vec<u8>, WeightsErr
 
 /// Restores the learner and the run's state from a checkpoint's bytes.
 fn restore(bytes: &[u8]) -> Result<(Box<dyn Learner>, State), DamageReason> {
-    match is_intact(CHECKPOINT_FIELD, bytes) {
-        Some(true) => {}
-        Some(false) => return Err(DamageReason::Checksum),
-        None => return Err(DamageReason::NoChecksum),
+    if !is_intact(CHECKPOINT_FIELD, bytes).ok_or(DamageReason::NoChecksum)? {
+        return Err(DamageReason::Checksum);
     }
     let reader = Reader::new(bytes)?;
     let Version { format } = reader.note()?;
@@ -253,7 +251,7 @@ mod tests {
     use std::fs;
 
     fn state() -> State {
-        State { schedule: Schedule::for_shots(100), from: None, accumulator: Accumulator::default() }
+        State { schedule: Schedule::new(10_000, 2_000), from: None, accumulator: Accumulator::default() }
     }
 
     /// A folder with two checkpoints, and the shots played at each.

@@ -35,13 +35,10 @@ const MIN_SHOTS: u64 = 10_000;
 /// Lines of metrics per evaluation: a run of an hour writes one every one or two seconds.
 const LINES: u64 = 50;
 
-/// Default number of layouts per evaluation: enough for a standard error of half a percent near 0.95.
-const LAYOUTS: usize = 2_000;
-
 impl Schedule {
-    /// Returns the default schedule of a run of `shots` shots: 50 evaluations, or fewer if the run is short.
-    pub fn for_shots(shots: u64) -> Self {
-        Self::new((shots / 50).max(MIN_SHOTS), LAYOUTS)
+    /// Returns the default of `evaluate_every` for a run of `shots` shots: 50 evaluations, or fewer if the run is short.
+    pub fn default_interval(shots: u64) -> u64 {
+        (shots / 50).max(MIN_SHOTS)
     }
 
     /// Returns the schedule that evaluates every `evaluate_every` shots on `evaluation_layouts` layouts.

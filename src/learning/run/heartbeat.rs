@@ -13,7 +13,7 @@ use super::{
 use crate::learning::learner::{Learner, Progress};
 
 /// Time between two beats. A run that misses many of them counts as stalled.
-pub const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
+const HEARTBEAT_INTERVAL: Duration = Duration::from_secs(1);
 
 /// Time between two polls for a request.
 const REQUEST_INTERVAL: Duration = Duration::from_millis(200);
@@ -38,8 +38,7 @@ impl Heartbeat {
     pub fn new(folder: &Path) -> Self {
         Request::clear(folder);
         let status = RunStatus { process: std::process::id(), ..RunStatus::default() };
-        let track = VecDeque::with_capacity(SPEED_BEATS);
-        Self { folder: folder.to_owned(), status, last_beat: None, last_poll: Instant::now(), track }
+        Self { folder: folder.to_owned(), status, last_beat: None, last_poll: Instant::now(), track: VecDeque::new() }
     }
 
     /// Writes the status, `seconds` into the training, if a second has passed since the last beat or the phase has changed.

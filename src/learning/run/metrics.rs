@@ -198,12 +198,19 @@ mod tests {
         (folder, path, file)
     }
 
+    /// Writes lines with these numbers of shots.
+    fn write(file: &mut MetricsFile, shots: &[u64]) {
+        for shots in shots {
+            file.push(&record(*shots));
+        }
+        file.flush().unwrap();
+    }
+
     #[test]
     fn resuming_drops_later_and_incomplete_lines() {
         let (_folder, path, mut file) = opened(5);
         for shots in [1, 2, 3] {
-            file.push(&record(shots));
-            file.flush().unwrap();
+            write(&mut file, &[shots]);
         }
         let torn = fs::read_to_string(&path).unwrap() + "{\"time/total";
         assert!(notices(&path, 3, 100).is_empty());
@@ -223,10 +230,7 @@ mod tests {
         let (_folder, path, mut file) = opened(0);
         assert!(notices(&path, 99, 100).is_empty(), "no line is due yet");
         assert!(notices(&path, 640, 100)[0].contains("is missing: there is no line of the 640 shots"));
-        for shots in [192, 384, 576] {
-            file.push(&record(shots));
-        }
-        file.flush().unwrap();
+        write(&mut file, &[192, 384, 576]);
         // Lines after the checkpoint leave no gap, because the resumed run writes them again.
         for (shots, is_whole) in [(192, true), (576, true), (599, true), (600, false)] {
             assert_eq!(notices(&path, shots, 100).is_empty(), is_whole, "{shots}");
@@ -237,18 +241,13 @@ mod tests {
     #[test]
     fn a_truncated_file_continues_after_its_last_line() {
         let (_folder, path, mut file) = opened(0);
-        for shots in [1, 2] {
-            file.push(&record(shots));
-        }
-        file.flush().unwrap();
+        write(&mut file, &[1, 2]);
         let text = fs::read_to_string(&path).unwrap();
         fs::write(&path, &text[..text.len() - 20]).unwrap();
-        file.push(&record(3));
-        file.flush().unwrap();
+        write(&mut file, &[3]);
         assert_eq!(read(&path).unwrap(), [record(1), record(3)]);
         fs::write(&path, "").unwrap();
-        file.push(&record(4));
-        file.flush().unwrap();
+        write(&mut file, &[4]);
         assert_eq!(read(&path).unwrap(), [record(4)]);
     }
 

@@ -13,7 +13,7 @@ use crate::{
     learning::{
         Policy,
         checksum::{CHECKPOINT_FIELD, is_intact},
-        learner::{AgentKind, Learner, note_of},
+        learner::{AgentKind, Learner, settings_as_object},
         nn::weights::{Reader, WeightsError},
         policy::bundled_bytes,
     },
@@ -59,7 +59,7 @@ impl Weights {
         let policy = Policy::of_file(&bytes, &path)?;
         let origin = policy.origin();
         let start = Provenance {
-            path: path.clone(),
+            path,
             // The only agent with policy files.
             agent: "ddpg".to_owned(),
             table: origin.table.clone(),
@@ -67,8 +67,7 @@ impl Weights {
             seed: origin.seed,
             shots: origin.shots,
         };
-        let settings =
-            note_of(&origin.hyperparameters).map_err(|error| RunError::Origin { path, reason: error.to_string() })?;
+        let settings = settings_as_object(&origin.hyperparameters);
         Ok(Self { start, settings, table: None, notice: None, bytes })
     }
 

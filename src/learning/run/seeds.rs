@@ -177,7 +177,7 @@ pub fn is_group(folder: &Path) -> bool {
 }
 
 /// Statistics of the mean rewards on held-out layouts of several seeds after the same number of shots.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
     pub shots: u64,
     /// Number of seeds that have reached these shots.

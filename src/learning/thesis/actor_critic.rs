@@ -6,13 +6,14 @@ use rand::Rng;
 
 use super::{
     environment::{ACTIONS, STATES},
-    replay::{Batch, number},
+    replay::Batch,
 };
 use crate::learning::{
     learner::UpdateStats,
     nn::{
         adam::{Adam, AdamConfig, soft_update},
         mlp::{Mlp, Operations, parameter_count},
+        number,
         squared_error::squared_error,
         weights::{WeightsError, units},
     },

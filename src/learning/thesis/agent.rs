@@ -252,13 +252,13 @@ impl<A: Agent> Learner for TrainingLoop<A> {
     }
 
     fn score(&self, layouts: &[Layout]) -> Result<Score, Error> {
-        let State { plan, game, .. } = &self.state;
-        let play = |(cue, layout): (CueInputs, &Layout)| {
+        let game = &self.state.game;
+        let play = |layout| {
             // Scored like every other agent: on a table that checks the room for the cue, a stroke without room earns nothing.
-            let reward = plan.reward.of_playable(&game.table, layout, &cue, u32::MAX);
-            (reward, reward >= 1.0)
+            let reward = game.reward_of(layout, self.agent.best(&game.observation(layout))?.action);
+            Ok((reward, reward >= 1.0))
         };
-        Ok(Score::of(&self.choose_shots(layouts)?.into_iter().zip(layouts).map(play).collect::<Vec<_>>()))
+        Ok(Score::of(&layouts.iter().map(play).collect::<Result<Vec<_>, Error>>()?))
     }
 
     fn choose_shots(&self, layouts: &[Layout]) -> Result<Vec<CueInputs>, Error> {

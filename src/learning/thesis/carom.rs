@@ -9,7 +9,10 @@ use super::{
 };
 use crate::{
     game::{Referee, Reward},
-    learning::evaluation::CONTACT_STEPS,
+    learning::{
+        evaluation::CONTACT_STEPS,
+        settings::{SettingError, check},
+    },
     physics::{CueInputs, has_room, strike},
     simulation::simulate,
     table::{Layout, Table},
@@ -27,6 +30,15 @@ pub enum Episode {
     Shots(u32),
     /// After a miss, or after this number of shots, each played from where the balls have stopped.
     UntilMiss(u32),
+}
+
+impl Episode {
+    pub(super) fn validate(self) -> Result<(), SettingError> {
+        match self {
+            Self::OneShot => Ok(()),
+            Self::Shots(most) | Self::UntilMiss(most) => check("episode", f64::from(most), most > 0, "at least 1"),
+        }
+    }
 }
 
 /// Rows and columns of the squares that define the discrete states of tabular Q-learning (4.2.2).

@@ -14,7 +14,6 @@ use super::{
     environment::{Action, Environment, Observation, STATES, State},
     exploration::OrnsteinUhlenbeck,
     lessons::{Lessons, LessonsState},
-    q_learning::check_episode,
     replay::{self, Batch, REPLAY_BUFFER},
     symmetry::{SYMMETRIES, View},
 };
@@ -144,7 +143,7 @@ impl Settings for PlainDdpgSettings {
     }
 
     fn validate(&self) -> Result<(), SettingError> {
-        check_episode(self.episode)?;
+        self.episode.validate()?;
         check_layers("actor_layers", &self.actor_layers)?;
         check_layers("critic_layers", &self.critic_layers)?;
         check_positive("learning_rate", self.learning_rate)?;

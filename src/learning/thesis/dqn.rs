@@ -12,14 +12,14 @@ use super::{
     carom::Episode,
     environment::{DISCRETE_ACTIONS, Environment, Observation, STATES},
     exploration::Epsilon,
-    q_learning::{check_episode, check_epsilon},
-    replay::{self, Batch, REPLAY_BUFFER, number},
+    replay::{self, Batch, REPLAY_BUFFER},
 };
 use crate::learning::{
     learner::{Progress, UpdateStats, note_of},
     nn::{
         adam::{Adam, AdamConfig},
         mlp::Mlp,
+        number,
         squared_error::squared_error,
         weights::{Reader, WeightsError, Writer},
     },
@@ -78,14 +78,14 @@ impl Settings for DqnSettings {
     }
 
     fn validate(&self) -> Result<(), SettingError> {
-        check_episode(self.episode)?;
+        self.episode.validate()?;
         check_layers("layers", &self.layers)?;
         check_positive("learning_rate", self.learning_rate)?;
         check_count("target_update_interval", self.target_update_interval as usize)?;
         check_count("buffer_size", self.buffer_size)?;
         check_share("gamma", self.gamma)?;
         check_batch("batch_size", self.batch_size)?;
-        check_epsilon(&self.epsilon)
+        self.epsilon.validate()
     }
 }
 

@@ -4,7 +4,10 @@ use rand::Rng;
 use serde::{Deserialize, Serialize};
 
 use super::environment::{ACTIONS, Action};
-use crate::statistics::normal_pair;
+use crate::{
+    learning::settings::{SettingError, check_share},
+    statistics::normal_pair,
+};
 
 /// Schedule of the probability of a random action, which falls linearly.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -23,6 +26,11 @@ impl Epsilon {
     pub fn after(&self, shots: u64) -> f64 {
         let done = (shots as f64 / self.over.max(1) as f64).min(1.0);
         self.first + done * (self.last - self.first)
+    }
+
+    pub(super) fn validate(&self) -> Result<(), SettingError> {
+        check_share("epsilon.first", self.first)?;
+        check_share("epsilon.last", self.last)
     }
 }
 

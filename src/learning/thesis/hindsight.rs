@@ -127,21 +127,12 @@ mod tests {
         let (table, mut rng) = (Table::preset("thesis").unwrap(), Xoshiro256PlusPlus::seed_from_u64(32));
         let cue = cue_inputs([0.0, 0.2]);
         let layout = |third| Layout::new([DVec2::new(-0.8, 0.0), DVec2::new(-0.3, 0.03), third]);
-        let mut draw = |count: usize, found: &mut dyn FnMut(Layout)| {
-            for _ in 0..count {
-                let layout = layout(Layout::random(&table, &mut rng).balls[2]);
-                if layout.validate(&table).is_ok() {
-                    found(layout);
-                }
-            }
+        let mut draw = |count: usize| -> Vec<Layout> {
+            let drawn = (0..count).map(|_| layout(Layout::random(&table, &mut rng).balls[2]));
+            drawn.filter(|layout| layout.validate(&table).is_ok()).collect()
         };
-        let (mut drawn, mut started) = (Vec::new(), Vec::new());
-        draw(40_000, &mut |layout| {
-            if Reward::R3.of(&table, &layout, &cue) >= 1.0 {
-                drawn.push(layout);
-            }
-        });
-        draw(3_000, &mut |layout| started.push(layout));
+        let (mut drawn, started) = (draw(40_000), draw(3_000));
+        drawn.retain(|layout| Reward::R3.of(&table, layout, &cue) >= 1.0);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(33);
         let moved: Vec<Layout> =
             started.iter().flat_map(|layout| layouts(&table, Reward::R3, layout, &cue, &mut rng)).collect();

@@ -17,7 +17,7 @@ use super::{
 use crate::learning::{
     learner::{Progress, UpdateStats},
     nn::weights::{Reader, WeightsError, Writer},
-    settings::{SettingError, check, check_positive, check_share},
+    settings::{SettingError, check_positive, check_share},
 };
 
 /// Settings of [`QLearning`]. The thesis states the squares, the actions and epsilon-greedy, but no values of these settings.
@@ -52,24 +52,12 @@ impl Settings for QLearningSettings {
     }
 
     fn validate(&self) -> Result<(), SettingError> {
-        check_episode(self.episode)?;
+        self.episode.validate()?;
         check_positive("learning_rate", self.learning_rate)?;
         check_share("learning_rate", self.learning_rate)?;
         check_share("gamma", self.gamma)?;
-        check_epsilon(&self.epsilon)
+        self.epsilon.validate()
     }
-}
-
-pub(super) fn check_episode(episode: Episode) -> Result<(), SettingError> {
-    match episode {
-        Episode::OneShot => Ok(()),
-        Episode::Shots(most) | Episode::UntilMiss(most) => check("episode", f64::from(most), most > 0, "at least 1"),
-    }
-}
-
-pub(super) fn check_epsilon(epsilon: &Epsilon) -> Result<(), SettingError> {
-    check_share("epsilon.first", epsilon.first)?;
-    check_share("epsilon.last", epsilon.last)
 }
 
 /// The tabular Q-learning agent. All values start at zero; the table stores only the state-action pairs that were tried.

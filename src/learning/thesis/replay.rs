@@ -118,11 +118,6 @@ impl Batch {
     }
 }
 
-/// Returns the number in a scalar tensor.
-pub fn number(tensor: &Tensor) -> Result<f64, Error> {
-    tensor.to_scalar::<f32>().map(f64::from)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

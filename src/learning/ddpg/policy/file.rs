@@ -200,12 +200,8 @@ impl Policy {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{super::tests::bundled, *};
     use candle_core::{Device, Tensor};
-
-    fn bundled() -> Policy {
-        Policy::bundled(&Table::default(), Rule::StraightRail).unwrap().unwrap()
-    }
 
     fn is_shared<T: Send + Sync>(_: &T) {}
 

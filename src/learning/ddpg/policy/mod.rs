@@ -145,7 +145,7 @@ mod tests {
     use rand::SeedableRng;
     use rand_xoshiro::Xoshiro256PlusPlus;
 
-    fn bundled() -> Policy {
+    pub fn bundled() -> Policy {
         Policy::bundled(&Table::default(), Rule::StraightRail).unwrap().unwrap()
     }
 

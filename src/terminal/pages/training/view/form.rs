@@ -84,7 +84,7 @@ fn words(form: &Form, field: Field) -> (String, String) {
         }
         Field::Shots => match form.shots.parse() {
             Ok(shots) => {
-                let every = count(Schedule::for_shots(shots).evaluate_every);
+                let every = count(Schedule::default_interval(shots));
                 (count(shots), format!("measured every {every} shots"))
             }
             Err(_) => (form.shots.clone(), "type a number".to_owned()),
