@@ -178,13 +178,6 @@ pub struct Referee {
     step_budget: StepBudget,
 }
 
-impl Default for Referee {
-    /// Observes until the point is made or can no longer be made.
-    fn default() -> Self {
-        Self::new(Some(2), u32::MAX)
-    }
-}
-
 impl Referee {
     /// Observes a shot to its end.
     pub fn until_end() -> Self {
@@ -230,7 +223,7 @@ impl Observer for Referee {
 /// Whether a shot makes a point. The layout and the stroke are not validated.
 pub fn scores(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     let impulse = strike(table, cue);
-    let mut referee = Referee::default().with_tally(Tally::from_stroke(table, layout, &impulse));
+    let mut referee = Referee::new(Some(2), u32::MAX).with_tally(Tally::from_stroke(table, layout, &impulse));
     watch_with::<AllSavings, _>(table, layout, &impulse, &mut referee);
     Point::of(rule, table, layout).is_made(&referee.tally)
 }

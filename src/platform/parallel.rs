@@ -81,7 +81,7 @@ impl Team {
                 }
             });
             // Also if `lead` panics: the scope waits for its workers.
-            let _end = OnDrop(|| is_over.store(true, Ordering::Relaxed));
+            let _end = SetOnDrop(&is_over);
             lead(&team)
         })
     }
@@ -142,12 +142,12 @@ impl Team {
     }
 }
 
-/// Calls a function when it is dropped.
-struct OnDrop<F: Fn()>(F);
+/// Sets a flag when it is dropped.
+struct SetOnDrop<'a>(&'a AtomicBool);
 
-impl<F: Fn()> Drop for OnDrop<F> {
+impl Drop for SetOnDrop<'_> {
     fn drop(&mut self) {
-        (self.0)();
+        self.0.store(true, Ordering::Relaxed);
     }
 }
 
