@@ -344,7 +344,7 @@ impl Session {
 
     /// Returns the score, including the coach's strokes.
     pub fn record(&self) -> Record {
-        Record::of_session(self)
+        Record::of_attempts(self, |_| true)
     }
 
     /// Returns the current number of points in a row.
@@ -374,17 +374,9 @@ pub mod tests {
     /// An exercise from the opening position.
     pub fn exercise(name: &str) -> Exercise {
         Exercise {
-            name: name.to_owned(),
-            title: name.to_owned(),
             category: Category::FirstCaroms,
             grade: 1,
-            rule: Rule::StraightRail,
-            table: "match".to_owned(),
-            layout: Layout::opening(&Table::default()),
-            point: String::new(),
-            tags: Vec::new(),
-            shot: None,
-            par: None,
+            ..Exercise::new_own(name, Rule::StraightRail, "match", Layout::opening(&Table::default()))
         }
     }
 
