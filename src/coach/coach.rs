@@ -15,7 +15,7 @@ use super::{
     pool::Candidate,
     refinement::MIN_IMPROVEMENT,
     search::Search,
-    trial::{Attempts, CONTACT_STEPS, Task, UNLIMITED_STEPS, with_unlimited_task},
+    trial::{Attempts, Task, UNLIMITED_STEPS, with_unlimited_task},
 };
 use crate::{
     game::Rule,
@@ -142,18 +142,8 @@ impl Coach {
         let clock = Clock::start(request.budget, request.simulations, &request.cancel);
         let doubt = request.shooter().effective_doubt();
         let [worlds, level] = [Worlds::new, Worlds::level].map(|worlds| worlds(&self.table, layout, doubt));
-        let task = Task {
-            table: &self.table,
-            layout,
-            rule: request.rule,
-            skill: request.skill,
-            jumps: request.jumps,
-            first: request.first,
-            worlds: &level,
-            clock: &clock,
-            deadline: clock.deadline(1.0),
-            max_contact_steps: CONTACT_STEPS,
-        };
+        let task = Task::new(&self.table, layout, request.rule, request.skill, &level, &clock);
+        let task = Task { jumps: request.jumps, first: request.first, ..task };
         let policy = self.policy(request.rule, &request.skill);
         let proposals =
             policy.map_or_else(Vec::new, |policy| policy.proposals_by(team, &self.table, layout, &request.skill));
@@ -328,28 +318,27 @@ fn retain_one_of_each_kind(pool: &mut Vec<Candidate>, skill: Skill, radius: f64)
 /// Returns the answer for a perfect player, or for a search without a result.
 fn first_point_answer(found: &FirstShots) -> Recommendation {
     let mut seen = Vec::new();
-    let others = found.solutions.iter().map(|(shot, tally)| (shot, Kind::of(tally, &shot.cue)));
-    let others = others.filter(|(_, kind)| {
+    let shots = found.solutions.iter().map(|(shot, tally)| (*shot, Kind::of(tally, &shot.cue)));
+    let mut shots = shots.filter(|(_, kind)| {
         let is_new = !seen.contains(kind);
         seen.push(*kind);
         is_new
     });
-    let others: Vec<_> = others.skip(1).take(ALTERNATIVES).collect();
     let certain = SuccessRate { trials: 1, successes: 1, rate: 1.0, low: 1.0, high: 1.0 };
-    let first = found.solutions.first();
-    let shot = first.map_or(found.attempt, |(shot, _)| *shot);
+    let first = shots.next();
+    let shot = first.map_or(found.attempt, |(shot, _)| shot);
     Recommendation {
         cue: shot.cue,
         solved: first.is_some(),
         source: shot.source,
-        kind: first.map(|(shot, tally)| Kind::of(tally, &shot.cue)),
+        kind: first.map(|(_, kind)| kind),
         make_probability: first.map(|_| certain),
         judged_from: 0,
         risk: None,
         next_probability: None,
         is_planned: false,
-        alternatives: others
-            .into_iter()
+        alternatives: shots
+            .take(ALTERNATIVES)
             .map(|(shot, kind)| Alternative {
                 cue: shot.cue,
                 source: shot.source,
@@ -417,20 +406,14 @@ mod tests {
     use std::f64::consts::PI;
 
     use super::*;
-    use crate::coach::{Pace, Route, Suggestion, evidence::Rate};
+    use crate::{
+        coach::{Route, Suggestion},
+        game::Tally,
+    };
 
     fn candidate(cue: CueInputs, way: Route, effort_penalty: f64) -> Candidate {
-        let kind = Kind { first_ball: 1, cushion_first: false, route: way, pace: Pace::Hard, raised: false };
-        Candidate {
-            shot: Suggestion { cue, source: Source::Search },
-            kind,
-            tried: 0,
-            points: 0,
-            own_rate: Rate::default(),
-            larger_error_rate: Rate::default(),
-            next: NextValue::Assumed(1.0),
-            effort_penalty,
-        }
+        let candidate = Candidate::of(Suggestion { cue, source: Source::Search }, &Tally::default(), 0.0);
+        Candidate { kind: Kind { route: way, ..candidate.kind }, effort_penalty, ..candidate }
     }
 
     #[test]

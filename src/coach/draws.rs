@@ -139,18 +139,18 @@ pub struct Worlds {
 impl Worlds {
     /// Creates a distribution around `table` and `layout`.
     pub fn new(table: &Table, layout: &Layout, doubt: Doubt) -> Self {
-        Self::with_table_doubt(&|| TableDoubt::of(table), table, layout, doubt)
+        Self::with_table_doubt(TableDoubt::of, table, layout, doubt)
     }
 
     /// Like [`new`](Self::new), but without uncertainty about the table's tilt, for choosing between shots. A tilted
     /// table costs twice the time, and as the direction of the tilt is unknown, the choice hardly depends on it.
     pub fn level(table: &Table, layout: &Layout, doubt: Doubt) -> Self {
-        let known = || TableDoubt::of(table).without(|name| name.starts_with("tilt"));
-        Self::with_table_doubt(&known, table, layout, doubt)
+        let known = |table: &Table| TableDoubt::of(table).without(|name| name.starts_with("tilt"));
+        Self::with_table_doubt(known, table, layout, doubt)
     }
 
-    fn with_table_doubt(known: &dyn Fn() -> TableDoubt, table: &Table, layout: &Layout, doubt: Doubt) -> Self {
-        let sampler = if doubt.table > 0.0 { TableSampler::new(table, &known(), doubt.table) } else { None };
+    fn with_table_doubt(known: fn(&Table) -> TableDoubt, table: &Table, layout: &Layout, doubt: Doubt) -> Self {
+        let sampler = if doubt.table > 0.0 { TableSampler::new(table, &known(table), doubt.table) } else { None };
         Self { table: table.clone(), layout: *layout, sampler, placing: doubt.placing }
     }
 

@@ -202,18 +202,14 @@ pub fn retain_best(candidates: &mut Vec<Candidate>, best: usize, of_each: usize)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::coach::{Pace, Route};
 
     fn candidate(cue: CueInputs, share: f64, next: NextValue) -> Candidate {
         Candidate {
-            shot: Suggestion { cue, source: Source::Search },
-            kind: Kind { first_ball: 1, cushion_first: false, route: Route::Direct, pace: Pace::Soft, raised: false },
             tried: 32,
-            points: 0,
             own_rate: Rate { share, attempts: 24.0 },
             larger_error_rate: Rate { share: 1.0, attempts: 8.0 },
             next,
-            effort_penalty: 0.0,
+            ..Candidate::of(Suggestion { cue, source: Source::Search }, &Tally::default(), 0.0)
         }
     }
 

@@ -253,10 +253,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        coach::{
-            Doubt, FirstContact, Skill, clock::Clock, draws::Worlds, evidence::Rate, first::FirstShotSearch,
-            make_probability, trial::CONTACT_STEPS,
-        },
+        coach::{Doubt, Skill, clock::Clock, draws::Worlds, evidence::Rate, first::FirstShotSearch, make_probability},
         game::{Rule, Tally},
         table::{Layout, Table},
     };
@@ -288,19 +285,7 @@ mod tests {
         let worlds = Worlds::new(&table, &layout, Doubt::NONE);
         let [unlimited, clock] =
             [u64::MAX, 4000].map(|simulations| Clock::start(Duration::from_secs(60), simulations, &cancel));
-        let (deadline, max_contact_steps) = (clock.deadline(1.0), CONTACT_STEPS);
-        let task = Task {
-            table: &table,
-            layout: &layout,
-            rule,
-            skill,
-            jumps: true,
-            first: FirstContact::Any,
-            worlds: &worlds,
-            clock: &clock,
-            deadline,
-            max_contact_steps,
-        };
+        let task = Task::new(&table, &layout, rule, skill, &worlds, &clock);
         let mut race = Race::new(1);
         race.extend_to(&worlds, 8);
         // Directions around a shot that makes the point and that make it too; the first is at the edge.

@@ -67,21 +67,24 @@ pub fn with_unlimited_task<T>(
     play: impl FnOnce(&Task) -> T,
 ) -> T {
     let clock = Clock::start(Duration::MAX, u64::MAX, cancel);
-    let (skill, worlds, deadline) =
-        (shooter.skill, Worlds::new(table, layout, shooter.effective_doubt()), clock.deadline(1.0));
-    let (jumps, first) = (true, FirstContact::Any);
-    play(&Task {
-        table,
-        layout,
-        rule,
-        skill,
-        jumps,
-        first,
-        worlds: &worlds,
-        clock: &clock,
-        deadline,
-        max_contact_steps,
-    })
+    let worlds = Worlds::new(table, layout, shooter.effective_doubt());
+    play(&Task { max_contact_steps, ..Task::new(table, layout, rule, shooter.skill, &worlds, &clock) })
+}
+
+impl<'a> Task<'a> {
+    /// Creates a task for strokes of any kind, until the clock's time is used up.
+    pub fn new(
+        table: &'a Table,
+        layout: &'a Layout,
+        rule: Rule,
+        skill: Skill,
+        worlds: &'a Worlds,
+        clock: &'a Clock<'a>,
+    ) -> Self {
+        let (jumps, first, max_contact_steps) = (true, FirstContact::Any, CONTACT_STEPS);
+        let deadline = clock.deadline(1.0);
+        Self { table, layout, rule, skill, jumps, first, worlds, clock, deadline, max_contact_steps }
+    }
 }
 
 impl Task<'_> {
