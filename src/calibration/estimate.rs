@@ -9,7 +9,7 @@ use super::{
     robust::{UNREACHED_RESIDUAL, robust_residual},
 };
 use crate::{
-    statistics::{LeastSquaresProblem, Minimum, half_log_determinant, identity, minimize, normal_matrix, solve},
+    statistics::{LeastSquaresProblem, Minimum, dot, half_log_determinant, identity, minimize, normal_matrix, solve},
     table::Table,
 };
 
@@ -119,7 +119,7 @@ impl Estimate {
             slope[index] = (seen? - at) / STEP;
         }
         let spread = solve(&self.normal, &slope)?;
-        Some((at, slope.iter().zip(spread).map(|(x, y)| x * y).sum::<f64>().max(0.0).sqrt()))
+        Some((at, dot(&slope, &spread).max(0.0).sqrt()))
     }
 }
 
