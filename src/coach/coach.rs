@@ -10,7 +10,7 @@ use super::{
     Alternative, Cause, Improvement, Kind, LayoutDifficulty, Recommendation, Request, Risk, Shooter, Skill, Source,
     clock::Clock,
     draws::{Draws, Worlds},
-    first::{FirstShotSearch, FirstShots},
+    first::FirstShots,
     next::NextValue,
     pool::Candidate,
     refinement::MIN_IMPROVEMENT,
@@ -148,7 +148,7 @@ impl Coach {
         let proposals =
             policy.map_or_else(Vec::new, |policy| policy.proposals_by(team, &self.table, layout, &request.skill));
         let strokes: Vec<CueInputs> = proposals.iter().map(|proposal| proposal.cue).collect();
-        let found = FirstShotSearch::new(task).run(&strokes, &request.former, request.seed);
+        let found = FirstShots::find(task, &strokes, &request.former, request.seed);
         let answer = if request.skill.is_perfect() || found.solutions.is_empty() {
             first_point_answer(&found)
         } else {

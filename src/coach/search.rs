@@ -218,7 +218,7 @@ impl<'a> Search<'a> {
 mod tests {
     use super::*;
     use crate::{
-        coach::{Doubt, Skill, clock::Clock, draws::Worlds, first::FirstShotSearch},
+        coach::{Doubt, Skill, clock::Clock, draws::Worlds, first::FirstShots},
         game::Rule,
         table::{Layout, Table},
     };
@@ -249,7 +249,7 @@ mod tests {
         let worlds = Worlds::new(&table, &layout, Doubt::NONE);
         let clock = Clock::start(budget, u64::MAX, &cancel);
         let task = Task::new(&table, &layout, Rule::StraightRail, Skill::EXPERT, &worlds, &clock);
-        let found = FirstShotSearch::new(task).run(&[], &[], 1);
+        let found = FirstShots::find(task, &[], &[], 1);
         // Simulates a first shot that was hard to find.
         thread::sleep(budget.mul_f64(0.5).saturating_sub(clock.elapsed()));
         let mut reported = 0;
