@@ -85,9 +85,7 @@ impl<'a> Task<'a> {
         let deadline = clock.deadline(1.0);
         Self { table, layout, rule, skill, jumps, first, worlds, clock, deadline, max_contact_steps }
     }
-}
 
-impl Task<'_> {
     /// Returns the stroke as a player can play it here: see [`playable`]. Also `None` if the rules forbid it because it
     /// pushes a ball that touches the cue ball.
     pub fn playable(&self, cue: &CueInputs) -> Option<CueInputs> {

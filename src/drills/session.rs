@@ -62,18 +62,18 @@ impl Goal {
             Self::Free => "free repetition".to_owned(),
             Self::Run(points) => format!("run of {points}"),
             Self::Exam => "exam".to_owned(),
-            Self::Game { innings: 0 } => "game".to_owned(),
-            Self::Game { innings: 1 } => "game, 1 inning".to_owned(),
-            Self::Game { innings } => format!("game, {innings} innings"),
-            Self::Match { innings, against_coach } => {
-                let other = if against_coach { "against the coach" } else { "match" };
-                match innings {
-                    0 => other.to_owned(),
-                    1 => format!("{other}, 1 inning"),
-                    _ => format!("{other}, {innings} innings"),
-                }
-            }
+            Self::Game { innings } => with_innings("game", innings),
+            Self::Match { innings, against_coach: true } => with_innings("against the coach", innings),
+            Self::Match { innings, against_coach: false } => with_innings("match", innings),
         }
+    }
+}
+
+fn with_innings(name: &str, innings: u32) -> String {
+    match innings {
+        0 => name.to_owned(),
+        1 => format!("{name}, 1 inning"),
+        _ => format!("{name}, {innings} innings"),
     }
 }
 
@@ -101,7 +101,7 @@ impl Venue {
 }
 
 /// One attempt. Unknown properties, such as most of those at a real table, are omitted.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Attempt {
     /// Name of the exercise.
     pub exercise: String,

@@ -255,11 +255,8 @@ mod tests {
     #[test]
     fn hit_again_is_set_only_before_second_ball() {
         let hit_again = |balls: &[usize]| {
-            let mut tally = Tally::default();
-            for ball in balls {
-                tally.count(&Event { time: 0.0, kind: EventKind::BallBall(0, *ball) });
-            }
-            tally.hit_again
+            let hits: Vec<EventKind> = balls.iter().map(|ball| EventKind::BallBall(0, *ball)).collect();
+            tally(&hits).hit_again
         };
         assert!(hit_again(&[1, 1, 2]) && hit_again(&[2, 2]));
         assert!(!hit_again(&[1, 2]) && !hit_again(&[1, 2, 1]));

@@ -41,7 +41,7 @@ pub struct Cushion {
 }
 
 /// What the cue ball does in a shot.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Technique {
     /// The contacts that the rules use.
     pub tally: Tally,
@@ -97,20 +97,12 @@ impl Technique {
             tally: Tally::from_stroke(table, &Layout::new(recording.positions(0.0)), recording.impulse()),
             first,
             second: first.and_then(|first| hit(table, recording, |ball| ball != first.ball)),
-            before: Vec::new(),
-            between: Vec::new(),
             first_ball_rails: events
                 .filter_map(|event| event.kind.rail().filter(|_| of_first(event.kind.balls().0)))
                 .collect(),
-            deflection: 0.0,
             over: flown_over(table, recording),
-            bend: 0.0,
-            roll: 0.0,
-            english: 0.0,
-            drives_second: false,
-            is_close: false,
-            rehit_after: None,
             spread: spread(&recording.final_layout()),
+            ..Self::default()
         };
         technique.follow(table, recording);
         technique
