@@ -1,6 +1,7 @@
 //! The recommender: finds the shot that a given player makes most often, from a layout and a request.
 
 use std::{
+    collections::BTreeSet,
     ops::Range,
     sync::{Arc, OnceLock, atomic::AtomicBool},
     time::{Duration, Instant},
@@ -180,12 +181,12 @@ impl Coach {
 /// many attempts, and the better one is the answer.
 fn robust_answer(
     found: &FirstShots,
-    mut pool: Vec<Candidate>,
+    pool: Vec<Candidate>,
     task: &Task,
     request: &Request,
     team: &Team,
 ) -> Recommendation {
-    retain_one_of_each_kind(&mut pool, task.skill, task.table.radius);
+    let mut pool = one_of_each_kind(pool, task.skill, task.table.radius);
     pool.truncate(1 + ALTERNATIVES);
     // Each piece is drawn by the first thread that needs it, so that no time is spent on pieces that are never used.
     let attempts: Vec<OnceLock<Draws>> = (0..2 * ATTEMPTS).step_by(CHUNK_SIZE).map(|_| OnceLock::new()).collect();
@@ -295,9 +296,9 @@ fn risk(cue: &CueInputs, task: &Task, request: &Request, team: &Team) -> Option<
 /// Keeps the first shot and, in the given order, the first of each other kind. Drops a shot if every input is within
 /// one standard error of a kept one:
 /// a stroke that makes the point in two ways, depending on its errors, is one stroke.
-fn retain_one_of_each_kind(pool: &mut Vec<Candidate>, skill: Skill, radius: f64) {
+fn one_of_each_kind(pool: Vec<Candidate>, skill: Skill, radius: f64) -> Vec<Candidate> {
     let mut kept: Vec<Candidate> = Vec::new();
-    for candidate in pool.drain(..) {
+    for candidate in pool {
         let is_new = |other: &Candidate| {
             let (one, cue) = (&other.shot.cue, &candidate.shot.cue);
             let Skill { a, b, theta, phi, speed, .. } = skill.at(one);
@@ -312,18 +313,14 @@ fn retain_one_of_each_kind(pool: &mut Vec<Candidate>, skill: Skill, radius: f64)
             kept.push(candidate);
         }
     }
-    *pool = kept;
+    kept
 }
 
 /// Returns the answer for a perfect player, or for a search without a result.
 fn first_point_answer(found: &FirstShots) -> Recommendation {
-    let mut seen = Vec::new();
+    let mut seen = BTreeSet::new();
     let shots = found.solutions.iter().map(|(shot, tally)| (*shot, Kind::of(tally, &shot.cue)));
-    let mut shots = shots.filter(|(_, kind)| {
-        let is_new = !seen.contains(kind);
-        seen.push(*kind);
-        is_new
-    });
+    let mut shots = shots.filter(|(_, kind)| seen.insert(*kind));
     let certain = SuccessRate { trials: 1, successes: 1, rate: 1.0, low: 1.0, high: 1.0 };
     let first = shots.next();
     let shot = first.map_or(found.attempt, |(shot, _)| shot);
@@ -452,9 +449,9 @@ mod tests {
             candidate(cue, way, 0.0)
         };
         let kept = |ways: &[(Route, f64)]| {
-            let mut pool: Vec<_> = ways.iter().map(|&(way, phi)| candidate(way, phi)).collect();
-            retain_one_of_each_kind(&mut pool, Skill::EXPERT, Table::default().radius);
-            pool.iter().map(|candidate| candidate.kind.route).collect::<Vec<_>>()
+            let pool = ways.iter().map(|&(way, phi)| candidate(way, phi)).collect();
+            let kept = one_of_each_kind(pool, Skill::EXPERT, Table::default().radius);
+            kept.iter().map(|candidate| candidate.kind.route).collect::<Vec<_>>()
         };
         assert_eq!(kept(&[(Route::OffCushion, 0.0), (Route::AroundTheTable, 0.5)]), [Route::OffCushion]);
         assert_eq!(
@@ -470,8 +467,8 @@ mod tests {
             shot: Suggestion { cue: CueInputs { phi, ..meant }, source: Source::Search },
             ..candidate(if phi > 0.0 { Route::Direct } else { Route::OffCushion }, 0.0)
         };
-        let mut pool = vec![turned(PI - 1e-5), turned(1e-5 - PI)];
-        retain_one_of_each_kind(&mut pool, Skill::EXPERT, Table::default().radius);
-        assert_eq!(pool.len(), 1, "the same direction");
+        let pool = vec![turned(PI - 1e-5), turned(1e-5 - PI)];
+        let kept = one_of_each_kind(pool, Skill::EXPERT, Table::default().radius);
+        assert_eq!(kept.len(), 1, "the same direction");
     }
 }

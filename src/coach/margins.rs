@@ -227,25 +227,14 @@ fn nearest_miss(input: Input, makes: impl Fn(f64) -> bool, is_possible: impl Fn(
     const HALVINGS: u32 = 10;
     let (reach, step) = input.scan();
     let steps = (reach / step).ceil() as u32;
-    for number in 1..=steps {
-        let far = f64::from(number) * step;
-        if !is_possible(far) {
-            return None;
-        }
-        if !makes(far) {
-            let (mut inside, mut outside) = (far - step, far);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (inside + outside);
-                if makes(middle) {
-                    inside = middle;
-                } else {
-                    outside = middle;
-                }
-            }
-            return Some(inside);
-        }
+    let mut scan = (1..=steps).map(|number| f64::from(number) * step).take_while(|far| is_possible(*far));
+    let mut outside = scan.find(|far| !makes(*far))?;
+    let mut inside = outside - step;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (inside + outside);
+        if makes(middle) { inside = middle } else { outside = middle }
     }
-    None
+    Some(inside)
 }
 
 /// Returns the outcome of a valid stroke. A shot whose resting contacts take more than 200 steps counts as decided by then.

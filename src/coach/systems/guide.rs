@@ -174,11 +174,7 @@ fn solve(system: System, near: f64, jump: f64, error: impl Fn(f64) -> Option<f64
     let mut high = low + at(1) - at(0);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        if (error(middle)? < 0.0) == below {
-            low = middle;
-        } else {
-            high = middle;
-        }
+        if (error(middle)? < 0.0) == below { low = middle } else { high = middle }
     }
     Some(0.5 * (low + high))
 }
