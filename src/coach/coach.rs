@@ -197,7 +197,7 @@ fn robust_answer(
     let judged = |pieces: &[(usize, usize)]| {
         team.map(pieces, |&(index, piece)| {
             let draw = || judging_draws(task.worlds, request.seed, piece);
-            (index, task.attempts(&pool[index].shot.cue, attempts[piece].get_or_init(draw).iter()))
+            (index, task.attempts(&pool[index].shot.cue, attempts[piece].get_or_init(draw)))
         })
     };
     let rate = |judged: &[(usize, Attempts)], candidate: usize| {
@@ -286,7 +286,7 @@ fn risk(cue: &CueInputs, task: &Task, request: &Request, team: &Team) -> Option<
         let skill = if errs { task.skill } else { Skill::PERFECT };
         let draws = Draws::independent(ATTEMPTS_PER_CAUSE, &worlds, judging_seed(request.seed));
         let task = Task { worlds: &worlds, skill, ..*task };
-        let Attempts { tried, made } = task.attempts(cue, draws.iter());
+        let Attempts { tried, made } = task.attempts(cue, &draws);
         (tried == ATTEMPTS_PER_CAUSE).then(|| 1.0 - made as f64 / ATTEMPTS_PER_CAUSE as f64)
     });
     let [hand, table, placing] = missed[..] else { return None };
@@ -361,7 +361,7 @@ pub fn make_probability(
     seed: u64,
 ) -> SuccessRate {
     with_unlimited_task(table, layout, rule, shooter.into(), UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
-        let attempts = task.attempts(cue, Draws::independent(attempts, task.worlds, seed).iter());
+        let attempts = task.attempts(cue, &Draws::independent(attempts, task.worlds, seed));
         SuccessRate::new(attempts.made, attempts.tried)
     })
 }
@@ -381,7 +381,7 @@ pub fn judge(
 ) -> SuccessRate {
     with_unlimited_task(table, layout, rule, shooter, UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
         let pieces = attempts.start / CHUNK_SIZE..attempts.end.div_ceil(CHUNK_SIZE);
-        let pieces = pieces.map(|piece| task.attempts(cue, judging_draws(task.worlds, seed, piece).iter()));
+        let pieces = pieces.map(|piece| task.attempts(cue, &judging_draws(task.worlds, seed, piece)));
         let Attempts { made, tried } = pieces.sum();
         SuccessRate::new(made, tried)
     })

@@ -75,16 +75,15 @@ impl Draws {
         Self { errors: errors::independent(count, seed), worlds }
     }
 
-    /// Returns the attempts in this range, as far as they exist.
-    pub fn range(&self, from: usize, to: usize) -> impl Iterator<Item = Draw<'_>> + Clone {
-        let to = to.min(self.errors.len());
-        let world = |index: usize| self.worlds.get(index % self.worlds.len().max(1));
-        (from.min(to)..to).map(move |index| Draw { errors: &self.errors[index], world: world(index) })
+    /// Returns the attempt with this index, if it exists.
+    pub fn get(&self, index: usize) -> Option<Draw<'_>> {
+        let world = self.worlds.get(index % self.worlds.len().max(1));
+        Some(Draw { errors: self.errors.get(index)?, world })
     }
 
     /// Returns all attempts.
-    pub fn iter(&self) -> impl Iterator<Item = Draw<'_>> + Clone {
-        self.range(0, self.len())
+    pub fn iter(&self) -> impl Iterator<Item = Draw<'_>> {
+        (0..self.len()).filter_map(|index| self.get(index))
     }
 
     /// Returns the number of attempts.

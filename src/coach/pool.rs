@@ -63,7 +63,7 @@ impl Race {
         } else {
             (&self.larger_errors, block, ErrorSize::Larger)
         };
-        Some((draws.drawn().range(index, index + 1).next()?, size))
+        Some((draws.drawn().get(index)?, size))
     }
 
     /// Returns the errors of each attempt in these blocks, as far as they are drawn.

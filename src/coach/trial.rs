@@ -11,7 +11,7 @@ use super::{
     FirstContact, Shooter, Skill,
     candidates::{MAX_ELEVATION, playable},
     clock::Clock,
-    draws::{Draw, World, Worlds},
+    draws::{Draw, Draws, World, Worlds},
     elevated::{is_jump_or_masse, makes_jump_or_masse},
 };
 use crate::{
@@ -162,9 +162,9 @@ impl<'a> Task<'a> {
     }
 
     /// Plays attempts at `cue` one after the other until time runs out.
-    pub fn attempts<'d>(&self, cue: &CueInputs, draws: impl Iterator<Item = Draw<'d>>) -> Attempts {
+    pub fn attempts(&self, cue: &CueInputs, draws: &Draws) -> Attempts {
         let mut attempts = Attempts::default();
-        for draw in draws {
+        for draw in draws.iter() {
             if self.clock.is_past(self.deadline) {
                 break;
             }

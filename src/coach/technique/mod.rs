@@ -5,7 +5,6 @@ mod patterns;
 use patterns::BENT;
 pub use patterns::{PATTERNS, Pattern};
 
-use glam::DVec2;
 use serde::Serialize;
 
 use super::{Hit, RailPoint, aim::hit, first_hit};
@@ -147,11 +146,9 @@ impl Technique {
                     first = Some(ball);
                     incoming = Some(before.velocity);
                     let ahead = before.velocity.normalize_or_zero();
-                    let space = self
-                        .before
-                        .last()
-                        .map(|cushion| space_at(table, cushion.rail, recording.state(ball, event.time).position));
-                    self.is_close = space.is_some_and(|space| space < CLOSE * table.radius);
+                    let gaps = table.reach() - recording.state(ball, event.time).position.abs();
+                    let is_close = |cushion: &Cushion| gaps.dot(cushion.rail.normal().abs()) < CLOSE * table.radius;
+                    self.is_close = self.before.last().is_some_and(is_close);
                     self.roll = table.radius * before.spin.truncate().dot(ahead.perp()) / before.velocity.length();
                 }
                 EventKind::BallBall(0, ball) if first == Some(ball) => {
@@ -202,12 +199,6 @@ fn flown_over(table: &Table, recording: &Recording) -> Option<usize> {
             (1..BALLS).filter(is_below).find(|&ball| !is_met(ball))
         })
     })
-}
-
-/// Returns the gap between a ball at `place` and a cushion, m.
-fn space_at(table: &Table, rail: Rail, place: DVec2) -> f64 {
-    let normal = rail.normal().abs();
-    (table.reach() - place.abs()).dot(normal)
 }
 
 /// Returns the largest distance between two balls, m.
