@@ -10,7 +10,7 @@ use crate::{
     game::scores,
     physics::{CueInputs, has_room},
     printing::format_timestamp,
-    table::{CueBall, Layout, Table},
+    table::{CueBall, Layout, Table, is_default},
 };
 
 /// When a session is over.
@@ -120,8 +120,7 @@ pub struct Attempt {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layout: Option<Layout>,
     /// The stroke that the player intended.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[serde(rename = "meant")]
+    #[serde(default, rename = "meant", skip_serializing_if = "Option::is_none")]
     pub intended: Option<CueInputs>,
     /// The stroke that resulted, with the player's errors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -166,7 +165,7 @@ pub struct Session {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub unordered: bool,
     /// The first cue ball.
-    #[serde(default, skip_serializing_if = "CueBall::is_white")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub cue_ball: CueBall,
     /// Seed of the errors and of the shifts.
     pub seed: u64,
