@@ -44,6 +44,22 @@ impl Input {
             Self::Elevation | Self::Direction => (1.0, self.unit()),
         }
     }
+
+    /// Returns the range and step of the scan for the nearest miss, in the input's unit. A step is at most a fifth of
+    /// an expert's standard error.
+    const fn scan(self) -> (f64, f64) {
+        match self {
+            Self::Side | Self::Height => (15.0, 0.1),
+            Self::Elevation => (15.0, 0.02),
+            Self::Direction => (5.0, 0.02),
+            Self::Speed => (3.0, 0.015),
+        }
+    }
+
+    /// Whether its range ends where the tip slips off, which counts as a miss.
+    const fn is_tip(self) -> bool {
+        matches!(self, Self::Side | Self::Height)
+    }
 }
 
 /// The outcome of a stroke.
@@ -201,24 +217,6 @@ impl<'a> Sensitivity<'a> {
         }
         let others = [Outcome::NoStroke, Outcome::NoBall, Outcome::OneBall, Outcome::TooFewCushions];
         others.into_iter().max_by_key(|outcome| count(*outcome)).unwrap_or(Outcome::NoStroke)
-    }
-}
-
-impl Input {
-    /// Returns the range and step of the scan for the nearest miss, in the input's unit. A step is at most a fifth of
-    /// an expert's standard error.
-    const fn scan(self) -> (f64, f64) {
-        match self {
-            Self::Side | Self::Height => (15.0, 0.1),
-            Self::Elevation => (15.0, 0.02),
-            Self::Direction => (5.0, 0.02),
-            Self::Speed => (3.0, 0.015),
-        }
-    }
-
-    /// Whether its range ends where the tip slips off, which counts as a miss.
-    const fn is_tip(self) -> bool {
-        matches!(self, Self::Side | Self::Height)
     }
 }
 
