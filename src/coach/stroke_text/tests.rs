@@ -145,7 +145,8 @@ const WORDS: &str = "red|yellow|white|the|ball|1/2|3/0|half|thin|full|on|left|ri
 proptest! {
     #[test]
     fn any_text_gives_a_playable_stroke_or_an_error(
-        words in prop::collection::vec(prop::sample::select(WORDS.split('|').collect::<Vec<_>>()), 0..14), played_before: bool,
+        words in prop::collection::vec(prop::sample::select(WORDS.split('|').collect::<Vec<_>>()), 0..14),
+        played_before: bool,
     ) {
         let table = Table::default();
         let before = CueInputs::parse("0.1,0.2,5,12.5,3").unwrap();
