@@ -206,12 +206,11 @@ fn random_stroke(exercise: &Exercise, rng: &mut impl RngExt) -> CueInputs {
 /// Draws a stroke with the cue raised for a jump, a massé, or a rail. Its line passes the centre of the ball by less than half of the
 /// radius.
 fn raised_stroke(exercise: &Exercise, rng: &mut impl RngExt) -> CueInputs {
-    let is_tagged = |tag: &str| exercise.tags.iter().any(|other| other == tag);
     let mut step = |least: i32, most: i32, unit: f64| f64::from(rng.random_range(least..=most)) / unit;
     let (theta, a, lever, speed) = match () {
-        () if is_tagged("jump") => (step(20, 60, 1.0), step(-4, 4, TIP), step(-8, 8, TIP), step(20, 60, SPEED)),
-        () if is_tagged("full") => (step(63, 80, 1.0), step(-9, 9, TIP), step(-9, 2, TIP), step(10, 50, SPEED)),
-        () if is_tagged("masse") => (step(30, 62, 1.0), step(-9, 9, TIP), step(-9, 2, TIP), step(10, 50, SPEED)),
+        () if exercise.has_tag("jump") => (step(20, 60, 1.0), step(-4, 4, TIP), step(-8, 8, TIP), step(20, 60, SPEED)),
+        () if exercise.has_tag("full") => (step(63, 80, 1.0), step(-9, 9, TIP), step(-9, 2, TIP), step(10, 50, SPEED)),
+        () if exercise.has_tag("masse") => (step(30, 62, 1.0), step(-9, 9, TIP), step(-9, 2, TIP), step(10, 50, SPEED)),
         () => (0.0, step(-6, 6, TIP), step(4, 9, TIP), step(9, 56, SPEED)),
     };
     let theta = theta.to_radians();

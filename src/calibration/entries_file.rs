@@ -98,7 +98,8 @@ pub fn edit_entries(path: &Path, edit: &Edit) -> Result<(Entries, Edit), Entries
         }
         Edit::ReplaceAll(all) => {
             if !trials.is_empty() {
-                back_up(path, &entries)?;
+                rotate_backups(path)?;
+                write(&latest_backup_path(path), &entries)?;
             }
             Edit::ReplaceAll(std::mem::replace(&mut entries, all.clone()))
         }
@@ -139,12 +140,6 @@ pub fn back_up_unreadable(path: &Path) -> Result<(), EntriesFileError> {
 fn lock(path: &Path) -> Result<Lock, EntriesFileError> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     Lock::acquire(folder).map_err(|error| EntriesFileError::Unwritable(path.to_owned(), error))
-}
-
-/// Writes entries to a new backup.
-fn back_up(path: &Path, entries: &Entries) -> Result<(), EntriesFileError> {
-    rotate_backups(path)?;
-    write(&latest_backup_path(path), entries)
 }
 
 /// Renames each backup to the next age, and drops the oldest.

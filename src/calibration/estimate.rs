@@ -9,7 +9,7 @@ use super::{
     robust::{UNREACHED_RESIDUAL, robust_residual},
 };
 use crate::{
-    statistics::{LeastSquaresProblem, Minimum, half_log_determinant, identity, minimize, normal_matrix, solve},
+    statistics::{LeastSquaresProblem, Minimum, dot, half_log_determinant, identity, minimize, normal_matrix, solve},
     table::Table,
 };
 
@@ -83,26 +83,20 @@ impl Estimate {
             let mut residuals = Vec::new();
             problem.residuals(&found.parameters, &mut residuals);
             let normal = normal_matrix(&problem.derivatives(&found.parameters, &residuals));
-            Some((-0.5 * found.squares - half_log_determinant(&normal)?, normal))
+            let evidence = -0.5 * found.squares - half_log_determinant(&normal)?;
+            Some((evidence, Posterior { mean: found.parameters.clone(), normal }))
         };
-        let valleys: Vec<Option<(f64, Vec<Vec<f64>>)>> = minima.iter().map(valley).collect();
-        let evidence = |valley: &Option<(f64, Vec<Vec<f64>>)>| valley.as_ref().map_or(f64::NEG_INFINITY, |one| one.0);
-        let (best, highest) = (0..minima.len())
-            .map(|index| (index, evidence(&valleys[index])))
-            .max_by(|one, other| one.1.total_cmp(&other.1))?;
-        let mut mixture = Vec::new();
-        for (found, valley) in minima.iter().zip(&valleys) {
-            let weight = (evidence(valley) - highest).exp();
-            if let Some((_, normal)) = valley.as_ref().filter(|_| weight >= MIN_WEIGHT) {
-                let first = Posterior { mean: found.parameters.clone(), normal: normal.clone() };
-                mixture.push((weight, first.refined(belief, trials).marginal(count)));
-            }
-        }
+        let valleys: Vec<(f64, Posterior)> = minima.iter().filter_map(valley).collect();
+        let (highest, best) = valleys.iter().max_by(|one, other| one.0.total_cmp(&other.0))?;
+        let weighted = valleys.iter().map(|(evidence, first)| ((evidence - highest).exp(), first));
+        let mixture: Vec<(f64, Moments)> = weighted
+            .filter(|(weight, _)| *weight >= MIN_WEIGHT)
+            .map(|(weight, first)| (weight, first.clone().refined(belief, trials).marginal(count)))
+            .collect();
         let (unknowns, covariance) = moments(count, &mixture);
-        let (likely, strokes) = minima[best].parameters.split_at(count);
+        let (likely, strokes) = best.mean.split_at(count);
         let strokes = strokes.as_chunks::<STROKE_PARAMETERS>().0.to_vec();
-        let normal = valleys[best].clone()?.1;
-        Some(Self { unknowns, covariance, most_probable: likely.to_vec(), strokes, normal })
+        Some(Self { unknowns, covariance, most_probable: likely.to_vec(), strokes, normal: best.normal.clone() })
     }
 
     /// Returns the expected value of a mark and its standard deviation. The mark itself contributes only as far as it looks correct.
@@ -119,7 +113,7 @@ impl Estimate {
             slope[index] = (seen? - at) / STEP;
         }
         let spread = solve(&self.normal, &slope)?;
-        Some((at, slope.iter().zip(spread).map(|(x, y)| x * y).sum::<f64>().max(0.0).sqrt()))
+        Some((at, dot(&slope, &spread).max(0.0).sqrt()))
     }
 }
 

@@ -70,7 +70,7 @@ impl StrokeSpread {
 
 /// The part of a shot that a player can observe.
 #[derive(Clone, Debug)]
-struct Observed {
+pub struct Observed {
     /// Rail contacts of each ball: time, s, and position of the ball's centre, m.
     rails: [Vec<(f64, DVec2)>; BALLS],
     /// Number of contacts with short rails.
@@ -79,6 +79,24 @@ struct Observed {
     positions: [DVec2; BALLS],
     /// Times at which the balls stop, s.
     stops: [f64; BALLS],
+}
+
+impl Observed {
+    /// Creates the observation of a shot that begins in `layout`.
+    pub fn new(layout: &Layout) -> Self {
+        Self { rails: Default::default(), short: [0; BALLS], positions: layout.balls, stops: [0.0; BALLS] }
+    }
+
+    /// Returns the position of the marked ball's centre, m; `None` for a time, or if the ball never gets there.
+    pub fn position(&self, quantity: Quantity) -> Option<DVec2> {
+        match quantity {
+            Quantity::StopAlong(ball) | Quantity::StopAcross(ball) => Some(self.positions[ball]),
+            Quantity::RailAlong(ball, number) | Quantity::RailAcross(ball, number) => {
+                self.rails[ball].get(number - 1).map(|(_, position)| *position)
+            }
+            Quantity::Time(..) => None,
+        }
+    }
 }
 
 impl Observer for Observed {
@@ -105,22 +123,18 @@ impl Observer for Observed {
 
 /// Returns the marks of `test` after this stroke, in their units; `None` for a mark to which the ball never gets.
 fn marks(table: &Table, test: &Test, cue: &CueInputs, layout: &Layout) -> Vec<Option<f64>> {
-    let mut observed =
-        Observed { rails: Default::default(), short: [0; BALLS], positions: layout.balls, stops: [0.0; BALLS] };
+    let mut observed = Observed::new(layout);
     watch(table, layout, &strike(table, cue), &mut observed);
-    let rail = |ball: usize, number: usize| observed.rails[ball].get(number - 1);
     let moment = |moment: Moment| match moment {
         Moment::Stroke => Some(0.0),
-        Moment::Rail(ball, number) => rail(ball, number).map(|(time, _)| *time),
+        Moment::Rail(ball, number) => observed.rails[ball].get(number - 1).map(|(time, _)| *time),
         Moment::Stop(ball) => Some(observed.stops[ball]),
     };
+    let diamonds = |quantity: Quantity| observed.position(quantity).map(|position| table.to_diamonds(position));
     let value = |quantity: Quantity| match quantity {
-        Quantity::StopAlong(ball) => {
-            Some(test.travel(table, observed.short[ball], table.to_diamonds(observed.positions[ball]).x))
-        }
-        Quantity::StopAcross(ball) => Some(table.to_diamonds(observed.positions[ball]).y),
-        Quantity::RailAlong(ball, number) => rail(ball, number).map(|(_, position)| table.to_diamonds(*position).x),
-        Quantity::RailAcross(ball, number) => rail(ball, number).map(|(_, position)| table.to_diamonds(*position).y),
+        Quantity::StopAlong(ball) => Some(test.travel(table, observed.short[ball], diamonds(quantity)?.x)),
+        Quantity::RailAlong(..) => Some(diamonds(quantity)?.x),
+        Quantity::StopAcross(_) | Quantity::RailAcross(..) => Some(diamonds(quantity)?.y),
         Quantity::Time(from, to) => Some(moment(to)? - moment(from)?),
     };
     test.marks.iter().map(|mark| value(mark.quantity)).collect()

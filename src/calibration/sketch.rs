@@ -5,12 +5,12 @@ use std::ops::ControlFlow;
 use glam::DVec2;
 
 use super::{
-    forward::{STROKE_PARAMETERS, StrokeSpread},
-    protocol::{Quantity, Test},
+    forward::{Observed, STROKE_PARAMETERS, StrokeSpread},
+    protocol::Test,
 };
 use crate::{
     physics::{CueInputs, strike},
-    simulation::{Event, EventKind, Observer, Segment, watch},
+    simulation::{Event, Observer, Segment, watch},
     table::{BALLS, Layout, Table},
 };
 
@@ -38,36 +38,25 @@ impl Sketch {
     pub fn of(table: &Table, test: &Test) -> Self {
         let (cue, layout) = StrokeSpread::ASSUMED.stroke(table, test, &[0.0; STROKE_PARAMETERS]);
         let paths = layout.balls.map(|ball| vec![ball]);
-        let mut observed = Observed { paths, positions: layout.balls, rails: Default::default() };
-        watch(table, &layout, &strike(table, &cue), &mut observed);
-        let position = |quantity: Quantity| match quantity {
-            Quantity::StopAlong(ball) | Quantity::StopAcross(ball) => Some(observed.positions[ball]),
-            Quantity::RailAlong(ball, number) | Quantity::RailAcross(ball, number) => {
-                observed.rails[ball].get(number - 1).copied()
-            }
-            Quantity::Time(..) => None,
-        };
-        let mark_positions = test.marks.iter().map(|mark| position(mark.quantity)).collect();
-        Self { layout, cue, paths: observed.paths, mark_positions }
+        let mut drawn = Drawn { observed: Observed::new(&layout), paths };
+        watch(table, &layout, &strike(table, &cue), &mut drawn);
+        let mark_positions = test.marks.iter().map(|mark| drawn.observed.position(mark.quantity)).collect();
+        Self { layout, cue, paths: drawn.paths, mark_positions }
     }
 }
 
-struct Observed {
+struct Drawn {
+    observed: Observed,
     paths: [Vec<DVec2>; BALLS],
-    positions: [DVec2; BALLS],
-    rails: [Vec<DVec2>; BALLS],
 }
 
-impl Observer for Observed {
+impl Observer for Drawn {
     fn wants_segments(&self) -> bool {
         true
     }
 
     fn event(&mut self, event: Event) -> ControlFlow<()> {
-        if let EventKind::BallRail(ball, _) = event.kind {
-            self.rails[ball].push(self.positions[ball]);
-        }
-        ControlFlow::Continue(())
+        self.observed.event(event)
     }
 
     fn segment(&mut self, ball: usize, segment: &Segment, end: f64) {
@@ -78,14 +67,14 @@ impl Observer for Observed {
                 path.push(point);
             }
         }
-        self.positions[ball] = segment.position_after(end - segment.start);
+        self.observed.segment(ball, segment, end);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::calibration::PROTOCOL;
+    use crate::calibration::{PROTOCOL, Quantity};
 
     #[test]
     fn every_test_has_positions_for_its_marks() {

@@ -185,7 +185,7 @@ fn direction_past(table: &Table, cue_ball: DVec2, target: DVec2, offset: f64) ->
 }
 
 /// Draws a random point of the tip's disc, uniform in area.
-fn random_tip(table: &Table, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
+pub fn random_tip(table: &Table, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
     let radius = TIP_SHARE * (table.miscue_limit * rng.random::<f64>()).sqrt();
     let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
     (radius * cos, radius * sin)

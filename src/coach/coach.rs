@@ -1,6 +1,7 @@
 //! The recommender: finds the shot that a given player makes most often, from a layout and a request.
 
 use std::{
+    collections::BTreeSet,
     ops::Range,
     sync::{Arc, OnceLock, atomic::AtomicBool},
     time::{Duration, Instant},
@@ -10,12 +11,12 @@ use super::{
     Alternative, Cause, Improvement, Kind, LayoutDifficulty, Recommendation, Request, Risk, Shooter, Skill, Source,
     clock::Clock,
     draws::{Draws, Worlds},
-    first::{FirstShotSearch, FirstShots},
+    first::FirstShots,
     next::NextValue,
     pool::Candidate,
     refinement::MIN_IMPROVEMENT,
     search::Search,
-    trial::{Attempts, CONTACT_STEPS, Task, UNLIMITED_STEPS, with_unlimited_task},
+    trial::{Attempts, Task, UNLIMITED_STEPS, with_unlimited_task},
 };
 use crate::{
     game::Rule,
@@ -142,23 +143,13 @@ impl Coach {
         let clock = Clock::start(request.budget, request.simulations, &request.cancel);
         let doubt = request.shooter().effective_doubt();
         let [worlds, level] = [Worlds::new, Worlds::level].map(|worlds| worlds(&self.table, layout, doubt));
-        let task = Task {
-            table: &self.table,
-            layout,
-            rule: request.rule,
-            skill: request.skill,
-            jumps: request.jumps,
-            first: request.first,
-            worlds: &level,
-            clock: &clock,
-            deadline: clock.deadline(1.0),
-            max_contact_steps: CONTACT_STEPS,
-        };
+        let task = Task::new(&self.table, layout, request.rule, request.skill, &level, &clock);
+        let task = Task { jumps: request.jumps, first: request.first, ..task };
         let policy = self.policy(request.rule, &request.skill);
         let proposals =
             policy.map_or_else(Vec::new, |policy| policy.proposals_by(team, &self.table, layout, &request.skill));
         let strokes: Vec<CueInputs> = proposals.iter().map(|proposal| proposal.cue).collect();
-        let found = FirstShotSearch::new(task).run(&strokes, &request.former, request.seed);
+        let found = FirstShots::find(task, &strokes, &request.former, request.seed);
         let answer = if request.skill.is_perfect() || found.solutions.is_empty() {
             first_point_answer(&found)
         } else {
@@ -190,12 +181,12 @@ impl Coach {
 /// many attempts, and the better one is the answer.
 fn robust_answer(
     found: &FirstShots,
-    mut pool: Vec<Candidate>,
+    pool: Vec<Candidate>,
     task: &Task,
     request: &Request,
     team: &Team,
 ) -> Recommendation {
-    retain_one_of_each_kind(&mut pool, task.skill, task.table.radius);
+    let mut pool = one_of_each_kind(pool, task.skill, task.table.radius);
     pool.truncate(1 + ALTERNATIVES);
     // Each piece is drawn by the first thread that needs it, so that no time is spent on pieces that are never used.
     let attempts: Vec<OnceLock<Draws>> = (0..2 * ATTEMPTS).step_by(CHUNK_SIZE).map(|_| OnceLock::new()).collect();
@@ -206,7 +197,7 @@ fn robust_answer(
     let judged = |pieces: &[(usize, usize)]| {
         team.map(pieces, |&(index, piece)| {
             let draw = || judging_draws(task.worlds, request.seed, piece);
-            (index, task.attempts(&pool[index].shot.cue, attempts[piece].get_or_init(draw).iter()))
+            (index, task.attempts(&pool[index].shot.cue, attempts[piece].get_or_init(draw)))
         })
     };
     let rate = |judged: &[(usize, Attempts)], candidate: usize| {
@@ -295,7 +286,7 @@ fn risk(cue: &CueInputs, task: &Task, request: &Request, team: &Team) -> Option<
         let skill = if errs { task.skill } else { Skill::PERFECT };
         let draws = Draws::independent(ATTEMPTS_PER_CAUSE, &worlds, judging_seed(request.seed));
         let task = Task { worlds: &worlds, skill, ..*task };
-        let Attempts { tried, made } = task.attempts(cue, draws.iter());
+        let Attempts { tried, made } = task.attempts(cue, &draws);
         (tried == ATTEMPTS_PER_CAUSE).then(|| 1.0 - made as f64 / ATTEMPTS_PER_CAUSE as f64)
     });
     let [hand, table, placing] = missed[..] else { return None };
@@ -305,9 +296,9 @@ fn risk(cue: &CueInputs, task: &Task, request: &Request, team: &Team) -> Option<
 /// Keeps the first shot and, in the given order, the first of each other kind. Drops a shot if every input is within
 /// one standard error of a kept one:
 /// a stroke that makes the point in two ways, depending on its errors, is one stroke.
-fn retain_one_of_each_kind(pool: &mut Vec<Candidate>, skill: Skill, radius: f64) {
+fn one_of_each_kind(pool: Vec<Candidate>, skill: Skill, radius: f64) -> Vec<Candidate> {
     let mut kept: Vec<Candidate> = Vec::new();
-    for candidate in pool.drain(..) {
+    for candidate in pool {
         let is_new = |other: &Candidate| {
             let (one, cue) = (&other.shot.cue, &candidate.shot.cue);
             let Skill { a, b, theta, phi, speed, .. } = skill.at(one);
@@ -322,34 +313,29 @@ fn retain_one_of_each_kind(pool: &mut Vec<Candidate>, skill: Skill, radius: f64)
             kept.push(candidate);
         }
     }
-    *pool = kept;
+    kept
 }
 
 /// Returns the answer for a perfect player, or for a search without a result.
 fn first_point_answer(found: &FirstShots) -> Recommendation {
-    let mut seen = Vec::new();
-    let others = found.solutions.iter().map(|(shot, tally)| (shot, Kind::of(tally, &shot.cue)));
-    let others = others.filter(|(_, kind)| {
-        let is_new = !seen.contains(kind);
-        seen.push(*kind);
-        is_new
-    });
-    let others: Vec<_> = others.skip(1).take(ALTERNATIVES).collect();
+    let mut seen = BTreeSet::new();
+    let shots = found.solutions.iter().map(|(shot, tally)| (*shot, Kind::of(tally, &shot.cue)));
+    let mut shots = shots.filter(|(_, kind)| seen.insert(*kind));
     let certain = SuccessRate { trials: 1, successes: 1, rate: 1.0, low: 1.0, high: 1.0 };
-    let first = found.solutions.first();
-    let shot = first.map_or(found.attempt, |(shot, _)| *shot);
+    let first = shots.next();
+    let shot = first.map_or(found.attempt, |(shot, _)| shot);
     Recommendation {
         cue: shot.cue,
         solved: first.is_some(),
         source: shot.source,
-        kind: first.map(|(shot, tally)| Kind::of(tally, &shot.cue)),
+        kind: first.map(|(_, kind)| kind),
         make_probability: first.map(|_| certain),
         judged_from: 0,
         risk: None,
         next_probability: None,
         is_planned: false,
-        alternatives: others
-            .into_iter()
+        alternatives: shots
+            .take(ALTERNATIVES)
             .map(|(shot, kind)| Alternative {
                 cue: shot.cue,
                 source: shot.source,
@@ -375,7 +361,7 @@ pub fn make_probability(
     seed: u64,
 ) -> SuccessRate {
     with_unlimited_task(table, layout, rule, shooter.into(), UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
-        let attempts = task.attempts(cue, Draws::independent(attempts, task.worlds, seed).iter());
+        let attempts = task.attempts(cue, &Draws::independent(attempts, task.worlds, seed));
         SuccessRate::new(attempts.made, attempts.tried)
     })
 }
@@ -395,7 +381,7 @@ pub fn judge(
 ) -> SuccessRate {
     with_unlimited_task(table, layout, rule, shooter, UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
         let pieces = attempts.start / CHUNK_SIZE..attempts.end.div_ceil(CHUNK_SIZE);
-        let pieces = pieces.map(|piece| task.attempts(cue, judging_draws(task.worlds, seed, piece).iter()));
+        let pieces = pieces.map(|piece| task.attempts(cue, &judging_draws(task.worlds, seed, piece)));
         let Attempts { made, tried } = pieces.sum();
         SuccessRate::new(made, tried)
     })
@@ -417,20 +403,14 @@ mod tests {
     use std::f64::consts::PI;
 
     use super::*;
-    use crate::coach::{Pace, Route, Suggestion, evidence::Rate};
+    use crate::{
+        coach::{Route, Suggestion},
+        game::Tally,
+    };
 
     fn candidate(cue: CueInputs, way: Route, effort_penalty: f64) -> Candidate {
-        let kind = Kind { first_ball: 1, cushion_first: false, route: way, pace: Pace::Hard, raised: false };
-        Candidate {
-            shot: Suggestion { cue, source: Source::Search },
-            kind,
-            tried: 0,
-            points: 0,
-            own_rate: Rate::default(),
-            larger_error_rate: Rate::default(),
-            next: NextValue::Assumed(1.0),
-            effort_penalty,
-        }
+        let candidate = Candidate::of(Suggestion { cue, source: Source::Search }, &Tally::default(), 0.0);
+        Candidate { kind: Kind { route: way, ..candidate.kind }, effort_penalty, ..candidate }
     }
 
     #[test]
@@ -469,9 +449,9 @@ mod tests {
             candidate(cue, way, 0.0)
         };
         let kept = |ways: &[(Route, f64)]| {
-            let mut pool: Vec<_> = ways.iter().map(|&(way, phi)| candidate(way, phi)).collect();
-            retain_one_of_each_kind(&mut pool, Skill::EXPERT, Table::default().radius);
-            pool.iter().map(|candidate| candidate.kind.route).collect::<Vec<_>>()
+            let pool = ways.iter().map(|&(way, phi)| candidate(way, phi)).collect();
+            let kept = one_of_each_kind(pool, Skill::EXPERT, Table::default().radius);
+            kept.iter().map(|candidate| candidate.kind.route).collect::<Vec<_>>()
         };
         assert_eq!(kept(&[(Route::OffCushion, 0.0), (Route::AroundTheTable, 0.5)]), [Route::OffCushion]);
         assert_eq!(
@@ -487,8 +467,8 @@ mod tests {
             shot: Suggestion { cue: CueInputs { phi, ..meant }, source: Source::Search },
             ..candidate(if phi > 0.0 { Route::Direct } else { Route::OffCushion }, 0.0)
         };
-        let mut pool = vec![turned(PI - 1e-5), turned(1e-5 - PI)];
-        retain_one_of_each_kind(&mut pool, Skill::EXPERT, Table::default().radius);
-        assert_eq!(pool.len(), 1, "the same direction");
+        let pool = vec![turned(PI - 1e-5), turned(1e-5 - PI)];
+        let kept = one_of_each_kind(pool, Skill::EXPERT, Table::default().radius);
+        assert_eq!(kept.len(), 1, "the same direction");
     }
 }

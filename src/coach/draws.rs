@@ -75,16 +75,15 @@ impl Draws {
         Self { errors: errors::independent(count, seed), worlds }
     }
 
-    /// Returns the attempts in this range, as far as they exist.
-    pub fn range(&self, from: usize, to: usize) -> impl Iterator<Item = Draw<'_>> + Clone {
-        let to = to.min(self.errors.len());
-        let world = |index: usize| self.worlds.get(index % self.worlds.len().max(1));
-        (from.min(to)..to).map(move |index| Draw { errors: &self.errors[index], world: world(index) })
+    /// Returns the attempt with this index, if it exists.
+    pub fn get(&self, index: usize) -> Option<Draw<'_>> {
+        let world = self.worlds.get(index % self.worlds.len().max(1));
+        Some(Draw { errors: self.errors.get(index)?, world })
     }
 
     /// Returns all attempts.
-    pub fn iter(&self) -> impl Iterator<Item = Draw<'_>> + Clone {
-        self.range(0, self.len())
+    pub fn iter(&self) -> impl Iterator<Item = Draw<'_>> {
+        (0..self.len()).filter_map(|index| self.get(index))
     }
 
     /// Returns the number of attempts.
@@ -139,18 +138,18 @@ pub struct Worlds {
 impl Worlds {
     /// Creates a distribution around `table` and `layout`.
     pub fn new(table: &Table, layout: &Layout, doubt: Doubt) -> Self {
-        Self::with_table_doubt(&|| TableDoubt::of(table), table, layout, doubt)
+        Self::with_table_doubt(TableDoubt::of, table, layout, doubt)
     }
 
     /// Like [`new`](Self::new), but without uncertainty about the table's tilt, for choosing between shots. A tilted
     /// table costs twice the time, and as the direction of the tilt is unknown, the choice hardly depends on it.
     pub fn level(table: &Table, layout: &Layout, doubt: Doubt) -> Self {
-        let known = || TableDoubt::of(table).without(|name| name.starts_with("tilt"));
-        Self::with_table_doubt(&known, table, layout, doubt)
+        let known = |table: &Table| TableDoubt::of(table).without(|name| name.starts_with("tilt"));
+        Self::with_table_doubt(known, table, layout, doubt)
     }
 
-    fn with_table_doubt(known: &dyn Fn() -> TableDoubt, table: &Table, layout: &Layout, doubt: Doubt) -> Self {
-        let sampler = if doubt.table > 0.0 { TableSampler::new(table, &known(), doubt.table) } else { None };
+    fn with_table_doubt(known: fn(&Table) -> TableDoubt, table: &Table, layout: &Layout, doubt: Doubt) -> Self {
+        let sampler = if doubt.table > 0.0 { TableSampler::new(table, &known(table), doubt.table) } else { None };
         Self { table: table.clone(), layout: *layout, sampler, placing: doubt.placing }
     }
 

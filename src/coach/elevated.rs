@@ -8,7 +8,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     Technique,
-    candidates::{MAX_ELEVATION, MAX_SPEED, TIP_SHARE},
+    candidates::{MAX_ELEVATION, MAX_SPEED, TIP_SHARE, random_tip},
 };
 use crate::{
     physics::{CueInputs, slip, strike},
@@ -131,9 +131,8 @@ fn direction_at(table: &Table, cue: &CueInputs, distance: f64) -> Option<f64> {
 /// Draws a tip position for a raised cue, uniform in area within this share of the miscue limit around the point where
 /// the cue's line passes through the centre.
 fn random_raised_tip(table: &Table, theta: f64, share: f64, rng: &mut Xoshiro256PlusPlus) -> (f64, f64) {
-    let radius = share * TIP_SHARE * (table.miscue_limit.min(1.0) * rng.random::<f64>()).sqrt();
-    let (sin, cos) = rng.random_range(0.0..TAU).sin_cos();
-    tip_position(theta, radius * cos, radius * sin)
+    let (a, lever) = random_tip(table, rng);
+    tip_position(theta, share * a, share * lever)
 }
 
 /// Returns the tip position of a cue raised by `theta` whose line passes the ball's centre by `a` to the left and `lever`

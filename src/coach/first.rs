@@ -48,52 +48,50 @@ pub struct FirstShots {
 }
 
 /// One search for a shot.
-pub struct FirstShotSearch<'a> {
+struct FirstShotSearch<'a> {
     task: Task<'a>,
     best: Option<(Merit, Suggestion)>,
     solutions: Vec<(Suggestion, Tally)>,
 }
 
-impl<'a> FirstShotSearch<'a> {
-    /// Creates a search for a task.
-    pub const fn new(task: Task<'a>) -> Self {
-        Self { task, best: None, solutions: Vec::new() }
-    }
-
+impl FirstShots {
     /// Tries the proposals and the shots of a former answer, whatever the time. Then searches until a shot is found or
     /// time is up.
-    pub fn run(mut self, proposals: &[CueInputs], former: &[CueInputs], seed: u64) -> FirstShots {
+    pub fn find(task: Task, proposals: &[CueInputs], former: &[CueInputs], seed: u64) -> Self {
+        let mut search = FirstShotSearch { task, best: None, solutions: Vec::new() };
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-        let (table, layout) = (self.task.table, self.task.layout);
+        let (table, layout) = (task.table, task.layout);
         for &cue in proposals {
-            self.play(cue, Source::Policy);
+            search.play(cue, Source::Policy);
         }
         for &cue in former {
-            self.play(cue, Source::Former);
+            search.play(cue, Source::Former);
         }
         'variations: for cue in proposals.iter().take(VARIED_PROPOSALS) {
             for _ in 0..VARIATIONS {
-                if self.is_over() {
+                if search.is_over() {
                     break 'variations;
                 }
-                self.play(variation(table, cue, &mut rng), Source::Variation);
+                search.play(variation(table, cue, &mut rng), Source::Variation);
             }
         }
         let mut tried = 0_u64;
-        while !self.is_over() {
+        while !search.is_over() {
             tried += 1;
             let is_raised =
-                self.task.seeks_jumps() && tried > USUAL_BEFORE_ELEVATED && tried.is_multiple_of(ELEVATED_INTERVAL);
+                task.seeks_jumps() && tried > USUAL_BEFORE_ELEVATED && tried.is_multiple_of(ELEVATED_INTERVAL);
             let elevated = if is_raised { random_elevated_stroke(table, layout, &mut rng) } else { None };
             let cue = elevated.unwrap_or_else(|| random_stroke(table, layout, &mut rng));
-            self.play(cue, Source::Search);
+            search.play(cue, Source::Search);
         }
         // Without any time and without a policy, nothing was tried.
-        let attempt = self.best.map(|(_, shot)| shot);
-        let attempt = attempt.unwrap_or_else(|| Suggestion { cue: self.plain_stroke(), source: Source::Search });
-        FirstShots { solutions: self.solutions, attempt }
+        let attempt = search.best.map(|(_, shot)| shot);
+        let attempt = attempt.unwrap_or_else(|| Suggestion { cue: search.plain_stroke(), source: Source::Search });
+        Self { solutions: search.solutions, attempt }
     }
+}
 
+impl FirstShotSearch<'_> {
     /// Returns a plain stroke at the first ball. If the cue has no room for it, the nearest direction with the lowest tip
     /// position that has room.
     fn plain_stroke(&self) -> CueInputs {

@@ -68,24 +68,20 @@ impl FirstContact {
 
     /// Whether a shot with this tally begins as chosen.
     pub fn allows(self, tally: &Tally) -> bool {
-        let first = if tally.cushions_before_first > 0 { Self::Cushion } else { Self::of_ball(tally.first_ball()) };
-        self == Self::Any || self == first
+        self.is_met(tally.first_ball(), tally.cushions_before_first > 0)
     }
 
     /// Whether a shot that is described by `words` begins as chosen.
     pub fn allows_words(self, words: &ShotWords) -> bool {
-        let first = match words.first {
-            Some(_) if !words.before.is_empty() => Self::Cushion,
-            first => Self::of_ball(first.map(|hit| hit.ball)),
-        };
-        self == Self::Any || self == first
+        self.is_met(words.first.map(|hit| hit.ball), !words.before.is_empty())
     }
 
-    const fn of_ball(ball: Option<usize>) -> Self {
-        match ball {
-            Some(1) => Self::OtherCueBall,
-            Some(2) => Self::Red,
-            _ => Self::Any,
+    fn is_met(self, first_ball: Option<usize>, after_cushion: bool) -> bool {
+        match self {
+            Self::Any => true,
+            Self::OtherCueBall => first_ball == Some(1) && !after_cushion,
+            Self::Red => first_ball == Some(2) && !after_cushion,
+            Self::Cushion => first_ball.is_some() && after_cushion,
         }
     }
 }

@@ -76,6 +76,17 @@ impl Kind {
             raised: cue.theta > MAX_ELEVATION,
         }
     }
+
+    /// Describes the kind for a player with the white ball, with speeds in the system of `unit`.
+    pub fn words(self, unit: LengthUnit) -> String {
+        let Self { first_ball, cushion_first, route, pace, raised } = self;
+        let pace = pace.words(unit) + if raised { ", raised" } else { "" };
+        let start = if cushion_first { "cushion first to" } else { "first" };
+        match first_ball {
+            0 => format!("hits no ball, {pace}"),
+            _ => format!("{start} {}, {route}, {pace}", BALL_NAMES[first_ball.min(BALLS - 1)]),
+        }
+    }
 }
 
 /// Avoids the players' terms, because their names of patterns and speeds are more specific than a kind.
@@ -97,19 +108,6 @@ impl Pace {
         match self {
             Self::Soft => format!("below {speed} {symbol}"),
             Self::Hard => format!("{speed} {symbol} and more"),
-        }
-    }
-}
-
-impl Kind {
-    /// Describes the kind for a player with the white ball, with speeds in the system of `unit`.
-    pub fn words(self, unit: LengthUnit) -> String {
-        let Self { first_ball, cushion_first, route, pace, raised } = self;
-        let pace = pace.words(unit) + if raised { ", raised" } else { "" };
-        let start = if cushion_first { "cushion first to" } else { "first" };
-        match first_ball {
-            0 => format!("hits no ball, {pace}"),
-            _ => format!("{start} {}, {route}, {pace}", BALL_NAMES[first_ball.min(BALLS - 1)]),
         }
     }
 }

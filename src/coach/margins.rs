@@ -44,6 +44,22 @@ impl Input {
             Self::Elevation | Self::Direction => (1.0, self.unit()),
         }
     }
+
+    /// Returns the range and step of the scan for the nearest miss, in the input's unit. A step is at most a fifth of
+    /// an expert's standard error.
+    const fn scan(self) -> (f64, f64) {
+        match self {
+            Self::Side | Self::Height => (15.0, 0.1),
+            Self::Elevation => (15.0, 0.02),
+            Self::Direction => (5.0, 0.02),
+            Self::Speed => (3.0, 0.015),
+        }
+    }
+
+    /// Whether its range ends where the tip slips off, which counts as a miss.
+    const fn is_tip(self) -> bool {
+        matches!(self, Self::Side | Self::Height)
+    }
 }
 
 /// The outcome of a stroke.
@@ -204,48 +220,19 @@ impl<'a> Sensitivity<'a> {
     }
 }
 
-impl Input {
-    /// Returns the range and step of the scan for the nearest miss, in the input's unit. A step is at most a fifth of
-    /// an expert's standard error.
-    const fn scan(self) -> (f64, f64) {
-        match self {
-            Self::Side | Self::Height => (15.0, 0.1),
-            Self::Elevation => (15.0, 0.02),
-            Self::Direction => (5.0, 0.02),
-            Self::Speed => (3.0, 0.015),
-        }
-    }
-
-    /// Whether its range ends where the tip slips off, which counts as a miss.
-    const fn is_tip(self) -> bool {
-        matches!(self, Self::Side | Self::Height)
-    }
-}
-
 /// Finds how far an input may go until `makes` fails; `None` if `is_possible` fails first, or the scan ends.
 fn nearest_miss(input: Input, makes: impl Fn(f64) -> bool, is_possible: impl Fn(f64) -> bool) -> Option<f64> {
     const HALVINGS: u32 = 10;
     let (reach, step) = input.scan();
     let steps = (reach / step).ceil() as u32;
-    for number in 1..=steps {
-        let far = f64::from(number) * step;
-        if !is_possible(far) {
-            return None;
-        }
-        if !makes(far) {
-            let (mut inside, mut outside) = (far - step, far);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (inside + outside);
-                if makes(middle) {
-                    inside = middle;
-                } else {
-                    outside = middle;
-                }
-            }
-            return Some(inside);
-        }
+    let mut scan = (1..=steps).map(|number| f64::from(number) * step).take_while(|far| is_possible(*far));
+    let mut outside = scan.find(|far| !makes(*far))?;
+    let mut inside = outside - step;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (inside + outside);
+        if makes(middle) { inside = middle } else { outside = middle }
     }
-    None
+    Some(inside)
 }
 
 /// Returns the outcome of a valid stroke. A shot whose resting contacts take more than 200 steps counts as decided by then.

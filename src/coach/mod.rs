@@ -13,7 +13,6 @@ mod elevated;
 mod evidence;
 mod first;
 mod first_contact;
-mod incoming;
 mod kind;
 mod layout_seed;
 mod margins;

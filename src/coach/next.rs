@@ -55,7 +55,7 @@ impl NextValue {
 /// these attempts that make the point. `None` if no attempt does, or time ran out.
 pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws, points: usize) -> Option<f64> {
     let (mut sum, mut made) = (0.0, 0);
-    for draw in draws.range(0, ATTEMPTS_PER_POINT * points) {
+    for draw in draws.iter().take(ATTEMPTS_PER_POINT * points) {
         if made == points {
             break;
         }

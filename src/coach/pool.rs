@@ -1,6 +1,6 @@
 //! The candidates of a search and their ranking: by the share of the same random errors under which each makes the point.
 
-use std::ops::Range;
+use std::{collections::BTreeMap, ops::Range};
 
 use super::{
     Kind, Source, Suggestion,
@@ -63,7 +63,7 @@ impl Race {
         } else {
             (&self.larger_errors, block, ErrorSize::Larger)
         };
-        Some((draws.drawn().range(index, index + 1).next()?, size))
+        Some((draws.drawn().get(index)?, size))
     }
 
     /// Returns the errors of each attempt in these blocks, as far as they are drawn.
@@ -182,38 +182,29 @@ const MIN_ELEVATED_SCORE: f64 = 0.8;
 /// former recommendation, which a few unlucky attempts must not drop.
 pub fn retain_best(candidates: &mut Vec<Candidate>, best: usize, of_each: usize) {
     candidates.sort_by(|a, b| b.score().total_cmp(&a.score()));
-    let mut seen: Vec<(Kind, usize)> = Vec::new();
+    let mut seen: BTreeMap<Kind, usize> = BTreeMap::new();
     let mut place = 0;
     let bar = candidates.first().map_or(0.0, |best| MIN_ELEVATED_SCORE * best.score());
     candidates.retain(|candidate| {
-        let rank = if let Some((_, count)) = seen.iter_mut().find(|(kind, _)| *kind == candidate.kind) {
-            *count += 1;
-            *count
-        } else {
-            seen.push((candidate.kind, 1));
-            1
-        };
+        let rank = seen.entry(candidate.kind).or_default();
+        *rank += 1;
         place += 1;
         let is_former = candidate.shot.source == Source::Former;
-        place <= best || is_former || rank <= of_each && (!candidate.kind.raised || candidate.score() >= bar)
+        place <= best || is_former || *rank <= of_each && (!candidate.kind.raised || candidate.score() >= bar)
     });
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::coach::{Pace, Route};
 
     fn candidate(cue: CueInputs, share: f64, next: NextValue) -> Candidate {
         Candidate {
-            shot: Suggestion { cue, source: Source::Search },
-            kind: Kind { first_ball: 1, cushion_first: false, route: Route::Direct, pace: Pace::Soft, raised: false },
             tried: 32,
-            points: 0,
             own_rate: Rate { share, attempts: 24.0 },
             larger_error_rate: Rate { share: 1.0, attempts: 8.0 },
             next,
-            effort_penalty: 0.0,
+            ..Candidate::of(Suggestion { cue, source: Source::Search }, &Tally::default(), 0.0)
         }
     }
 

@@ -253,10 +253,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        coach::{
-            Doubt, FirstContact, Skill, clock::Clock, draws::Worlds, evidence::Rate, first::FirstShotSearch,
-            make_probability, trial::CONTACT_STEPS,
-        },
+        coach::{Doubt, Skill, clock::Clock, draws::Worlds, evidence::Rate, first::FirstShots, make_probability},
         game::{Rule, Tally},
         table::{Layout, Table},
     };
@@ -288,23 +285,11 @@ mod tests {
         let worlds = Worlds::new(&table, &layout, Doubt::NONE);
         let [unlimited, clock] =
             [u64::MAX, 4000].map(|simulations| Clock::start(Duration::from_secs(60), simulations, &cancel));
-        let (deadline, max_contact_steps) = (clock.deadline(1.0), CONTACT_STEPS);
-        let task = Task {
-            table: &table,
-            layout: &layout,
-            rule,
-            skill,
-            jumps: true,
-            first: FirstContact::Any,
-            worlds: &worlds,
-            clock: &clock,
-            deadline,
-            max_contact_steps,
-        };
+        let task = Task::new(&table, &layout, rule, skill, &worlds, &clock);
         let mut race = Race::new(1);
         race.extend_to(&worlds, 8);
         // Directions around a shot that makes the point and that make it too; the first is at the edge.
-        let found = FirstShotSearch::new(Task { clock: &unlimited, ..task }).run(&[], &[], 1).solutions[0].0.cue;
+        let found = FirstShots::find(Task { clock: &unlimited, ..task }, &[], &[], 1).solutions[0].0.cue;
         let turned = |n: i32| CueInputs { phi: found.phi + 0.1 * f64::from(n) * skill.at(&found).phi, ..found };
         let made = (-40..=0).filter_map(|n| Candidate::new(&task, turned(n), Source::Search, 0.0));
         let pool: Vec<_> = made.take(2).map(|candidate| race.advance(&task, &candidate, 8).unwrap()).collect();

@@ -41,7 +41,7 @@ impl Scatter {
 /// `cancel`, the remaining attempts count as missed.
 #[expect(clippy::too_many_arguments, reason = "a question, a shot, and how it is to be tried")]
 pub fn scatter(
-    shooter: impl Into<Shooter>,
+    shooter: Shooter,
     rule: Rule,
     table: &Table,
     layout: &Layout,
@@ -50,7 +50,7 @@ pub fn scatter(
     seed: u64,
     cancel: &AtomicBool,
 ) -> Scatter {
-    let ends = with_unlimited_task(table, layout, rule, shooter.into(), CONTACT_STEPS, cancel, |task| {
+    let ends = with_unlimited_task(table, layout, rule, shooter, CONTACT_STEPS, cancel, |task| {
         let draws = Draws::independent(attempts, task.worlds, seed);
         let draws: Vec<_> = draws.iter().collect();
         parallel::map(platform::thread_count(), &draws, |draw| {
@@ -80,7 +80,7 @@ mod tests {
         let meant = Recording::new(&table, &layout, &cue).unwrap().final_layout();
         let mut before = 0.0;
         for skill in [Skill::PERFECT, Skill::EXPERT, Skill::CLUB] {
-            let scatter = scatter(skill, rule, &table, &layout, &cue, 200, 5, &never);
+            let scatter = scatter(skill.into(), rule, &table, &layout, &cue, 200, 5, &never);
             // The same seed draws the same errors.
             assert_eq!(scatter.made, make_probability(skill, rule, &table, &layout, &cue, 200, 5));
             assert_eq!(scatter.ends.len(), scatter.made.successes);
@@ -91,7 +91,7 @@ mod tests {
         let doubt = Shooter { skill: Skill::EXPERT, doubt: Doubt { placing: 0.02, ..Doubt::FULL } };
         let doubted = scatter(doubt, rule, &table, &layout, &cue, 200, 5, &never);
         assert_eq!(doubted.made, make_probability(doubt, rule, &table, &layout, &cue, 200, 5));
-        let cancelled = scatter(Skill::EXPERT, rule, &table, &layout, &cue, 200, 5, &AtomicBool::new(true));
+        let cancelled = scatter(Skill::EXPERT.into(), rule, &table, &layout, &cue, 200, 5, &AtomicBool::new(true));
         assert_eq!((cancelled.ends.len(), cancelled.spread(0, meant.balls[0])), (0, None));
     }
 }

@@ -218,26 +218,11 @@ impl<'a> Search<'a> {
 mod tests {
     use super::*;
     use crate::{
-        coach::{
-            Doubt, FirstContact, Skill, clock::Clock, draws::Worlds, first::FirstShotSearch, trial::CONTACT_STEPS,
-        },
+        coach::{Doubt, Skill, clock::Clock, draws::Worlds, first::FirstShots},
         game::Rule,
         table::{Layout, Table},
     };
     use std::{sync::atomic::AtomicBool, thread, time::Duration};
-
-    /// The task of an expert player without doubt.
-    fn expert<'a>(
-        table: &'a Table,
-        layout: &'a Layout,
-        rule: Rule,
-        worlds: &'a Worlds,
-        clock: &'a Clock<'a>,
-    ) -> Task<'a> {
-        let deadline = clock.deadline(1.0);
-        let (skill, jumps, first, max_contact_steps) = (Skill::EXPERT, true, FirstContact::Any, CONTACT_STEPS);
-        Task { table, layout, rule, skill, jumps, first, worlds, clock, deadline, max_contact_steps }
-    }
 
     #[test]
     fn sampling_leaves_simulations_for_the_refinement() {
@@ -246,7 +231,7 @@ mod tests {
         let worlds = Worlds::new(&table, &layout, Doubt::NONE);
         for (rule, simulations) in Rule::ALL.into_iter().flat_map(|rule| [4_000, 10_000, 25_000].map(|n| (rule, n))) {
             let clock = Clock::start(Duration::from_secs(600), simulations, &cancel);
-            let task = expert(&table, &layout, rule, &worlds, &clock);
+            let task = Task::new(&table, &layout, rule, Skill::EXPERT, &worlds, &clock);
             let mut search = Search::new(task, false, &team, 1);
             search.task.deadline = clock.deadline(search.sampling_end);
             search.race.extend_to(task.worlds, SECOND_PASS_BLOCKS);
@@ -263,8 +248,8 @@ mod tests {
         let layout = Layout::opening(&table);
         let worlds = Worlds::new(&table, &layout, Doubt::NONE);
         let clock = Clock::start(budget, u64::MAX, &cancel);
-        let task = expert(&table, &layout, Rule::StraightRail, &worlds, &clock);
-        let found = FirstShotSearch::new(task).run(&[], &[], 1);
+        let task = Task::new(&table, &layout, Rule::StraightRail, Skill::EXPERT, &worlds, &clock);
+        let found = FirstShots::find(task, &[], &[], 1);
         // Simulates a first shot that was hard to find.
         thread::sleep(budget.mul_f64(0.5).saturating_sub(clock.elapsed()));
         let mut reported = 0;

@@ -13,13 +13,7 @@ use glam::DVec2;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{
-    clock::Clock,
-    draws::Worlds,
-    pool::Candidate,
-    trial::{CONTACT_STEPS, Task},
-    *,
-};
+use super::{clock::Clock, draws::Worlds, pool::Candidate, trial::Task, *};
 use crate::{
     game::{Rule, pushes_touching_ball, scores},
     learning::evaluation::held_out_layouts,
@@ -395,18 +389,8 @@ fn jumps_are_searched_only_if_allowed_and_simulated() {
     let frozen = Table { flight: None, ..table.clone() };
     let clock = Clock::start(Duration::from_secs(60), u64::MAX, &cancel);
     let worlds = Worlds::new(&table, &layout, Doubt::NONE);
-    let task = |table, jumps| Task {
-        table,
-        layout: &layout,
-        rule: Rule::StraightRail,
-        skill: Skill::EXPERT,
-        jumps,
-        first: FirstContact::Any,
-        worlds: &worlds,
-        clock: &clock,
-        deadline: clock.deadline(1.0),
-        max_contact_steps: CONTACT_STEPS,
-    };
+    let task =
+        |table, jumps| Task { jumps, ..Task::new(table, &layout, Rule::StraightRail, Skill::EXPERT, &worlds, &clock) };
     let is_candidate = |jumps| Candidate::new(&task(&table, jumps), model, Source::Search, 0.0).is_some();
     assert!(is_candidate(true) && !is_candidate(false));
     // A steep cue that neither jumps nor bends the path is no candidate; nor is any on a table whose balls stay on the cloth.

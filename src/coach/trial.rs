@@ -11,7 +11,7 @@ use super::{
     FirstContact, Shooter, Skill,
     candidates::{MAX_ELEVATION, playable},
     clock::Clock,
-    draws::{Draw, World, Worlds},
+    draws::{Draw, Draws, World, Worlds},
     elevated::{is_jump_or_masse, makes_jump_or_masse},
 };
 use crate::{
@@ -67,24 +67,25 @@ pub fn with_unlimited_task<T>(
     play: impl FnOnce(&Task) -> T,
 ) -> T {
     let clock = Clock::start(Duration::MAX, u64::MAX, cancel);
-    let (skill, worlds, deadline) =
-        (shooter.skill, Worlds::new(table, layout, shooter.effective_doubt()), clock.deadline(1.0));
-    let (jumps, first) = (true, FirstContact::Any);
-    play(&Task {
-        table,
-        layout,
-        rule,
-        skill,
-        jumps,
-        first,
-        worlds: &worlds,
-        clock: &clock,
-        deadline,
-        max_contact_steps,
-    })
+    let worlds = Worlds::new(table, layout, shooter.effective_doubt());
+    play(&Task { max_contact_steps, ..Task::new(table, layout, rule, shooter.skill, &worlds, &clock) })
 }
 
-impl Task<'_> {
+impl<'a> Task<'a> {
+    /// Creates a task for strokes of any kind, until the clock's time is used up.
+    pub fn new(
+        table: &'a Table,
+        layout: &'a Layout,
+        rule: Rule,
+        skill: Skill,
+        worlds: &'a Worlds,
+        clock: &'a Clock<'a>,
+    ) -> Self {
+        let (jumps, first, max_contact_steps) = (true, FirstContact::Any, CONTACT_STEPS);
+        let deadline = clock.deadline(1.0);
+        Self { table, layout, rule, skill, jumps, first, worlds, clock, deadline, max_contact_steps }
+    }
+
     /// Returns the stroke as a player can play it here: see [`playable`]. Also `None` if the rules forbid it because it
     /// pushes a ball that touches the cue ball.
     pub fn playable(&self, cue: &CueInputs) -> Option<CueInputs> {
@@ -161,9 +162,9 @@ impl Task<'_> {
     }
 
     /// Plays attempts at `cue` one after the other until time runs out.
-    pub fn attempts<'d>(&self, cue: &CueInputs, draws: impl Iterator<Item = Draw<'d>>) -> Attempts {
+    pub fn attempts(&self, cue: &CueInputs, draws: &Draws) -> Attempts {
         let mut attempts = Attempts::default();
-        for draw in draws {
+        for draw in draws.iter() {
             if self.clock.is_past(self.deadline) {
                 break;
             }

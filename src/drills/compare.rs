@@ -16,7 +16,7 @@ const ATTEMPTS: usize = 1000;
 const SEED: u64 = 0x636f_6d70_6172_6521;
 
 /// Estimates how often a player makes the point with `cue`.
-pub fn chance(shooter: impl Into<Shooter>, rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> SuccessRate {
+pub fn chance(shooter: Shooter, rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> SuccessRate {
     make_probability(shooter, rule, table, layout, cue, ATTEMPTS, layout_seed(SEED, layout_number(layout)))
 }
 
@@ -91,6 +91,6 @@ mod tests {
         assert!(advice.chance.rate > 0.3, "{advice:?}");
         // The reported rate includes the doubt about table and positions; it is not that of the nominal table.
         assert_eq!(advice.chance, chance(request.shooter(), request.rule, &table, &layout, &advice.cue));
-        assert_ne!(advice.chance, chance(skill, request.rule, &table, &layout, &advice.cue));
+        assert_ne!(advice.chance, chance(skill.into(), request.rule, &table, &layout, &advice.cue));
     }
 }

@@ -240,6 +240,11 @@ impl Exercise {
         (&self.name, &self.table, self.layout, self.rule) == (&other.name, &other.table, other.layout, other.rule)
     }
 
+    /// Whether it has this tag.
+    pub fn has_tag(&self, tag: &str) -> bool {
+        self.tags.iter().any(|own| own == tag)
+    }
+
     /// Returns the model shot; `None` if there is none, or the cue has no room for it.
     pub fn model_shot(&self) -> Option<CueInputs> {
         let table = self.table().ok()?;

@@ -34,7 +34,6 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
     let layout = &exercise.layout;
     let technique = Technique::of(&table, layout, &cue)?;
     let misses = |changed: CueInputs| !scores(exercise.rule, &table, layout, &changed);
-    let is_tagged = |tag: &str| exercise.tags.iter().any(|other| other == tag);
     let point = Point::of(exercise.rule, &table, layout);
     let mut checks = vec![
         ("the cue has room for it", has_room(&table, layout, &cue)),
@@ -45,7 +44,7 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
         ),
         ("it hits the first ball only once before the second", technique.rehit_after.is_none()),
         ("it covers at least a twentieth of the first ball", technique.fullness() >= 0.05),
-        ("yellow stays away from red but in a time shot", technique.drives_second == is_tagged("time")),
+        ("yellow stays away from red but in a time shot", technique.drives_second == exercise.has_tag("time")),
     ];
     checks.extend(match exercise.category {
         Category::FirstCaroms => vec![
@@ -57,7 +56,7 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
             ("the cue ball turns by more than 60 degrees", technique.deflection > FRAC_PI_3),
             (
                 "with the tag back it turns by more than 90",
-                !is_tagged("back") || technique.deflection > 1.5 * FRAC_PI_3,
+                !exercise.has_tag("back") || technique.deflection > 1.5 * FRAC_PI_3,
             ),
             ("struck in the middle it misses", misses(CueInputs { b: 0.0, ..cue })),
         ],
@@ -119,7 +118,6 @@ fn elevated_flaws(
     technique: &Technique,
     cue: &CueInputs,
 ) -> Result<Vec<(&'static str, bool)>, ExerciseError> {
-    let is_tagged = |tag: &str| exercise.tags.iter().any(|other| other == tag);
     let [cue_ball, _, red] = exercise.layout.balls;
     let (way, ahead) = (red - cue_ball, DVec2::from_angle(cue.phi));
     let recording = Recording::new(table, &exercise.layout, cue)?;
@@ -136,21 +134,27 @@ fn elevated_flaws(
             "the first tag is jump, masse or hop",
             exercise.tags.first().is_some_and(|tag| ["jump", "masse", "hop"].contains(&tag.as_str())),
         ),
-        ("with the tag jump the cue ball flies over red", flies == is_tagged("jump")),
+        ("with the tag jump the cue ball flies over red", flies == exercise.has_tag("jump")),
         (
             "with the tag edge it passes over less than half of it",
-            !is_tagged("edge") || ahead.perp_dot(way).abs() > table.radius,
+            !exercise.has_tag("edge") || ahead.perp_dot(way).abs() > table.radius,
         ),
-        ("with the tag far red is more than 0.6 m away", !is_tagged("far") || way.length() > MIN_FAR_JUMP),
-        ("with the tag near red is less than 0.2 m away", !is_tagged("near") || way.length() < MAX_NEAR_JUMP),
-        ("with the tag masse the way bends by more than 15 degrees", bends == is_tagged("masse")),
+        ("with the tag far red is more than 0.6 m away", !exercise.has_tag("far") || way.length() > MIN_FAR_JUMP),
+        ("with the tag near red is less than 0.2 m away", !exercise.has_tag("near") || way.length() < MAX_NEAR_JUMP),
+        ("with the tag masse the way bends by more than 15 degrees", bends == exercise.has_tag("masse")),
         (
             "with the tag half the cue is raised by 30 to 63 degrees",
-            !is_tagged("half") || (MIN_HALF_MASSE..MIN_FULL_MASSE).contains(&steep),
+            !exercise.has_tag("half") || (MIN_HALF_MASSE..MIN_FULL_MASSE).contains(&steep),
         ),
-        ("with the tag full the cue is raised by more than 63 degrees", !is_tagged("full") || steep >= MIN_FULL_MASSE),
-        ("with the tag hop the cue is as level as the rail allows", !is_tagged("hop") || is_least && steep > 0.0),
-        ("with the tag hop the cue ball has come down before it meets yellow", !is_tagged("hop") || has_landed),
+        (
+            "with the tag full the cue is raised by more than 63 degrees",
+            !exercise.has_tag("full") || steep >= MIN_FULL_MASSE,
+        ),
+        (
+            "with the tag hop the cue is as level as the rail allows",
+            !exercise.has_tag("hop") || is_least && steep > 0.0,
+        ),
+        ("with the tag hop the cue ball has come down before it meets yellow", !exercise.has_tag("hop") || has_landed),
     ])
 }
 
@@ -188,9 +192,6 @@ fn tag_promises(
         ("two-cushions", "with the tag two-cushions there are two cushions before red", cushions == 2 || !direct),
         ("three-cushions", "with the tag three-cushions there are three before red", cushions == 3 || !direct),
     ];
-    let tags = &exercise.tags;
-    checks
-        .into_iter()
-        .filter(|(tag, ..)| tags.iter().any(|one| one == tag))
-        .map(|(_, sentence, holds)| (sentence, holds))
+    let promised = checks.into_iter().filter(|(tag, ..)| exercise.has_tag(tag));
+    promised.map(|(_, sentence, holds)| (sentence, holds))
 }

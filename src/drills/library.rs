@@ -128,7 +128,10 @@ impl Library {
         match self.exercises.iter().filter(either).collect::<Vec<_>>()[..] {
             [] => Err(LibraryError::Unknown(text.to_owned())),
             [exercise] => Ok(exercise),
-            ref several => Err(ambiguous(text, several)),
+            ref several => {
+                let names = several.iter().map(|exercise| format!("{} ({})", exercise.name, exercise.title)).collect();
+                Err(LibraryError::Ambiguous { text: text.to_owned(), names })
+            }
         }
     }
 
@@ -158,11 +161,6 @@ impl Library {
     pub fn find(&self, filter: &Filter) -> impl Iterator<Item = &Exercise> {
         self.exercises.iter().filter(|exercise| filter.accepts(exercise))
     }
-}
-
-fn ambiguous(text: &str, several: &[&Exercise]) -> LibraryError {
-    let names = several.iter().map(|exercise| format!("{} ({})", exercise.name, exercise.title));
-    LibraryError::Ambiguous { text: text.to_owned(), names: names.collect() }
 }
 
 /// Search criteria for exercises; a criterion that is `None` accepts all.
@@ -223,7 +221,6 @@ mod tests {
     #[test]
     fn exercise_is_found_by_name_title_or_prefix() {
         let exercise = |name: &str, title: &str| Exercise {
-            name: name.to_owned(),
             title: title.to_owned(),
             ..crate::drills::session::tests::exercise(name)
         };

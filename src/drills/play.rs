@@ -155,19 +155,7 @@ impl Session {
 impl Attempt {
     /// Creates an attempt made now, with its result only.
     pub fn new(exercise: &str, made: bool) -> Self {
-        Self {
-            exercise: exercise.to_owned(),
-            at: now(),
-            made,
-            helped: false,
-            by_coach: false,
-            layout: None,
-            intended: None,
-            played: None,
-            chance: None,
-            advised: None,
-            advised_chance: None,
-        }
+        Self { exercise: exercise.to_owned(), at: now(), made, ..Self::default() }
     }
 }
 

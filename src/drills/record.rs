@@ -39,12 +39,7 @@ impl Record {
         })
     }
 
-    /// Returns the record of all attempts in a session, by either side.
-    pub fn of_session(session: &Session) -> Self {
-        Self::of_all([session], |_, _| true)
-    }
-
-    /// Returns the record of the attempts in a session whose numbers, from 0 on, `counts` accepts.
+    /// Returns the record of the attempts in a session, by either side, whose numbers, from 0 on, `counts` accepts.
     pub(super) fn of_attempts(session: &Session, counts: impl Fn(usize) -> bool) -> Self {
         Self::of_all([session], |_, number| counts(number))
     }

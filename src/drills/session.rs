@@ -10,7 +10,7 @@ use crate::{
     game::scores,
     physics::{CueInputs, has_room},
     printing::format_timestamp,
-    table::{CueBall, Layout, Table},
+    table::{CueBall, Layout, Table, is_default},
 };
 
 /// When a session is over.
@@ -62,18 +62,18 @@ impl Goal {
             Self::Free => "free repetition".to_owned(),
             Self::Run(points) => format!("run of {points}"),
             Self::Exam => "exam".to_owned(),
-            Self::Game { innings: 0 } => "game".to_owned(),
-            Self::Game { innings: 1 } => "game, 1 inning".to_owned(),
-            Self::Game { innings } => format!("game, {innings} innings"),
-            Self::Match { innings, against_coach } => {
-                let other = if against_coach { "against the coach" } else { "match" };
-                match innings {
-                    0 => other.to_owned(),
-                    1 => format!("{other}, 1 inning"),
-                    _ => format!("{other}, {innings} innings"),
-                }
-            }
+            Self::Game { innings } => with_innings("game", innings),
+            Self::Match { innings, against_coach: true } => with_innings("against the coach", innings),
+            Self::Match { innings, against_coach: false } => with_innings("match", innings),
         }
+    }
+}
+
+fn with_innings(name: &str, innings: u32) -> String {
+    match innings {
+        0 => name.to_owned(),
+        1 => format!("{name}, 1 inning"),
+        _ => format!("{name}, {innings} innings"),
     }
 }
 
@@ -101,7 +101,7 @@ impl Venue {
 }
 
 /// One attempt. Unknown properties, such as most of those at a real table, are omitted.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Attempt {
     /// Name of the exercise.
     pub exercise: String,
@@ -120,8 +120,7 @@ pub struct Attempt {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layout: Option<Layout>,
     /// The stroke that the player intended.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[serde(rename = "meant")]
+    #[serde(default, rename = "meant", skip_serializing_if = "Option::is_none")]
     pub intended: Option<CueInputs>,
     /// The stroke that resulted, with the player's errors.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -166,7 +165,7 @@ pub struct Session {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub unordered: bool,
     /// The first cue ball.
-    #[serde(default, skip_serializing_if = "CueBall::is_white")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub cue_ball: CueBall,
     /// Seed of the errors and of the shifts.
     pub seed: u64,
@@ -344,7 +343,7 @@ impl Session {
 
     /// Returns the score, including the coach's strokes.
     pub fn record(&self) -> Record {
-        Record::of_session(self)
+        Record::of_attempts(self, |_| true)
     }
 
     /// Returns the current number of points in a row.
@@ -374,17 +373,9 @@ pub mod tests {
     /// An exercise from the opening position.
     pub fn exercise(name: &str) -> Exercise {
         Exercise {
-            name: name.to_owned(),
-            title: name.to_owned(),
             category: Category::FirstCaroms,
             grade: 1,
-            rule: Rule::StraightRail,
-            table: "match".to_owned(),
-            layout: Layout::opening(&Table::default()),
-            point: String::new(),
-            tags: Vec::new(),
-            shot: None,
-            par: None,
+            ..Exercise::new_own(name, Rule::StraightRail, "match", Layout::opening(&Table::default()))
         }
     }
 

@@ -83,10 +83,12 @@ mod tests {
     };
     use glam::DVec2;
 
+    type Change<'a> = &'a dyn Fn(&mut Session);
+
     #[test]
     fn impossible_strokes_are_refused_but_erroneous_ones_accepted() {
         let good = CueInputs { a: 0.0, b: 0.5, theta: 0.0, phi: 1.0, speed: 100.0 };
-        let changed = |change: &dyn Fn(&mut Session)| {
+        let changed = |change: Change| {
             let mut session = session(Goal::Free, "x-");
             change(&mut session);
             session.validate()
@@ -98,24 +100,16 @@ mod tests {
         let played = wild.stroke(0.03, &good, &[0.0, 0.0, 0.0, 0.0, 3.0]);
         changed(&|session| session.attempts[1].played = Some(played)).unwrap();
         let bad = CueInputs { theta: 1e9, ..good };
-        let refused: [&dyn Fn(&mut Session); 7] = [
-            &|session| session.attempts[1].chance = Some(5e300),
-            &|session| session.started = u64::MAX,
-            &|session| session.attempts[1].at = YEAR_10000,
-            &|session| session.attempts[1].advised = Some(bad),
-            &|session| session.attempts[1].intended = Some(bad),
-            &|session| session.attempts[1].played = Some(bad),
-            &|session| session.attempts[1].layout = Some(Layout::new([DVec2::ZERO; 3])),
+        let refused: [(Change, &str); 7] = [
+            (&|session| session.attempts[1].chance = Some(5e300), "make rate"),
+            (&|session| session.started = u64::MAX, "time 18446"),
+            (&|session| session.attempts[1].at = YEAR_10000, "time 253"),
+            (&|session| session.attempts[1].advised = Some(bad), "attempt 2"),
+            (&|session| session.attempts[1].intended = Some(bad), "theta"),
+            (&|session| session.attempts[1].played = Some(bad), "theta"),
+            (&|session| session.attempts[1].layout = Some(Layout::new([DVec2::ZERO; 3])), "white and yellow"),
         ];
-        for (change, says) in refused.into_iter().zip([
-            "make rate",
-            "time 18446",
-            "time 253",
-            "attempt 2",
-            "theta",
-            "theta",
-            "white and yellow",
-        ]) {
+        for (change, says) in refused {
             let error = changed(change).unwrap_err().to_string();
             assert!(error.contains(says), "{error}");
         }

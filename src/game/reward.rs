@@ -71,13 +71,8 @@ impl Reward {
     }
 
     /// Returns the rule for which the reward is exactly 1 for a point and 0 otherwise; `None` if it is not of this kind.
-    pub const fn rule(self) -> Option<Rule> {
-        match self {
-            Self::R3 => Some(Rule::StraightRail),
-            Self::OneCushion => Some(Rule::OneCushion),
-            Self::ThreeCushion => Some(Rule::ThreeCushion),
-            _ => None,
-        }
+    pub fn rule(self) -> Option<Rule> {
+        Rule::ALL.into_iter().find(|rule| Self::for_rule(*rule) == self)
     }
 
     /// Returns the reward of a point under `rule`.

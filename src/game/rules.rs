@@ -178,13 +178,6 @@ pub struct Referee {
     step_budget: StepBudget,
 }
 
-impl Default for Referee {
-    /// Observes until the point is made or can no longer be made.
-    fn default() -> Self {
-        Self::new(Some(2), u32::MAX)
-    }
-}
-
 impl Referee {
     /// Observes a shot to its end.
     pub fn until_end() -> Self {
@@ -230,7 +223,7 @@ impl Observer for Referee {
 /// Whether a shot makes a point. The layout and the stroke are not validated.
 pub fn scores(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> bool {
     let impulse = strike(table, cue);
-    let mut referee = Referee::default().with_tally(Tally::from_stroke(table, layout, &impulse));
+    let mut referee = Referee::new(Some(2), u32::MAX).with_tally(Tally::from_stroke(table, layout, &impulse));
     watch_with::<AllSavings, _>(table, layout, &impulse, &mut referee);
     Point::of(rule, table, layout).is_made(&referee.tally)
 }
@@ -262,11 +255,8 @@ mod tests {
     #[test]
     fn hit_again_is_set_only_before_second_ball() {
         let hit_again = |balls: &[usize]| {
-            let mut tally = Tally::default();
-            for ball in balls {
-                tally.count(&Event { time: 0.0, kind: EventKind::BallBall(0, *ball) });
-            }
-            tally.hit_again
+            let hits: Vec<EventKind> = balls.iter().map(|ball| EventKind::BallBall(0, *ball)).collect();
+            tally(&hits).hit_again
         };
         assert!(hit_again(&[1, 1, 2]) && hit_again(&[2, 2]));
         assert!(!hit_again(&[1, 2]) && !hit_again(&[1, 2, 1]));

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use serde::{Deserialize, Serialize};
 
 use super::{Cloth, SpatialState};
-use crate::table::{Table, is_zero};
+use crate::table::{Table, is_default};
 
 /// Fastest accepted ball, m/s: a light ball leaves the fastest cue at twice the cue's speed.
 const MAX_BALL_SPEED: f64 = 2.0 * CueInputs::MAX_SPEED;
@@ -209,7 +209,7 @@ pub struct Impulse {
     /// Initial angular velocity `w0`, rad/s.
     pub spin: DVec3,
     /// Upward velocity after the impulse of the cloth, m/s: zero on a table that keeps its balls on the cloth.
-    #[serde(skip_serializing_if = "is_zero")]
+    #[serde(skip_serializing_if = "is_default")]
     pub lift: f64,
 }
 

@@ -10,16 +10,15 @@ mod system;
 #[cfg(windows)]
 #[path = "windows/mod.rs"]
 mod system;
-mod threads;
 
 pub use self::{
+    parallel::{limit_threads, thread_count},
     stop::{UNFINISHED, ignore_hang_up, stop_on_signal},
     system::{
         CAN_SUSPEND, CLOCK_NAME, Input, NEEDS_TERM, discard_pending_output, exit_by_signal, file_identity, free_space,
         handle_signals, in_own_process_group, lacks_locks, refuse_large_files, suspend, sync_folder, terminal_output,
         thread_time, use_umask_permissions,
     },
-    threads::{limit_threads, thread_count},
 };
 
 /// A signal, classified by how the screen reacts to it.

@@ -2,8 +2,9 @@
 
 use std::{
     convert::Infallible,
+    num::NonZero,
     sync::{
-        Mutex, PoisonError,
+        Mutex, OnceLock, PoisonError,
         atomic::{AtomicBool, AtomicUsize, Ordering},
     },
     thread,
@@ -12,7 +13,8 @@ use std::{
 
 use rayon::{ThreadPool, ThreadPoolBuilder, Yield};
 
-use super::thread_count;
+/// The limit set by [`limit_threads`], if any.
+static LIMIT: OnceLock<usize> = OnceLock::new();
 
 /// Sleeping workers of earlier teams, for the next one.
 static IDLE: Mutex<Vec<ThreadPool>> = Mutex::new(Vec::new());
@@ -24,6 +26,17 @@ static BUSY: AtomicUsize = AtomicUsize::new(0);
 /// a sleeping thread: workers that slept between the steps of a search of 30 ms missed a third of the time of the short ones.
 const STAYS_AWAKE: Duration = Duration::from_millis(1);
 const NAP: Duration = Duration::from_micros(100);
+
+/// Returns the number of threads for parallel work: the hardware parallelism, or the limit if that is smaller.
+pub fn thread_count() -> usize {
+    let runs = thread::available_parallelism().map_or(1, NonZero::get);
+    LIMIT.get().map_or(runs, |limit| runs.min(*limit))
+}
+
+/// Limits the process to at most `most` threads from now on. A second call has no effect.
+pub fn limit_threads(most: usize) {
+    LIMIT.get_or_init(|| most.max(1));
+}
 
 /// The calling thread and the workers that help it.
 pub struct Team {
@@ -81,7 +94,7 @@ impl Team {
                 }
             });
             // Also if `lead` panics: the scope waits for its workers.
-            let _end = OnDrop(|| is_over.store(true, Ordering::Relaxed));
+            let _end = SetOnDrop(&is_over);
             lead(&team)
         })
     }
@@ -142,12 +155,12 @@ impl Team {
     }
 }
 
-/// Calls a function when it is dropped.
-struct OnDrop<F: Fn()>(F);
+/// Sets a flag when it is dropped.
+struct SetOnDrop<'a>(&'a AtomicBool);
 
-impl<F: Fn()> Drop for OnDrop<F> {
+impl Drop for SetOnDrop<'_> {
     fn drop(&mut self) {
-        (self.0)();
+        self.0.store(true, Ordering::Relaxed);
     }
 }
 

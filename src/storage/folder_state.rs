@@ -24,7 +24,7 @@ pub fn folder_state(folder: &Path) -> FolderState {
         Ok(above) => above,
         Err(error) => return FolderState { exists: false, refusal: Some(error), free: None },
     };
-    let free = platform::free_space(&above).ok().flatten();
+    let free = platform::free_space(&above);
     // The temporary file has no name on systems that support this. On every system it is deleted at the end of this statement.
     let refusal = tempfile::tempfile_in(&above).err();
     FolderState { exists: above == folder, refusal, free }

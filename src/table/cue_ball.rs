@@ -53,11 +53,6 @@ impl CueBall {
             Self::Yellow => Self::White,
         }
     }
-
-    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
-    pub(crate) fn is_white(&self) -> bool {
-        *self == Self::White
-    }
 }
 
 impl fmt::Display for CueBall {

@@ -195,14 +195,14 @@ impl TableDoubt {
 
     /// Returns the value of a constant; `None` if the table's models do not have it or the name is unknown.
     pub fn value(table: &Table, name: &str) -> Option<f64> {
-        CONSTANTS.iter().find(|constant| constant.name == name).and_then(|constant| (constant.get)(table))
+        Constant::named(name).and_then(|constant| (constant.get)(table))
     }
 
     /// Returns `table` with a new value of a constant, clamped to its limits; unchanged if the table's models do not have it.
     #[must_use]
     pub fn with_value(table: &Table, name: &str, value: f64) -> Table {
         let mut table = table.clone();
-        if let Some(constant) = CONSTANTS.iter().find(|constant| constant.name == name) {
+        if let Some(constant) = Constant::named(name) {
             constant.change(&mut table, value);
         }
         table
@@ -238,9 +238,14 @@ impl TableDoubt {
                 constant.assign(&mut other, *value);
             }
         }
+        (other, self.under(law))
+    }
+
+    /// Returns the uncertainty of the constants of a table with the alternative rail model `law`.
+    fn under(&self, law: &AlternativeLaw) -> Self {
         let mut deviations = self.deviations.clone();
         deviations.extend(law.deviations.clone());
-        (other, Self { deviations, correlations: law.correlations.clone(), laws: Vec::new() })
+        Self { deviations, correlations: law.correlations.clone(), laws: Vec::new() }
     }
 
     /// Checks every name and number.
@@ -248,7 +253,7 @@ impl TableDoubt {
     /// # Errors
     /// The first name or number that is not accepted.
     pub fn validate(&self) -> Result<(), DoubtError> {
-        let unknown = |name: &&String| !CONSTANTS.iter().any(|constant| constant.name == **name);
+        let unknown = |name: &&String| Constant::named(name).is_none();
         let values = self.laws.iter().flat_map(|law| law.values.keys());
         if let Some(name) = self.deviations.keys().chain(values).find(unknown) {
             return Err(DoubtError::Unknown(name.clone()));
@@ -271,17 +276,14 @@ impl TableDoubt {
         }
         self.laws.iter().try_for_each(|law| {
             for (name, value) in &law.values {
-                let known = CONSTANTS.iter().find(|constant| constant.name == *name);
-                let (low, high) = known.map_or((f64::MIN, f64::MAX), |constant| constant.limits);
+                let (low, high) = Constant::named(name).map_or((f64::MIN, f64::MAX), |constant| constant.limits);
                 if !(low..=high).contains(value) {
                     let accepted =
                         if high < f64::MAX { format!("from {low} to {high}") } else { format!("from {low} on") };
                     return Err(DoubtError::Value(format!("{name} = {value}"), accepted));
                 }
             }
-            let mut deviations = self.deviations.clone();
-            deviations.extend(law.deviations.clone());
-            Self { deviations, correlations: law.correlations.clone(), laws: Vec::new() }.validate()
+            self.under(law).validate()
         })
     }
 
@@ -312,6 +314,10 @@ impl TableDoubt {
 }
 
 impl Constant {
+    fn named(name: &str) -> Option<&'static Self> {
+        CONSTANTS.iter().find(|constant| constant.name == name)
+    }
+
     /// Sets the constant to `value`, clamped to the limits. Does nothing if the table's models do not have the constant.
     pub(super) fn change(&self, table: &mut Table, value: f64) {
         if (self.get)(table).is_some() {

@@ -37,8 +37,11 @@ const OVERRIDES: [(Rail, [&str; 3]); 4] = [
     (Rail::Top, ["rail.top.e", "rail.top.mu", "rail.top.height"]),
 ];
 
-/// Returns the first invalid value, with its key and the accepted range.
-pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> {
+/// A check of a value: its TOML key, the value, whether it is accepted, and what would be accepted.
+pub(super) type Check = (&'static str, f64, bool, &'static str);
+
+/// Checks the constants of the models.
+pub(super) fn checks(table: &Table) -> Vec<Check> {
     let Table { rail, radius, .. } = table;
     let restitution = |value: f64| (0.0..=1.0).contains(&value);
     let fade = |fade: &Fade| {
@@ -95,7 +98,7 @@ pub(super) fn first(table: &Table) -> Option<(&'static str, f64, &'static str)> 
     if let Some(mass) = table.cue_end_mass {
         checks.push(("m_end", mass, mass > 0.0 && mass <= table.cue_mass, "above 0 and at most M"));
     }
-    checks.into_iter().find(|(_, _, holds, _)| !holds).map(|(key, value, _, accepted)| (key, value, accepted))
+    checks
 }
 
 #[cfg(test)]

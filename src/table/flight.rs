@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::flaws::Check;
+
 /// The cloth as a ball hits it from above: the TOML section `[flight]`. Without this section all balls stay on the cloth, as in the thesis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -22,13 +24,14 @@ impl Default for Flight {
 }
 
 impl Flight {
-    /// Returns the first invalid value, with its key and the accepted range.
-    pub(super) fn flaw(&self) -> Option<(&'static str, f64, &'static str)> {
+    /// Checks every value.
+    pub(super) fn checks(&self) -> [Check; 2] {
         let (e, mu) = (self.restitution, self.friction.unwrap_or(0.0));
-        if !(0.0..=MAX_RESTITUTION).contains(&e) {
-            return Some(("flight.e_c", e, "0 to 0.99: a ball that loses nothing would hop forever"));
-        }
-        (!(0.0..=1e3).contains(&mu)).then_some(("flight.mu_c", mu, "0 to 1000"))
+        let accepted = "0 to 0.99: a ball that loses nothing would hop forever";
+        [
+            ("flight.e_c", e, (0.0..=MAX_RESTITUTION).contains(&e), accepted),
+            ("flight.mu_c", mu, (0.0..=1e3).contains(&mu), "0 to 1000"),
+        ]
     }
 }
 

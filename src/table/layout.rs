@@ -228,16 +228,11 @@ impl Layout {
         let mut balls = [DVec2::ZERO; BALLS];
         let mut words = text.split_whitespace();
         for ball in &mut balls {
-            *ball = words.next().and_then(|word| parse_position(word, table)).ok_or_else(refuse)?;
+            let [x, y] = words.next().and_then(coordinates).ok_or_else(refuse)?[..] else { return Err(refuse()) };
+            *ball = position_of(x, y, table).ok_or_else(refuse)?;
         }
         if words.next().is_some() { Err(refuse()) } else { Ok(Self::new(balls)) }
     }
-}
-
-/// Parses one position `"x,y"` as [`Layout::parse`] does.
-fn parse_position(word: &str, table: &Table) -> Option<DVec2> {
-    let [x, y] = coordinates(word)?[..] else { return None };
-    position_of(x, y, table)
 }
 
 /// A number of a typed position, and whether its unit is the diamond.

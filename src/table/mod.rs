@@ -18,7 +18,7 @@ pub use doubt::{AlternativeLaw, DoubtError, TableDoubt};
 pub use flaws::{max_sliding_friction, steepest_tilt};
 pub use flight::Flight;
 pub use layout::{BALL_NAMES, BALLS, Layout, LayoutError, PAIRS, TOUCHING_TOLERANCE};
-pub(crate) use models::is_zero;
+pub(crate) use models::is_default;
 pub use models::{Fade, RailModel, RailOverrides, Rails, SlipFriction};
 pub use opening::{Opening, Side, UnknownSide};
 pub use parameters::{PRESETS, THESIS_PRESETS, Table, TableError};

@@ -148,8 +148,7 @@ impl SlipFriction {
     }
 }
 
-/// Whether a number equals its default, zero, so that a file can omit it.
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
-pub(crate) fn is_zero(value: &f64) -> bool {
-    *value == 0.0
+/// Whether a value equals its default, so that a file can omit it.
+pub(crate) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }

@@ -16,13 +16,6 @@ pub enum Opening {
     Umb,
 }
 
-impl Opening {
-    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
-    pub(super) fn is_default(&self) -> bool {
-        *self == Self::default()
-    }
-}
-
 /// The side of the opponent's ball on which the cue ball stands, for a player who looks along the table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Side {

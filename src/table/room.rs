@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::flaws::Check;
+
 /// Sizes of the cue and of the rails that it passes over: the TOML section `[room]`. Omitted sizes are those of a regulation table.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -26,9 +28,9 @@ impl Default for Room {
 }
 
 impl Room {
-    /// Returns the first invalid size for balls of `radius`, m, with its key and the accepted range.
-    pub(super) fn flaw(&self, radius: f64) -> Option<(&'static str, f64, &'static str)> {
-        let checks = [
+    /// Checks every size for balls of `radius`, m.
+    pub(super) fn checks(&self, radius: f64) -> [Check; 5] {
+        [
             ("room.tip", self.tip, self.tip > 0.0 && self.tip <= 2.0 * radius, "above 0 and at most a ball's diameter"),
             ("room.taper", self.taper, (0.0..=0.1).contains(&self.taper), "0 to 0.1 m a metre"),
             ("room.length", self.length, self.length > 0.0 && self.length <= 10.0, "above 0 and at most 10 m"),
@@ -39,8 +41,7 @@ impl Room {
                 "above 0 and less than a ball's diameter",
             ),
             ("room.rail", self.rail, (0.0..=1.0).contains(&self.rail), "0 to 1 m"),
-        ];
-        checks.into_iter().find(|(_, _, holds, _)| !holds).map(|(key, value, _, accepted)| (key, value, accepted))
+        ]
     }
 }
 

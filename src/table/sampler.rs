@@ -5,7 +5,7 @@ use super::{
     doubt::{CONSTANTS, Constant},
     flaws::steepest_tilt,
 };
-use crate::statistics::normal_quantile;
+use crate::statistics::{dot, normal_quantile};
 
 /// Draws random tables around a table, according to its uncertainty.
 #[derive(Debug)]
@@ -78,8 +78,7 @@ impl Distribution {
         let mut table = self.table.clone();
         let numbers: Vec<f64> = self.constants.iter().map(|_| normal()).collect();
         for ((constant, mean), line) in self.constants.iter().zip(&self.factor) {
-            let off: f64 = line.iter().zip(&numbers).map(|(entry, number)| entry * number).sum();
-            constant.change(&mut table, mean + off);
+            constant.change(&mut table, mean + dot(line, &numbers));
         }
         table.tilt = table.tilt.clamp_length_max(0.99 * steepest_tilt(&table));
         table

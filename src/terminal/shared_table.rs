@@ -15,7 +15,7 @@ use crate::{
     game::Rule,
     physics::CueInputs,
     storage::{self, DataPaths, Lock, Player},
-    table::{BALLS, CueBall, Layout, Table},
+    table::{BALLS, CueBall, Layout, Table, is_default},
     terminal::shot::playback::SPEEDS,
 };
 
@@ -73,7 +73,7 @@ pub struct SharedTable {
     /// Positions of the balls before the shot.
     pub layout: Layout,
     /// Which ball is the cue ball.
-    #[serde(default, skip_serializing_if = "CueBall::is_white")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub cue_ball: CueBall,
     /// What counts as a point.
     pub rule: Rule,

@@ -7,6 +7,7 @@ pub use fit::DifficultySample;
 use super::Skill;
 use crate::{
     game::Rule,
+    statistics::dot,
     table::{Layout, Table},
 };
 
@@ -74,7 +75,7 @@ impl LayoutDifficulty {
 
     /// Estimates the share of attempts that [`LayoutDifficulty::WEAK`] misses from `layout`.
     pub fn miss_rate(&self, table: &Table, layout: &Layout) -> f64 {
-        let share: f64 = self.weights.iter().zip(features(table, layout)).map(|(weight, number)| weight * number).sum();
+        let share = dot(&self.weights, &features(table, layout));
         (SOFTNESS * (share / SOFTNESS).exp().ln_1p()).min(1.0)
     }
 }

@@ -151,15 +151,6 @@ pub struct StrokeText {
 }
 
 impl StrokeText {
-    /// Parses `text`. Also reads the coach's own words in tips and diamonds; skips its course of the cue ball after the
-    /// first ball, which follows from the stroke.
-    ///
-    /// # Errors
-    /// Fails if a part is not understood.
-    pub fn parse(text: &str) -> Result<Self, StrokeTextError> {
-        parse::parse(text)
-    }
-
     /// Computes the stroke, for a player with `cue_ball`. Omitted properties are taken from `before`; without it the cue is
     /// level and strikes the centre. If rails or balls behind the cue ball are in the way, the cue is raised as far as
     /// needed.

@@ -14,27 +14,33 @@ use crate::{
 /// Words for the fullness other than those in sixteenths.
 const FULLNESS: [(&str, f64); 2] = [("thin", 0.25), ("thick", 0.75)];
 
-/// Parses a stroke text.
-pub fn parse(text: &str) -> Result<StrokeText, StrokeTextError> {
-    let mut stroke = StrokeText::default();
-    for line in text.to_lowercase().lines() {
-        // Skips what follows from the stroke in the coach's words: the course, the pattern, and the reason up to the end of its line.
-        let told = line.split("why:").next().unwrap_or_default();
-        let follows = |said: &&str| [" \u{2013} ", " - ", "pattern:"].iter().any(|part| said.contains(part));
-        let sentences = told.split(". ").filter(|said| !follows(said));
-        for part in sentences.flat_map(parts) {
-            let twice = |what| StrokeTextError::Duplicate(what, part.clone());
-            parse_part(&part, &mut stroke, twice)?;
+impl StrokeText {
+    /// Parses `text`. Also reads the coach's own words in tips and diamonds; skips its course of the cue ball after the
+    /// first ball, which follows from the stroke.
+    ///
+    /// # Errors
+    /// Fails if a part is not understood.
+    pub fn parse(text: &str) -> Result<Self, StrokeTextError> {
+        let mut stroke = Self::default();
+        for line in text.to_lowercase().lines() {
+            // Skips what follows from the stroke in the coach's words: the course, the pattern, and the reason up to the end of its line.
+            let told = line.split("why:").next().unwrap_or_default();
+            let follows = |said: &&str| [" \u{2013} ", " - ", "pattern:"].iter().any(|part| said.contains(part));
+            let sentences = told.split(". ").filter(|said| !follows(said));
+            for part in sentences.flat_map(parts) {
+                let twice = |what| StrokeTextError::Duplicate(what, part.clone());
+                parse_part(&part, &mut stroke, twice)?;
+            }
         }
+        // The coach gives both: "medium (2.9 table lengths)". Players round.
+        if let (Some(pace), Some(Speed::Lengths(lengths))) = (stroke.pace, stroke.speed)
+            && lengths >= 0.0
+            && (pace - lengths.min(PACES.len() as f64)).abs() > 1.0
+        {
+            return Err(StrokeTextError::Pace(lengths, pace_word(lengths), pace_word(pace)));
+        }
+        if stroke == Self::default() { Err(StrokeTextError::Empty) } else { Ok(stroke) }
     }
-    // The coach gives both: "medium (2.9 table lengths)". Players round.
-    if let (Some(pace), Some(Speed::Lengths(lengths))) = (stroke.pace, stroke.speed)
-        && lengths >= 0.0
-        && (pace - lengths.min(PACES.len() as f64)).abs() > 1.0
-    {
-        return Err(StrokeTextError::Pace(lengths, pace_word(lengths), pace_word(pace)));
-    }
-    if stroke == StrokeText::default() { Err(StrokeTextError::Empty) } else { Ok(stroke) }
 }
 
 /// Splits a line at commas, semicolons, brackets and full stops, except at those inside numbers.

@@ -147,8 +147,7 @@ impl Applied {
     pub fn path(&self, table: &Table) -> Vec<DVec2> {
         let Self { system, mirror, line, .. } = self;
         let turned = |place: DVec2| metres(table, mirror.apply(place));
-        let line_on_table = Line::between(mirror.apply(line.from), mirror.apply(line.from + line.direction));
-        let hits = system.natural_stroke().run(table, &line_on_table, mirror.rail(system.rails()[0]));
+        let hits = system.natural_stroke().run(table, &mirror.line(line), mirror.rail(system.rails()[0]));
         let behind = line.start_along().map(|along| turned(start_at(along)));
         let hits = hits.into_iter().take(3).map(|(_, place)| metres(table, place));
         behind.into_iter().chain([turned(line.from)]).chain(hits).collect()
@@ -175,11 +174,7 @@ fn solve(system: System, near: f64, jump: f64, error: impl Fn(f64) -> Option<f64
     let mut high = low + at(1) - at(0);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        if (error(middle)? < 0.0) == below {
-            low = middle;
-        } else {
-            high = middle;
-        }
+        if (error(middle)? < 0.0) == below { low = middle } else { high = middle }
     }
     Some(0.5 * (low + high))
 }

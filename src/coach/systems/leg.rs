@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::lines::{Line, diamonds};
 use crate::{
-    coach::incoming::{JUST_BEFORE, english},
+    coach::technique::{JUST_BEFORE, english},
     physics::Impulse,
     simulation::{EventKind, Rail, Recording},
     table::Table,

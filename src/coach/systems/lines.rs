@@ -45,6 +45,11 @@ impl Mirror {
         DVec2::select(glam::BVec2::new(self.x, self.y), SIZE - place, place)
     }
 
+    /// Mirrors a line.
+    pub fn line(self, line: &Line) -> Line {
+        Line::between(self.apply(line.from), self.apply(line.from + line.direction))
+    }
+
     /// Mirrors a cushion.
     pub const fn rail(self, rail: Rail) -> Rail {
         match rail {

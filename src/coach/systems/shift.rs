@@ -21,9 +21,8 @@ const MIN_SHIFT: f64 = 0.05;
 
 /// A line that leads to a diamond, and the shot's parallel line next to it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "name", rename = "parallel-shift")]
 pub struct ParallelShift {
-    /// Always `parallel-shift`.
-    name: &'static str,
     /// The first cushion and the third.
     pub rails: [Rail; 2],
     /// The diamond of the first cushion to which the neighbouring line leads.
@@ -89,16 +88,7 @@ impl ParallelShift {
             let third = arrival + turned * by;
             // Nor can a ball arrive beyond a corner.
             let is_there = (0.0..=last).contains(&third) && (third - table_third).abs() <= MAX_ARRIVAL_ERROR;
-            is_there.then_some(Self {
-                name: "parallel-shift",
-                rails: [first, leg.hits[2].0],
-                diamond,
-                arrival,
-                by,
-                third,
-                table_third,
-                path,
-            })
+            is_there.then_some(Self { rails: [first, leg.hits[2].0], diamond, arrival, by, third, table_third, path })
         })
     }
 }
@@ -171,7 +161,6 @@ mod tests {
             assert!((0.0..=last).contains(&shift.diamond) && (0.0..=last).contains(&shift.third), "{shift:?}");
         }
         let shift = ParallelShift {
-            name: "parallel-shift",
             rails: [Rail::Top, Rail::Bottom],
             diamond: 3.0,
             arrival: 5.1,

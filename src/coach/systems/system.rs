@@ -237,20 +237,11 @@ impl System {
         }
     }
 
-    /// Returns the position of an arrival.
-    pub const fn third_at(self, along: f64) -> DVec2 {
-        match self {
-            Self::Corner5 => DVec2::new(along, 0.0),
-            Self::Plus | Self::Seven => edge(self.rails()[2], along),
-        }
-    }
-
     /// Simulates this `stroke` on `line` on the table mirrored by `mirror` and returns the arrival, in diamonds along
     /// the third cushion. `None` if the ball does not arrive there.
     pub fn simulated_arrival(self, table: &Table, mirror: Mirror, line: &Line, stroke: &NaturalStroke) -> Option<f64> {
         let [first, _, third] = self.rails();
-        let turned = Line::between(mirror.apply(line.from), mirror.apply(line.from + line.direction));
-        let hits = stroke.run(table, &turned, mirror.rail(first));
+        let hits = stroke.run(table, &mirror.line(line), mirror.rail(first));
         let hit = |index: usize| hits.get(index).map(|(rail, place)| (mirror.rail(*rail), mirror.apply(*place)));
         // Near a corner the third cushion may be hit before the second.
         let index = if hit(1)?.0 == third { 1 } else { 2 };
@@ -268,35 +259,38 @@ impl System {
 
     /// Returns the numbers to display at the rails.
     pub fn labels(self) -> Labels {
-        let scale = self.start_scale();
-        let numbers: &[f64] = match self {
-            Self::Corner5 => &[20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0],
-            Self::Plus => &[2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0],
-            Self::Seven => &[2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0],
+        let [starts, firsts, thirds]: [&[f64]; 3] = match self {
+            Self::Corner5 => [
+                &[20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0],
+                &[10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0],
+                &[10.0, 20.0, 30.0, 40.0],
+            ],
+            Self::Plus => [&[2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], &[5.0, 4.0, 3.0, 2.0], &[4.0, 5.0, 6.0, 7.0, 8.0]],
+            Self::Seven => [&[2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0], &[10.0, 20.0, 30.0], &[4.0, 5.0, 6.0, 7.0, 8.0, 9.0]],
         };
-        let start = numbers.iter().filter_map(|&number| Some((number, start_at(scale.position(number)?))));
-        let first: Vec<(f64, f64)> = match self {
-            Self::Corner5 => [10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0]
-                .iter()
-                .filter_map(|&number| Some((number, CORNER_5_FIRST.position(number)?)))
-                .collect(),
-            Self::Plus => vec![(5.0, 2.0), (4.0, 2.5), (3.0, 3.0), (2.0, 3.5)],
-            Self::Seven => {
-                [10.0, 20.0, 30.0].iter().filter_map(|&number| Some((number, SEVEN_FIRST.position(number)?))).collect()
-            }
+        let start = |number| self.start_scale().position(number).map(start_at);
+        let first = |number| {
+            let along = match self {
+                Self::Corner5 => CORNER_5_FIRST.position(number),
+                // For starts up to 5.
+                Self::Plus => Some(4.5 - 0.5 * number),
+                Self::Seven => SEVEN_FIRST.position(number),
+            };
+            along.map(|along| self.first_at(along))
         };
-        let thirds: &[f64] = match self {
-            Self::Corner5 => &[10.0, 20.0, 30.0, 40.0],
-            Self::Plus => &[4.0, 5.0, 6.0, 7.0, 8.0],
-            Self::Seven => &[4.0, 5.0, 6.0, 7.0, 8.0, 9.0],
+        let third = |number| {
+            self.third_along(number).map(|along| match self {
+                Self::Corner5 => DVec2::new(along, 0.0),
+                Self::Plus | Self::Seven => edge(self.rails()[2], along),
+            })
         };
-        let third = thirds.iter().filter_map(|&number| Some((number, self.third_at(self.third_along(number)?))));
-        Labels {
-            start: start.collect(),
-            first: first.into_iter().map(|(number, along)| (number, self.first_at(along))).collect(),
-            third: third.collect(),
-        }
+        Labels { start: labels(starts, start), first: labels(firsts, first), third: labels(thirds, third) }
     }
+}
+
+/// Returns the numbers that have a position.
+fn labels(numbers: &[f64], place: impl Fn(f64) -> Option<DVec2>) -> Vec<(f64, DVec2)> {
+    numbers.iter().filter_map(|&number| Some((number, place(number)?))).collect()
 }
 
 impl fmt::Display for System {

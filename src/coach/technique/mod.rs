@@ -1,29 +1,31 @@
 //! Analysis of a shot: what the cue ball does, and the players' name for it.
 
-mod jump;
 mod patterns;
 
 use patterns::BENT;
 pub use patterns::{PATTERNS, Pattern};
 
-use glam::DVec2;
 use serde::Serialize;
 
-use super::{
-    Hit, RailPoint,
-    aim::hit,
-    first_hit,
-    incoming::{JUST_BEFORE, english},
-};
+use super::{Hit, RailPoint, aim::hit, first_hit};
 use crate::{
     game::Tally,
-    physics::CueInputs,
+    physics::{BallState, CueInputs},
     simulation::{EventKind, Rail, Recording, ShotError},
-    table::{Layout, Table},
+    table::{BALLS, Layout, Table},
 };
 
 /// A ball within this distance of a cushion is close to it, ball radii: the width of two balls.
 const CLOSE: f64 = 4.0;
+
+/// Time before an event at which the state is read, s: at the event's own time the state is already the one after it.
+pub const JUST_BEFORE: f64 = 1e-9;
+
+/// Sampling interval of a flight, s: a ball at 8 m/s flies 8 mm in it.
+const SAMPLING_INTERVAL: f64 = 0.001;
+
+/// Minimum overlap of the balls, seen from above, for one to count as flown over, m.
+const INSIDE: f64 = 0.001;
 
 /// A cushion hit by the cue ball.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -38,7 +40,7 @@ pub struct Cushion {
 }
 
 /// What the cue ball does in a shot.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Technique {
     /// The contacts that the rules use.
     pub tally: Tally,
@@ -94,20 +96,12 @@ impl Technique {
             tally: Tally::from_stroke(table, &Layout::new(recording.positions(0.0)), recording.impulse()),
             first,
             second: first.and_then(|first| hit(table, recording, |ball| ball != first.ball)),
-            before: Vec::new(),
-            between: Vec::new(),
             first_ball_rails: events
                 .filter_map(|event| event.kind.rail().filter(|_| of_first(event.kind.balls().0)))
                 .collect(),
-            deflection: 0.0,
-            over: jump::flown_over(table, recording),
-            bend: 0.0,
-            roll: 0.0,
-            english: 0.0,
-            drives_second: false,
-            is_close: false,
-            rehit_after: None,
+            over: flown_over(table, recording),
             spread: spread(&recording.final_layout()),
+            ..Self::default()
         };
         technique.follow(table, recording);
         technique
@@ -152,11 +146,9 @@ impl Technique {
                     first = Some(ball);
                     incoming = Some(before.velocity);
                     let ahead = before.velocity.normalize_or_zero();
-                    let space = self
-                        .before
-                        .last()
-                        .map(|cushion| space_at(table, cushion.rail, recording.state(ball, event.time).position));
-                    self.is_close = space.is_some_and(|space| space < CLOSE * table.radius);
+                    let gaps = table.reach() - recording.state(ball, event.time).position.abs();
+                    let is_close = |cushion: &Cushion| gaps.dot(cushion.rail.normal().abs()) < CLOSE * table.radius;
+                    self.is_close = self.before.last().is_some_and(is_close);
                     self.roll = table.radius * before.spin.truncate().dot(ahead.perp()) / before.velocity.length();
                 }
                 EventKind::BallBall(0, ball) if first == Some(ball) => {
@@ -180,10 +172,33 @@ impl Technique {
     }
 }
 
-/// Returns the gap between a ball at `place` and a cushion, m.
-fn space_at(table: &Table, rail: Rail, place: DVec2) -> f64 {
-    let normal = rail.normal().abs();
-    (table.reach() - place.abs()).dot(normal)
+/// Returns the side spin of a ball that approaches a cushion, in units of a rolling ball's spin, R w / v: positive for
+/// running, negative for reverse english. It is 1 for a ball that rolls along the cushion without slip.
+pub fn english(table: &Table, ball: &BallState, rail: Rail) -> f64 {
+    let turning = ball.velocity.dot(rail.normal().perp()).signum();
+    table.radius * ball.spin.z * turning / ball.velocity.length()
+}
+
+/// Finds the first object ball, or the edge of one, that the cue ball passes in the air before its first contact.
+fn flown_over(table: &Table, recording: &Recording) -> Option<usize> {
+    let is_contact = |kind| matches!(kind, EventKind::BallBall(0, _) | EventKind::BallRail(0, _));
+    let first = recording.events().iter().find(|event| is_contact(event.kind));
+    let until = first.map_or(recording.duration(), |event| event.time);
+    let reach = 2.0 * table.radius - INSIDE;
+    let of_cue_ball = recording.jumps().into_iter().filter(|jump| jump.ball == 0 && jump.is_reported());
+    of_cue_ball.filter(|jump| jump.start < until).find_map(|jump| {
+        let end = jump.end.min(until);
+        let samples = ((end - jump.start) / SAMPLING_INTERVAL).ceil() as usize;
+        (0..=samples).map(|sample| (jump.start + SAMPLING_INTERVAL * sample as f64).min(end)).find_map(|time| {
+            let places = recording.positions(time);
+            let is_below = |ball: &usize| places[0].distance(places[*ball]) < reach;
+            // A ball on which it lands is not flown over.
+            let is_met = |ball: usize| {
+                until <= jump.end && first.is_some_and(|event| event.kind == EventKind::BallBall(0, ball))
+            };
+            (1..BALLS).filter(is_below).find(|&ball| !is_met(ball))
+        })
+    })
 }
 
 /// Returns the largest distance between two balls, m.

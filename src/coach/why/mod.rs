@@ -104,14 +104,13 @@ pub struct Why {
 /// # Errors
 /// Fails if the layout or the stroke is invalid.
 pub fn why(
-    shooter: impl Into<Shooter>,
+    shooter: Shooter,
     rule: Rule,
     table: &Table,
     layout: &Layout,
     advice: &Recommendation,
     seed: u64,
 ) -> Result<Why, ShotError> {
-    let shooter = shooter.into();
     let technique = Technique::of(table, layout, &advice.cue)?;
     let sensitivity = Sensitivity::new(rule, table, layout, shooter.effective_doubt());
     let second = advice.alternatives.first().map(|other| -> Result<Difference, ShotError> {
@@ -261,11 +260,15 @@ mod tests {
     use super::*;
 
     /// The break with natural english: red returns from the far cushions across the path of the cue ball.
-    #[test]
-    fn frequent_kiss_is_reported_with_balls_and_position() {
+    fn natural_break() -> (Table, Layout, CueInputs) {
         let table = Table::default();
         let layout = Layout::opening(&table);
-        let cue = CueInputs::parse("0.143,0.256,0.713,351.760,2.967").unwrap();
+        (table, layout, CueInputs::parse("0.143,0.256,0.713,351.760,2.967").unwrap())
+    }
+
+    #[test]
+    fn frequent_kiss_is_reported_with_balls_and_position() {
+        let (table, layout, cue) = natural_break();
         let seen = |skill: Skill| kiss(skill.into(), Rule::ThreeCushion, &table, &layout, &cue, 1);
         let found = seen(Skill::NATIONAL).unwrap();
         assert_eq!(found.balls, [0, 2], "{found:?}");
@@ -276,9 +279,7 @@ mod tests {
 
     #[test]
     fn aim_width_is_reported_if_it_explains_the_probability() {
-        let table = Table::default();
-        let layout = Layout::opening(&table);
-        let cue = CueInputs::parse("0.143,0.256,0.713,351.760,2.967").unwrap();
+        let (table, layout, cue) = natural_break();
         let sensitivity = Sensitivity::new(Rule::ThreeCushion, &table, &layout, crate::coach::Doubt::NONE);
         let told = |made: usize| aim_width(&sensitivity, &cue, Skill::CLUB, Some(SuccessRate::new(made, 100)));
         let width = told(1).unwrap();

@@ -24,20 +24,19 @@ impl Why {
     /// Describes the reasons in sentences, for a player with `cue_ball`.
     pub fn words(&self, cue_ball: CueBall, units: Units) -> String {
         let names = cue_ball.names();
-        let mut parts = Vec::new();
         let second = self.second.as_ref();
-        let other = second.and_then(|second| second.make_probability);
-        parts.extend(self.make_probability.zip(other).map(|(rate, other)| {
-            let [own, its] = [rate, other].map(percent);
-            if (rate - other).abs() > NOTABLE_DIFFERENCE {
-                let luck = if self.is_unsure() { ", maybe by chance" } else { "" };
-                format!("it is made {own} of the time, the second shot {its}{luck}")
-            } else {
-                format!("it is made {own} of the time, about as often as the second shot ({its})")
+        let made = |rate: f64| {
+            let own = format!("it is made {} of the time", percent(rate));
+            match second.and_then(|second| second.make_probability) {
+                None => own,
+                Some(its) if (rate - its).abs() > NOTABLE_DIFFERENCE => {
+                    let luck = if self.is_unsure() { ", maybe by chance" } else { "" };
+                    format!("{own}, the second shot {}{luck}", percent(its))
+                }
+                Some(its) => format!("{own}, about as often as the second shot ({})", percent(its)),
             }
-        }));
-        let alone = self.make_probability.filter(|_| other.is_none());
-        parts.extend(alone.map(|rate| format!("it is made {} of the time", percent(rate))));
+        };
+        let mut parts: Vec<String> = self.make_probability.map(made).into_iter().collect();
         let mut reasons = self.reasons(cue_ball, "the second shot");
         if let (Some(reason), Some(Kiss { place, .. })) = (reasons.iter_mut().find(|reason| reason.is_kiss), self.kiss)
         {

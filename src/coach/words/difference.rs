@@ -31,10 +31,8 @@ impl ShotWords {
     /// Describes how this shot differs from `other`, one part per difference; empty if nobody could notice a
     /// difference. If it `misses` and the other does not, its thickness is described as a fault.
     pub fn differences(&self, other: &Self, misses: bool, cue_ball: CueBall, units: Units) -> Vec<String> {
-        let mut parts = self.contact_difference(other, misses, cue_ball);
-        if parts.is_empty() {
-            parts.extend(self.aim_difference(other));
-        }
+        let contact = self.contact_difference(other, misses, cue_ball);
+        let mut parts: Vec<String> = contact.or_else(|| self.aim_difference(other)).into_iter().collect();
         let tip = |by: f64| tip_amount(by, self.radius, units.tip);
         parts.extend(
             tip(self.tips_right - other.tips_right).map(|amount| {
@@ -59,42 +57,37 @@ impl ShotWords {
     }
 
     /// Describes the difference in the first contact, or in the fullness of the same contact.
-    fn contact_difference(&self, other: &Self, misses: bool, cue_ball: CueBall) -> Vec<String> {
+    fn contact_difference(&self, other: &Self, misses: bool, cue_ball: CueBall) -> Option<String> {
         let names = cue_ball.names();
         let (Some(hit), Some(others)) = (self.first, other.first) else {
             let met = self.first.map(|hit| format!("hits {}", names[hit.ball]));
-            return if self.first.is_none() && other.first.is_none() {
-                Vec::new()
-            } else {
-                vec![met.unwrap_or_else(|| "hits no ball".to_owned())]
-            };
+            return met.or_else(|| other.first.map(|_| "hits no ball".to_owned()));
         };
         if self.before.is_empty() != other.before.is_empty() {
             let straight = || format!("straight at {}, no cushion first", names[hit.ball]);
-            return vec![if self.before.is_empty() { straight() } else { "a cushion first".to_owned() }];
+            return Some(if self.before.is_empty() { straight() } else { "a cushion first".to_owned() });
         }
         if hit.ball != others.ball {
-            return vec![format!("hits {} first", names[hit.ball])];
+            return Some(format!("hits {} first", names[hit.ball]));
         }
         // A full hit has no side.
         let has_side = |hit: Hit| !numbers::fullness_words(hit.fullness).1;
         if hit.left != others.left && has_side(hit) && has_side(others) {
-            return vec![format!("{} on its {} side", names[hit.ball], if hit.left { "left" } else { "right" })];
+            return Some(format!("{} on its {} side", names[hit.ball], if hit.left { "left" } else { "right" }));
         }
         let fuller = hit.fullness - others.fullness;
         let words = if fuller > 0.0 { ["thicker", "too thick"] } else { ["thinner", "too thin"] };
-        let part = match fuller.abs() {
-            by if by < NEGLIGIBLE => return Vec::new(),
+        match fuller.abs() {
+            by if by < NEGLIGIBLE => None,
             by if by < LITTLE => {
                 let little = if by < HAIR { "a hair" } else { "a little" };
-                format!("{little} {}", words[usize::from(misses)])
+                Some(format!("{little} {}", words[usize::from(misses)]))
             }
             by => {
                 let amount = EIGHTHS[((8.0 * by).round() as usize).clamp(1, 8)];
-                if misses { format!("{} by {amount}", words[1]) } else { format!("{amount} {}", words[0]) }
+                Some(if misses { format!("{} by {amount}", words[1]) } else { format!("{amount} {}", words[0]) })
             }
-        };
-        vec![part]
+        }
     }
 
     /// Describes how much further to one side the cue is aimed.

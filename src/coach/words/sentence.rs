@@ -31,12 +31,10 @@ impl ShotWords {
 
     /// Describes the path of the cue ball: balls, cushions with positions, and the hit on the second ball.
     pub fn course(&self, cue_ball: CueBall, units: Units) -> String {
-        let met = |hit: Hit| match (fullness_word(hit.fullness), hit.left) {
-            ("full", _) => "full".to_owned(),
-            (full, true) => format!("{full} on the left"),
-            (full, false) => format!("{full} on the right"),
-        };
-        let second = self.second.map_or_else(String::new, |hit| format!(", {}", met(hit)));
+        let second = self.second.map_or_else(String::new, |hit| {
+            let full = fullness_word(hit.fullness);
+            format!(", {full}{}", if full == "full" { "" } else { side_words(hit) })
+        });
         format!("{}{second}.", self.stops(cue_ball, units))
     }
 
@@ -75,12 +73,7 @@ impl ShotWords {
     fn first_words(&self, cue_ball: CueBall, units: Units) -> String {
         let ball = self.first.map(|hit| {
             let (full, is_middle) = numbers::fullness_words(hit.fullness);
-            let side = match (is_middle, hit.left) {
-                (true, _) => "",
-                (false, true) => " on the left",
-                (false, false) => " on the right",
-            };
-            format!("{}, {full}{side}", cue_ball.names()[hit.ball])
+            format!("{}, {full}{}", cue_ball.names()[hit.ball], if is_middle { "" } else { side_words(hit) })
         });
         // For a shot that hits no ball, only its first cushion is reported.
         let met = if ball.is_none() && self.before.is_empty() { self.between.get(..1) } else { Some(&self.before[..]) };
@@ -102,15 +95,16 @@ impl ShotWords {
 
     /// Describes the tip position, with `clock` if there is side.
     fn tip_words(&self, units: Units, clock: &str) -> String {
-        let half_tips = |tips: f64| (2.0 * tips.abs()).round() as u32;
-        let [side, height] = match units.tip {
-            TipUnit::Tips => [self.tips_right, self.tips_above]
-                .map(|tips| (half_tips(tips) > 0).then(|| numbers::tips_words(half_tips(tips)))),
-            TipUnit::Mm => [self.tips_right, self.tips_above].map(|tips| {
+        let [side, height] = [self.tips_right, self.tips_above].map(|tips| match units.tip {
+            TipUnit::Tips => {
+                let halves = (2.0 * tips.abs()).round() as u32;
+                (halves > 0).then(|| numbers::tips_words(halves))
+            }
+            TipUnit::Mm => {
                 let text = format_trimmed(1e3 * self.radius * TIP * tips.abs(), 1);
                 (text != "0").then(|| format!("{text} mm"))
-            }),
-        };
+            }
+        });
         let running = match self.english {
             Some(English::Running) => "running ",
             Some(English::Reverse) => "reverse ",
@@ -145,6 +139,11 @@ impl ShotWords {
     fn place(&self, diamonds: f64, units: Units, decimals: usize) -> String {
         units.position.words(diamonds, self.diamond, decimals)
     }
+}
+
+/// Returns the half of a ball that is hit.
+const fn side_words(hit: Hit) -> &'static str {
+    if hit.left { " on the left" } else { " on the right" }
 }
 
 /// Returns the name of a cushion, by its position on the screen.

@@ -47,6 +47,9 @@ pub struct Units {
 }
 
 impl PositionUnit {
+    /// Both units, by name.
+    pub const NAMED: [(&'static str, Self); 2] = [("diamonds", Self::Diamonds), ("mm", Self::Mm)];
+
     /// Formats a position along a cushion, given in diamonds of `diamond` m each. Diamonds have no unit name.
     pub fn words(self, diamonds: f64, diamond: f64, decimals: usize) -> String {
         match self {
@@ -83,11 +86,6 @@ impl TipUnit {
         let plural = if self == Self::Tips && tenths > 10.0 { "s" } else { "" };
         (tenths > 0.0).then(|| format!("{} {name}{plural}", format_trimmed(0.1 * tenths, 1)))
     }
-}
-
-impl PositionUnit {
-    /// Both units, by name.
-    pub const NAMED: [(&'static str, Self); 2] = [("diamonds", Self::Diamonds), ("mm", Self::Mm)];
 }
 
 impl LengthUnit {

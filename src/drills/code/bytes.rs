@@ -4,35 +4,10 @@
 #[derive(Debug)]
 pub struct Truncated;
 
-/// Writes values into bytes.
-#[derive(Debug, Default)]
-pub struct Writer {
-    bytes: Vec<u8>,
-}
-
-impl Writer {
-    pub fn byte(&mut self, byte: u8) {
-        self.bytes.push(byte);
-    }
-
-    pub fn bytes(&mut self, bytes: &[u8]) {
-        self.bytes.extend(bytes);
-    }
-
-    /// Writes a signed number of at most 24 bits.
-    pub fn number(&mut self, number: i32) {
-        self.bytes(&number.to_be_bytes()[1..]);
-    }
-
-    /// Writes the length and the bytes of a text of at most 255 bytes. For a longer text the length is wrong.
-    pub fn text(&mut self, text: &str) {
-        self.byte(text.len() as u8);
-        self.bytes(text.as_bytes());
-    }
-
-    pub fn finish(self) -> Vec<u8> {
-        self.bytes
-    }
+/// Appends the length and the bytes of a text of at most 255 bytes. For a longer text the length is wrong.
+pub fn put_text(bytes: &mut Vec<u8>, text: &str) {
+    bytes.push(text.len() as u8);
+    bytes.extend(text.as_bytes());
 }
 
 /// Reads values from bytes.
@@ -56,6 +31,7 @@ impl<'a> Reader<'a> {
         self.chunk().map(|[byte]| byte)
     }
 
+    /// Reads a signed number of 24 bits.
     pub fn number(&mut self) -> Result<i32, Truncated> {
         // The arithmetic shift restores the sign.
         self.chunk().map(|[high, middle, low]| i32::from_be_bytes([high, middle, low, 0]) >> 8)

@@ -10,7 +10,7 @@ mod bytes;
 use crc::{CRC_32_ISO_HDLC, Crc};
 use glam::DVec2;
 
-use self::bytes::{Reader, Truncated, Writer};
+use self::bytes::{Reader, Truncated, put_text};
 use super::{Exercise, ExerciseError, bare_tag, exercise::match_table};
 use crate::{game::Rule, physics::CueInputs, table::Layout};
 
@@ -92,29 +92,25 @@ fn code(exercise: &Exercise, title: &str, tags: &[String]) -> String {
     let on_grid = coordinates.iter().all(|&x| tenths(x).is_some_and(|n| f64::from(n) / GRID == x));
     let has = if on_grid { 0 } else { EXACT } | if exercise.shot.is_some() { SHOT } else { 0 };
 
-    let mut writer = Writer::default();
-    writer.byte(VERSION);
-    writer.text(if exercise.table == match_table() { "" } else { &exercise.table });
+    let mut bytes = vec![VERSION];
+    put_text(&mut bytes, if exercise.table == match_table() { "" } else { &exercise.table });
     // The number of cushions identifies the rule.
-    writer.byte(exercise.rule.cushions() as u8);
-    writer.byte(has);
+    bytes.extend([exercise.rule.cushions() as u8, has]);
     for &x in coordinates {
         match tenths(x) {
-            Some(tenths) if on_grid => writer.bytes(&tenths.to_be_bytes()),
-            _ => writer.bytes(&x.to_be_bytes()),
+            Some(tenths) if on_grid => bytes.extend(tenths.to_be_bytes()),
+            _ => bytes.extend(x.to_be_bytes()),
         }
     }
-    if let Some(shot) = &exercise.shot {
-        for number in shot_in_units(shot) {
-            writer.number(number);
-        }
+    for number in exercise.shot.iter().flat_map(shot_in_units) {
+        // At most 24 bits.
+        bytes.extend(&number.to_be_bytes()[1..]);
     }
-    writer.text(&exercise.name);
-    writer.text(if title == exercise.name { "" } else { title });
+    put_text(&mut bytes, &exercise.name);
+    put_text(&mut bytes, if title == exercise.name { "" } else { title });
     for tag in tags {
-        writer.text(tag);
+        put_text(&mut bytes, tag);
     }
-    let mut bytes = writer.finish();
     bytes.extend(CHECKSUM.checksum(&bytes).to_be_bytes());
     format!("{PREFIX}{}", base32::encode(&bytes))
 }

@@ -104,13 +104,9 @@ impl Store {
                 if same { Ok(ImportOutcome::Known) } else { Err(StoreError::NameTaken(name)) }
             }
             // Bundled exercises are already known.
-            Err(StoreError::Bundled(name)) if Self::is_bundled_as(&name, position) => Ok(ImportOutcome::Known),
+            Err(StoreError::Bundled(name)) if Library::bundled().get(&name) == Ok(position) => Ok(ImportOutcome::Known),
             saved => saved.map(|()| ImportOutcome::New),
         }
-    }
-
-    fn is_bundled_as(name: &str, position: &Exercise) -> bool {
-        Library::bundled().get(name) == Ok(position)
     }
 
     fn import_session(&self, session: &Session) -> Result<ImportOutcome, StoreError> {

@@ -45,12 +45,8 @@ pub fn lacks_locks(error: &io::Error) -> bool {
 }
 
 /// Returns the number of bytes that this user can still write at `path`; `None` if the system does not report it.
-///
-/// # Errors
-/// Returns any error of the file system.
-pub fn free_space(path: &Path) -> io::Result<Option<u64>> {
-    let found = rustix::fs::statvfs(path)?;
-    Ok(Some(found.f_bavail.saturating_mul(found.f_frsize)))
+pub fn free_space(path: &Path) -> Option<u64> {
+    rustix::fs::statvfs(path).ok().map(|found| found.f_bavail.saturating_mul(found.f_frsize))
 }
 
 /// Makes a write beyond the file size limit fail with an error, as on a full disk. By default a signal would end the process there, without

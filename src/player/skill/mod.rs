@@ -151,7 +151,7 @@ impl Skill {
     /// Returns the standard error of one input at the reference stroke, in its unit; for other strokes see [`Skill::at`].
     pub fn error(&self, input: Input) -> f64 {
         let index = input as usize;
-        self.values()[index] / ERROR_FORMATS[index].2
+        self.values()[index] / ERROR_FORMATS[index].0
     }
 
     /// Returns the five errors in the order of [`ERROR_FORMATS`] and [`Input::ALL`], in SI units.

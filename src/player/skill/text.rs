@@ -1,8 +1,8 @@
 //! The text form of a skill: a name, an average, or a player's own standard errors.
 
-use std::{fmt, str::FromStr};
+use std::{f64::consts::PI, fmt, str::FromStr};
 
-use super::{Growth, Skill};
+use super::{Growth, Input, Skill};
 use crate::printing::{number, parse_number};
 
 /// Why a skill is rejected.
@@ -46,21 +46,13 @@ pub enum SkillError {
     },
 }
 
-/// The text form of the five errors: name, unit, the size of that unit in SI units, and the largest accepted value. A
-/// player with larger errors than a ball's radius, half a right angle or 5 m/s cannot play at all.
-pub(super) const ERROR_FORMATS: [(&str, &str, f64, f64); 5] = [
-    ("a", "mm", 1e-3, 30.0),
-    ("b", "mm", 1e-3, 30.0),
-    ("theta", "degrees", std::f64::consts::PI / 180.0, 45.0),
-    ("phi", "degrees", std::f64::consts::PI / 180.0, 45.0),
-    ("V", "m/s", 1.0, 5.0),
-];
+/// The five errors in the order of [`Input::ALL`]: the size of the input's unit in SI units, and the largest accepted
+/// value. A player with larger errors than a ball's radius, half a right angle or 5 m/s cannot play at all.
+pub(super) const ERROR_FORMATS: [(f64, f64); 5] =
+    [(1e-3, 30.0), (1e-3, 30.0), (PI / 180.0, 45.0), (PI / 180.0, 45.0), (1.0, 5.0)];
 
 /// Optional prefix of a three-cushion average.
 const AVERAGE: &str = "average=";
-
-/// The name of the speed, whose error may be a share.
-const SPEED: &str = "V";
 
 /// The largest accepted share of the speed, %.
 const MAX_SHARE: f64 = 100.0;
@@ -76,14 +68,14 @@ impl fmt::Display for Skill {
         // Twelve digits, so that a value read in degrees is written unchanged.
         let rounded = |value: f64| (value * 1e12).round() / 1e12;
         let Growth { speed, elevation, is_share } = self.growth;
-        let part = |((name, _, unit, _), value): (&(&str, &str, f64, f64), f64)| {
-            if is_share && *name == SPEED {
-                format!("{name}={}%", rounded(100.0 * value / Self::REFERENCE_SPEED))
+        let part = |((input, (unit, _)), value): ((Input, (f64, f64)), f64)| {
+            if is_share && input == Input::Speed {
+                format!("{}={}%", input.name(), rounded(100.0 * value / Self::REFERENCE_SPEED))
             } else {
-                format!("{name}={}", rounded(value / unit))
+                format!("{}={}", input.name(), rounded(value / unit))
             }
         };
-        let mut parts: Vec<_> = ERROR_FORMATS.iter().zip(self.values()).map(part).collect();
+        let mut parts: Vec<_> = Input::ALL.into_iter().zip(ERROR_FORMATS).zip(self.values()).map(part).collect();
         for ((name, _), value) in GROWTH_LIMITS.iter().zip([speed, elevation]).filter(|(_, value)| *value != 0.0) {
             parts.push(format!("{name}={}", rounded(value)));
         }
@@ -120,21 +112,22 @@ impl FromStr for Skill {
                 }
                 continue;
             }
-            let index = ERROR_FORMATS.iter().position(|form| form.0 == name.trim()).ok_or_else(unknown)?;
-            let (name, unit, si, most) = ERROR_FORMATS[index];
-            let value = match value.trim().strip_suffix('%').filter(|_| name == SPEED) {
+            let input = Input::ALL.into_iter().find(|input| input.name() == name.trim()).ok_or_else(unknown)?;
+            let (unit, most) = ERROR_FORMATS[input as usize];
+            let value = match value.trim().strip_suffix('%').filter(|_| input == Input::Speed) {
                 Some(share) => {
                     is_share = true;
-                    checked(name, number(share)?, MAX_SHARE, "%")? / 100.0 * Self::REFERENCE_SPEED
+                    checked(input.name(), number(share)?, MAX_SHARE, "%")? / 100.0 * Self::REFERENCE_SPEED
                 }
-                None => checked(name, number(value)?, most, unit)? * si,
+                None => checked(input.name(), number(value)?, most, input.unit())? * unit,
             };
-            if values[index].replace(value).is_some() {
+            if values[input as usize].replace(value).is_some() {
                 return Err(unknown());
             }
         }
         let [Some(a), Some(b), Some(theta), Some(phi), Some(speed)] = values else {
-            let names = ERROR_FORMATS.iter().zip(values).filter(|(_, value)| value.is_none()).map(|(form, _)| form.0);
+            let names =
+                Input::ALL.iter().zip(values).filter(|(_, value)| value.is_none()).map(|(input, _)| input.name());
             return Err(SkillError::Missing { text: text.to_owned(), missing: names.collect::<Vec<_>>().join(", ") });
         };
         let [by_speed, by_elevation] = growths.map(Option::unwrap_or_default);

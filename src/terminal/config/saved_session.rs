@@ -9,7 +9,7 @@ use crate::{
     drills::Session,
     game::Rule,
     storage::{self, describe_json_error},
-    table::{CueBall, Layout, Table},
+    table::{CueBall, Layout, Table, is_default},
     terminal::Terms,
 };
 
@@ -34,7 +34,7 @@ pub struct SavedSession {
     /// Positions of the balls.
     pub layout: Layout,
     /// Which ball was the cue ball.
-    #[serde(default, skip_serializing_if = "CueBall::is_white")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub cue_ball: CueBall,
     /// The rule.
     pub rule: Rule,
