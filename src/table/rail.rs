@@ -54,11 +54,6 @@ impl Rail {
         place - 2.0 * n.dot(place) * n - 2.0 * n.abs().dot(reach) * n
     }
 
-    /// Returns how far a ball at `place` is from this cushion, m. `reach` is that of [`Self::image`].
-    pub fn gap(self, reach: DVec2, place: DVec2) -> f64 {
-        self.normal().abs().dot(reach) + place.dot(self.normal())
-    }
-
     /// Returns the cushion whose normal into the table is `n`, which must be one of the four normals.
     pub fn with_normal(n: DVec2) -> Self {
         Self::ALL.into_iter().find(|rail| rail.normal() == n).unwrap_or(Self::Left)
