@@ -36,14 +36,21 @@ pub fn contacts_where(
     on_cloth: [bool; BALLS],
     wanted: impl Fn(f64, &Contact) -> bool,
 ) -> Contacts {
-    let with_cushions = (0..BALLS).flat_map(|ball| Rail::ALL.map(|rail| Contact::with_cushion(ball, rail)));
-    let all = with_cushions.chain(PAIRS.map(|(first, second)| Contact::of_balls(first, second)));
-    all.filter(|contact| {
-        on_cloth[contact.first]
-            && contact.second().is_none_or(|second| on_cloth[second])
-            && wanted(gap(constants, balls, contact), contact)
-    })
-    .collect()
+    let mut contacts = Contacts::new();
+    let mut add = |contact: Contact| {
+        if wanted(gap(constants, balls, &contact), &contact) {
+            contacts.push(contact);
+        }
+    };
+    for ball in (0..BALLS).filter(|&ball| on_cloth[ball]) {
+        for rail in Rail::ALL {
+            add(Contact::with_cushion(ball, rail));
+        }
+    }
+    for (first, second) in PAIRS.into_iter().filter(|&(first, second)| on_cloth[first] && on_cloth[second]) {
+        add(Contact::of_balls(first, second));
+    }
+    contacts
 }
 
 /// Returns the distance of a contact's surfaces, m.

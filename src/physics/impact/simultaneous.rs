@@ -22,7 +22,7 @@ use glam::DVec2;
 use super::{BallImpact, BallState, Cushion, ImpactImpulse, contact_twist};
 use crate::{
     physics::{Contact, MAX_CONTACTS, Partner, involve},
-    table::{BALLS, Rail, Table},
+    table::{BALLS, Rail, Rails, Table},
 };
 
 /// Largest number of Gauss-Seidel sweeps for the normal impulses: for three balls they converge linearly with a factor of at most 3/4, in
@@ -42,7 +42,13 @@ pub struct ImpactLaw {
 impl ImpactLaw {
     /// Returns the laws of a table.
     pub fn of(table: &Table) -> Self {
-        Self { balls: BallImpact::of(table), cushions: Rail::ALL.map(|rail| Cushion::of(table, rail)) }
+        let Rails { left, right, bottom, top, .. } = table.rail;
+        let cushions = if [left, right, bottom, top].iter().any(Option::is_some) {
+            Rail::ALL.map(|rail| Cushion::of(table, rail))
+        } else {
+            [Cushion::of(table, Rail::Left); 4]
+        };
+        Self { balls: BallImpact::of(table), cushions }
     }
 
     /// Returns the law of a cushion.
