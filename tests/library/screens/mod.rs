@@ -21,6 +21,7 @@ mod runs;
 mod settings;
 mod sides;
 mod sizes;
+mod snapshot;
 mod systems;
 mod table;
 mod tabs;
