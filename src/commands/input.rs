@@ -155,8 +155,9 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
         Box::new(io::stdin().lock())
     } else {
         let unreadable = |error| Failure::failed(format_args!("{file} cannot be read: {error}"));
-        Box::new(BufReader::new(storage::open(Path::new(file)).map_err(unreadable)?))
+        Box::new(BufReader::new(storage::open_stream(Path::new(file)).map_err(unreadable)?))
     };
+    let is_stream = file == "-" || !Path::new(file).is_file();
     let mut out = io::BufWriter::new(printing::stdout().exact(true));
     let (mut lines, mut refused) = (0_usize, 0_usize);
     let (mut line, mut index) = (Vec::new(), 0_usize);
@@ -167,7 +168,9 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
             NextLine::End => break,
             NextLine::Line if line.trim_ascii().is_empty() => continue,
             NextLine::Line => {
-                parse_request(&line).map_err(|reason| format!("line {index} is not a valid JSON request: {reason}"))
+                // Some editors begin a file with a byte order mark.
+                let request = line.strip_prefix("\u{feff}".as_bytes()).filter(|_| index == 1).unwrap_or(&line);
+                parse_request(request).map_err(|reason| format!("line {index} is not a valid JSON request: {reason}"))
             }
             NextLine::TooLong => Err(format!("line {index} is too long; accepted are up to {MAX_LINE_BYTES} bytes")),
         };
@@ -181,7 +184,7 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
                 printing::json_line(&mut out, &json!({ "error": error }))?;
             }
         }
-        if file == "-" {
+        if is_stream {
             // A program at the other end of a pipe waits for this answer before it sends the next request.
             out.flush()?;
         }

@@ -26,5 +26,6 @@ pub use notices::notice;
 pub use plain_words::{describe_json_error, describe_toml_error, in_plain_words, without_error_numbers};
 pub use player::{Player, PlayerNameError};
 pub use reading::{
-    MAX_LARGE_FILE, MAX_PRACTICE_FILE, MAX_SMALL_FILE, open, read, read_if_exists, read_text, rename_unreadable,
+    MAX_LARGE_FILE, MAX_PRACTICE_FILE, MAX_SMALL_FILE, open, open_stream, read, read_if_exists, read_text,
+    rename_unreadable,
 };

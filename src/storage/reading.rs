@@ -82,6 +82,19 @@ pub fn open(path: &Path) -> io::Result<File> {
     Ok(file)
 }
 
+/// Opens the file, pipe or device at `path` for reading. A pipe without a writer waits for one.
+///
+/// # Errors
+/// Fails if it is a folder, or with any error of the file system.
+pub fn open_stream(path: &Path) -> io::Result<File> {
+    check_read_allowed(path)?;
+    let found = fs::metadata(path).map_err(missing)?;
+    if found.is_dir() {
+        check_regular(&found)?;
+    }
+    File::open(path)
+}
+
 /// Rewrites the error for a missing file; other errors keep the system's text.
 fn missing(error: io::Error) -> io::Error {
     match error.kind() {

@@ -71,6 +71,21 @@ fn pipes_and_devices_are_refused_without_blocking() {
 }
 
 #[test]
+fn a_batch_is_read_from_a_pipe_and_may_begin_with_a_byte_order_mark() {
+    let home = folder();
+    let pipe = home.path().join("pipe");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let writer = std::thread::spawn({
+        let line = r#"{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]],"cue":{"a":0,"b":0.3,"theta_deg":5,"phi_deg":1,"speed":4}}"#;
+        let pipe = pipe.clone();
+        move || fs::write(pipe, format!("\u{feff}{line}\n{line}\n")).unwrap()
+    });
+    let answers = carom(home.path(), &["simulate", "--batch", pipe.to_str().unwrap()]).ok().json();
+    writer.join().unwrap();
+    assert!(answers.len() == 2 && answers[0] == answers[1] && answers[0].get("error").is_none(), "{answers:?}");
+}
+
+#[test]
 fn an_export_follows_symbolic_links() {
     let home = folder();
     fs::write(home.path().join("real.json"), "").unwrap();
