@@ -172,14 +172,14 @@ pub struct Filter {
     pub grade: Option<u8>,
     /// A tag.
     pub tag: Option<String>,
-    /// A text in the name, title, point or tags, ignoring case.
+    /// Words that all occur in the name, title, point or tags, in any order, ignoring case; a hyphen separates words.
     pub text: Option<String>,
 }
 
 impl Filter {
     /// Whether an exercise meets all criteria.
     pub fn accepts(&self, exercise: &Exercise) -> bool {
-        let has = |words: &str, text: &str| words.to_lowercase().contains(&text.to_lowercase());
+        let plain = |words: &str| words.to_lowercase().replace('-', " ");
         self.category.is_none_or(|category| exercise.category == category)
             && self.grade.is_none_or(|grade| exercise.grade == grade)
             && self.tag.as_ref().is_none_or(|tag| {
@@ -188,8 +188,10 @@ impl Filter {
             })
             && self.text.as_ref().is_none_or(|text| {
                 let Exercise { name, title, point, tags, .. } = exercise;
-                [name, title, point].into_iter().any(|words| has(words, text))
-                    || tags.iter().any(|tag| has(&format!("#{}", bare_tag(tag)), text))
+                let tags = tags.iter().map(|tag| format!("#{}", bare_tag(tag)));
+                let own: Vec<String> = [name, title, point].into_iter().cloned().chain(tags).collect();
+                let all = plain(&own.join("\n"));
+                plain(text).split_whitespace().all(|word| all.contains(word))
             })
     }
 }

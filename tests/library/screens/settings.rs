@@ -139,7 +139,7 @@ fn external_changes_of_the_file_are_kept() {
     fs::write(player.path("config.toml"), "theme = \n").unwrap();
     // Opened once more, the file is damaged.
     let player = player.press("F2 F5");
-    player.says("line 1").says("changes last until the program ends: the file cannot be read or written");
+    player.says("line 1").says("changes last until the program ends: the file has a fault (F6), or cannot be written");
     let player = player.press("Right");
     player.says("this change lasts until the program ends; ").says("was not written: ");
     assert_eq!(player.settings_text(), "theme = \n");

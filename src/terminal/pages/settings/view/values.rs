@@ -33,7 +33,7 @@ pub fn draw(settings: &SettingsPage, area: Rect, words: Rect, ui: &mut Ui) -> &'
     if settings.is_writable {
         "changes apply at once and are saved"
     } else {
-        "changes last until the program ends: the file cannot be read or written"
+        "changes last until the program ends: the file has a fault (F6), or cannot be written"
     }
 }
 
