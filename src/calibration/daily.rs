@@ -12,6 +12,10 @@ use crate::table::{Rail, Table, TableDoubt};
 const DAILY_CHANGES: [(&str, f64); 5] =
     [("mu_r", 0.0005), ("mu_s", 0.01), ("e_rail", 0.01), ("mu_rail", 0.03), ("rail.kappa", 0.05)];
 
+/// Largest correlation of two constants that change together and are otherwise certain. With 1 they would be one constant, and no
+/// distribution has such a covariance.
+const MAX_CORRELATION: f64 = 0.99;
+
 /// The tests of a daily check.
 pub const DAILY_TESTS: [&str; 2] = ["lag", "corner-five"];
 
@@ -51,7 +55,7 @@ pub fn next_day_doubt(table: &Table, doubt: &TableDoubt) -> TableDoubt {
     for (change, names) in &groups {
         for (index, one) in names.iter().enumerate() {
             for other in &names[index + 1..] {
-                let common = change * change / (deviations[one] * deviations[other]);
+                let common = (change * change / (deviations[one] * deviations[other])).min(MAX_CORRELATION);
                 let is_this_pair =
                     |(a, b, _): &&mut (String, String, f64)| (a, b) == (one, other) || (b, a) == (one, other);
                 match after.correlations.iter_mut().find(is_this_pair) {

@@ -159,7 +159,7 @@ fn report<'a>(spec: &'a Spec, records: &[InningRecord]) -> SelfPlayReport<'a> {
 }
 
 fn print_text(out: &mut impl Write, report: &SelfPlayReport<'_>) -> std::io::Result<()> {
-    let end = |end: Option<f64>| end.map_or_else(|| "no limit".to_owned(), |end| format!("{end:.1}"));
+    let end = |end: Option<f64>| end.map_or_else(|| "no limit".to_owned(), |end| format!("{end:.2}"));
     let [low, high] = report.average_interval.map(end);
     let not_begun = match (report.layouts as usize).saturating_sub(report.innings) {
         0 => String::new(),
