@@ -197,27 +197,30 @@ fn robust_answer(
     let judged = |pieces: &[(usize, usize)]| {
         team.map(pieces, |&(index, piece)| {
             let draw = || judging_draws(task.worlds, request.seed, piece);
-            (index, task.attempts(&pool[index].shot.cue, attempts[piece].get_or_init(draw)))
+            (index, piece, task.attempts(&pool[index].shot.cue, attempts[piece].get_or_init(draw)))
         })
     };
-    let rate = |judged: &[(usize, Attempts)], candidate: usize| {
-        let own = judged.iter().filter(|(index, _)| *index == candidate);
-        own.map(|(_, part)| *part).sum::<Attempts>().rate()
+    let rate_of = |judged: &[(usize, usize, Attempts)], candidate: usize, count: usize| {
+        let own = judged.iter().filter(|(index, piece, _)| *index == candidate && piece * CHUNK_SIZE < count);
+        own.map(|(.., part)| *part).sum::<Attempts>().rate()
+    };
+    // Only shots with the same attempts are compared: if time runs out in between, the others have fewer.
+    let complete = |judged: &[(usize, usize, Attempts)], count: usize| -> Vec<Option<SuccessRate>> {
+        let rates = (0..pool.len()).map(|candidate| rate_of(judged, candidate, count));
+        rates.map(|rate| rate.filter(|rate| rate.trials == count)).collect()
     };
     let others: Vec<usize> = (1..pool.len()).collect();
     let first = pieces_of(&[0], 0..ATTEMPTS).into_iter();
     let mut made = judged(&first.chain(pieces_of(&others, 0..ATTEMPTS_PER_ALTERNATIVE)).collect::<Vec<_>>());
-    let mut rates: Vec<_> = (0..pool.len()).map(|candidate| rate(&made, candidate)).collect();
-    let better = made_more_often(&pool, &rates, request.plan);
+    let better = made_more_often(&pool, &complete(&made, ATTEMPTS_PER_ALTERNATIVE), request.plan);
+    made.extend(judged(&pieces_of(&better, ATTEMPTS_PER_ALTERNATIVE..ATTEMPTS)));
+    let mut rates: Vec<_> = (0..pool.len()).map(|candidate| rate_of(&made, candidate, ATTEMPTS)).collect();
     let mut judged_from = 0;
     if !better.is_empty() {
-        made.extend(judged(&pieces_of(&better, ATTEMPTS_PER_ALTERNATIVE..ATTEMPTS)));
-        for candidate in better {
-            rates[candidate] = rate(&made, candidate);
-        }
-        let best = made_more_often(&pool, &rates, request.plan).first().copied().unwrap_or_default();
+        let best =
+            made_more_often(&pool, &complete(&made, ATTEMPTS), request.plan).first().copied().unwrap_or_default();
         // The attempts that chose this shot flatter it. If there is time, its rate comes from as many other attempts.
-        let unbiased = rate(&judged(&pieces_of(&[best], ATTEMPTS..2 * ATTEMPTS)), best);
+        let unbiased = rate_of(&judged(&pieces_of(&[best], ATTEMPTS..2 * ATTEMPTS)), best, 2 * ATTEMPTS);
         if let Some(unbiased) = unbiased.filter(|rate| rate.trials == ATTEMPTS) {
             (rates[best], judged_from) = (Some(unbiased), ATTEMPTS);
         }

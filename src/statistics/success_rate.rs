@@ -18,11 +18,13 @@ pub struct SuccessRate {
     pub high: f64,
 }
 
+/// Standard errors on either side of a 95 % confidence interval.
+const Z: f64 = 1.959_963_984_540_054;
+
 impl SuccessRate {
     /// Computes the rate with Wilson's score interval: unlike the textbook interval, it stays within 0 to 1 and remains valid near both
     /// ends.
     pub fn new(successes: usize, trials: usize) -> Self {
-        const Z: f64 = 1.959_963_984_540_054;
         if trials == 0 {
             return Self { trials, successes, rate: 0.0, low: 0.0, high: 1.0 };
         }
@@ -35,6 +37,12 @@ impl SuccessRate {
         let low = if successes == 0 { 0.0 } else { bound(centre - spread) };
         let high = if successes == trials { 1.0 } else { bound(centre + spread) };
         Self { trials, successes, rate, low, high }
+    }
+
+    /// Whether the difference from a lower rate is significant: above zero by 1.96 of its standard errors, for independent trials.
+    pub fn is_significantly_above(&self, lower: &Self) -> bool {
+        let variance = |rate: &Self| rate.rate * (1.0 - rate.rate) / rate.trials.max(1) as f64;
+        self.rate - lower.rate > Z * (variance(self) + variance(lower)).sqrt()
     }
 }
 
@@ -49,6 +57,9 @@ mod tests {
         assert!((rate.low - 0.2553).abs() < 5e-5 && (rate.high - 0.3662).abs() < 5e-5, "{rate:?}");
         let none = SuccessRate::new(0, 20);
         assert!(none.low == 0.0 && (none.high - 0.1611).abs() < 5e-5, "{none:?}");
+        // 50 and 56 % of 1000 differ although their intervals overlap; 50 and 54 % do not.
+        let [half, more, most] = [500, 540, 560].map(|made| SuccessRate::new(made, 1000));
+        assert!(most.is_significantly_above(&half) && most.low < half.high && !more.is_significantly_above(&half));
         assert_eq!((SuccessRate::new(0, 0).low, SuccessRate::new(0, 0).high), (0.0, 1.0));
     }
 }

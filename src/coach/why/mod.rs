@@ -131,7 +131,7 @@ pub fn why(
     });
     let is_unsure = |other: &Alternative| {
         let rates = other.make_probability.zip(advice.make_probability);
-        rates.is_some_and(|(its, own)| its.rate > own.rate && its.low <= own.high)
+        rates.is_some_and(|(its, own)| its.rate > own.rate && !its.is_significantly_above(&own))
     };
     let numbered = (2..).zip(&advice.alternatives);
     Ok(Why {
