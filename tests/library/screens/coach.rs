@@ -301,8 +301,8 @@ fn the_coach_screens_are_complete_without_colours() {
         let player = player.press("v v").finish_analysis();
         let map = ["Margins", "# point", "- one ball", "X the stro"];
         player.is_plain().shows_at((120, 40), &map);
-        player.shows_at((120, 40), &["4.33 right  2.31 left", "speed   1.51 softer wide harder"]);
-        player.shows_at((80, 24), &["side  R4.33  L2.31", "# point - one ball"]);
+        player.shows_at((120, 40), &["3.35 right  2.31 left", "speed   1.25 softer wide harder"]);
+        player.shows_at((80, 24), &["side  R3.35  L2.31", "# point - one ball"]);
         player.does_not_show("too few");
         let plan = player.press("v");
         plan.is_plain().shows(&["now  94 % yellow, ", "next 100 % very hard"]);
