@@ -28,5 +28,5 @@ pub use reference_check::{GOAL_MEDIAN, GOAL_P99, ReferenceRow, check_references}
 pub use report::{csv, text};
 pub use shots::{MaxElevation, StudyShot, random_shots};
 pub use statistics::Spread;
-pub use steps::{SteppedShot, Steps};
+pub use steps::{StepError, SteppedShot, Steps};
 pub use truth::Truth;

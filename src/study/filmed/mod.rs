@@ -20,7 +20,7 @@ mod systems;
 
 pub use constants::fit_constants;
 pub use evaluation::evaluate_model;
-pub use film::{FilmedShot, bundled, check_size};
+pub use film::{FilmedShot, SizeMismatch, bundled, check_size};
 pub use laws::weigh_models;
 pub use picture::paths;
 pub use replay::{Replay, ReplayError};

@@ -5,6 +5,6 @@ mod figures;
 mod picture;
 mod session;
 
-pub use figures::{FIGURES, Figure, Measure};
+pub use figures::{FIGURES, Figure, Measure, UnknownFigure};
 pub use picture::picture;
 pub use session::{ReproducedFigure, Session, SessionError, csv, summary};
