@@ -380,6 +380,17 @@ fn weather_changes_single_rails_like_all_rails() {
 }
 
 #[test]
+fn rails_with_certain_values_of_their_own_allow_a_daily_check() {
+    let (mut table, doubt) = base();
+    for rail in [Rail::Top, Rail::Bottom] {
+        *table.rail.overrides_mut(rail) = Some(RailOverrides { e: Some(0.8), ..RailOverrides::default() });
+    }
+    let after = next_day_doubt(&table, &doubt);
+    after.validate().unwrap();
+    after.factor(&["e_rail", "rail.top.e", "rail.bottom.e"]).unwrap();
+}
+
+#[test]
 fn a_single_misread_stroke_makes_no_table() {
     let (table, doubt) = base();
     let mut trial = exact(&table).into_iter().find(|(_, trial)| trial.test.name == "lag").unwrap();

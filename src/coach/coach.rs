@@ -200,27 +200,18 @@ fn robust_answer(
             (index, piece, task.attempts(&pool[index].shot.cue, attempts[piece].get_or_init(draw)))
         })
     };
-    let rate_of = |judged: &[(usize, usize, Attempts)], candidate: usize, count: usize| {
-        let own = judged.iter().filter(|(index, piece, _)| *index == candidate && piece * CHUNK_SIZE < count);
-        own.map(|(.., part)| *part).sum::<Attempts>().rate()
-    };
-    // Only shots with the same attempts are compared: if time runs out in between, the others have fewer.
-    let complete = |judged: &[(usize, usize, Attempts)], count: usize| -> Vec<Option<SuccessRate>> {
-        let rates = (0..pool.len()).map(|candidate| rate_of(judged, candidate, count));
-        rates.map(|rate| rate.filter(|rate| rate.trials == count)).collect()
-    };
     let others: Vec<usize> = (1..pool.len()).collect();
     let first = pieces_of(&[0], 0..ATTEMPTS).into_iter();
     let mut made = judged(&first.chain(pieces_of(&others, 0..ATTEMPTS_PER_ALTERNATIVE)).collect::<Vec<_>>());
-    let better = made_more_often(&pool, &complete(&made, ATTEMPTS_PER_ALTERNATIVE), request.plan);
+    let better = made_more_often(&pool, &complete_rates(&made, pool.len(), ATTEMPTS_PER_ALTERNATIVE), request.plan);
     made.extend(judged(&pieces_of(&better, ATTEMPTS_PER_ALTERNATIVE..ATTEMPTS)));
-    let mut rates: Vec<_> = (0..pool.len()).map(|candidate| rate_of(&made, candidate, ATTEMPTS)).collect();
+    let mut rates = (0..pool.len()).map(|candidate| rate_within(&made, candidate, ATTEMPTS)).collect::<Vec<_>>();
     let mut judged_from = 0;
     if !better.is_empty() {
-        let best =
-            made_more_often(&pool, &complete(&made, ATTEMPTS), request.plan).first().copied().unwrap_or_default();
+        let complete = complete_rates(&made, pool.len(), ATTEMPTS);
+        let best = made_more_often(&pool, &complete, request.plan).first().copied().unwrap_or_default();
         // The attempts that chose this shot flatter it. If there is time, its rate comes from as many other attempts.
-        let unbiased = rate_of(&judged(&pieces_of(&[best], ATTEMPTS..2 * ATTEMPTS)), best, 2 * ATTEMPTS);
+        let unbiased = rate_within(&judged(&pieces_of(&[best], ATTEMPTS..2 * ATTEMPTS)), best, 2 * ATTEMPTS);
         if let Some(unbiased) = unbiased.filter(|rate| rate.trials == ATTEMPTS) {
             (rates[best], judged_from) = (Some(unbiased), ATTEMPTS);
         }
@@ -261,6 +252,22 @@ fn robust_answer(
         alternatives,
         ..first_point_answer(found)
     }
+}
+
+/// Index of a candidate, index of a piece of the judging attempts, and the candidate's results in this piece.
+type JudgedPiece = (usize, usize, Attempts);
+
+/// Returns the rate of a candidate in those of its judged attempts that are among the first `count`; `None` if there are none.
+fn rate_within(judged: &[JudgedPiece], candidate: usize, count: usize) -> Option<SuccessRate> {
+    let own = judged.iter().filter(|(index, piece, _)| *index == candidate && piece * CHUNK_SIZE < count);
+    own.map(|(.., part)| *part).sum::<Attempts>().rate()
+}
+
+/// Returns the rates of the candidates in the first `count` attempts; `None` if time ran out before all of these were made, because only
+/// rates in the same attempts are comparable.
+fn complete_rates(judged: &[JudgedPiece], candidates: usize, count: usize) -> Vec<Option<SuccessRate>> {
+    let rates = (0..candidates).map(|candidate| rate_within(judged, candidate, count));
+    rates.map(|rate| rate.filter(|rate| rate.trials == count)).collect()
 }
 
 /// Returns the indices of the shots that are made more often than the first one, less their effort penalties, best
@@ -421,6 +428,22 @@ mod tests {
         let pieces = |seed| (0..100).map(move |piece| judging_seed(seed).wrapping_add(piece));
         let all: std::collections::HashSet<u64> = (0..1000).flat_map(pieces).collect();
         assert_eq!(all.len(), 100_000);
+    }
+
+    #[test]
+    fn shots_are_compared_by_the_same_attempts_only() {
+        let pieces = |candidate, tried: usize, made| {
+            let whole =
+                (0..tried / CHUNK_SIZE).map(move |piece| (candidate, piece, Attempts { tried: CHUNK_SIZE, made }));
+            whole.chain([(candidate, tried / CHUNK_SIZE, Attempts { tried: tried % CHUNK_SIZE, made: 0 })])
+        };
+        // Time ran out after 13 attempts of the third shot, all of them made.
+        let cut = (2, 0, Attempts { tried: 13, made: 13 });
+        let judged: Vec<_> = pieces(0, 1000, 10).chain(pieces(1, 400, 15)).chain([cut]).collect();
+        let trials =
+            |count| complete_rates(&judged, 3, count).iter().map(|rate| rate.map(|rate| rate.trials)).collect();
+        let [some, all]: [Vec<_>; 2] = [trials(400), trials(1000)];
+        assert_eq!((some, all), (vec![Some(400), Some(400), None], vec![Some(1000), None, None]));
     }
 
     #[test]

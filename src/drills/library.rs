@@ -121,7 +121,6 @@ impl Library {
     /// Finds the only exercise for which `matches` holds for its name or title and `text`, both in lower case and with spaces
     /// for hyphens.
     fn find_unique(&self, text: &str, matches: impl Fn(&str, &str) -> bool) -> Result<&Exercise, LibraryError> {
-        let plain = |words: &str| words.to_lowercase().replace('-', " ");
         let wanted = plain(text);
         let is_wanted = |words: &&String| matches(&plain(words), &wanted);
         let either = |exercise: &&Exercise| [&exercise.name, &exercise.title].iter().any(is_wanted);
@@ -163,6 +162,11 @@ impl Library {
     }
 }
 
+/// Returns the words in lower case, with spaces for hyphens.
+fn plain(words: &str) -> String {
+    words.to_lowercase().replace('-', " ")
+}
+
 /// Search criteria for exercises; a criterion that is `None` accepts all.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Filter {
@@ -179,7 +183,6 @@ pub struct Filter {
 impl Filter {
     /// Whether an exercise meets all criteria.
     pub fn accepts(&self, exercise: &Exercise) -> bool {
-        let plain = |words: &str| words.to_lowercase().replace('-', " ");
         self.category.is_none_or(|category| exercise.category == category)
             && self.grade.is_none_or(|grade| exercise.grade == grade)
             && self.tag.as_ref().is_none_or(|tag| {
@@ -261,6 +264,11 @@ mod tests {
         let exact = Filter { text: Some(wanted.title.to_uppercase()), grade: Some(wanted.grade), ..draw.clone() };
         assert!(library.find(&exact).any(|exercise| exercise == wanted));
         assert_eq!(library.find(&Filter { grade: Some(wanted.grade + 1), ..exact }).count(), 0);
+        let found = |text: &str| library.find(&Filter { text: Some(text.to_owned()), ..Filter::default() }).count();
+        assert!(
+            found("corner-5") > 0 && found("corner 5") == found("corner-5") && found("5 CORNER") == found("corner-5")
+        );
+        assert_eq!(found("corner nonsense"), 0);
         assert_eq!(library.find(&Filter { tag: Some("no such tag".to_owned()), ..draw }).count(), 0);
     }
 

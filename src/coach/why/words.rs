@@ -79,12 +79,12 @@ impl Why {
     /// Describes the probability of the next point, compared with that after the second-best shot, which is called `other`.
     fn plan_words(&self, other: &str) -> Option<String> {
         let there = self.second.as_ref().and_then(|second| second.next_probability);
-        let there = there.map_or_else(String::new, |there| format!(" (after {other}: {})", percent(there)));
-        let is_alike = self.next_probability.zip(self.second.as_ref().and_then(|second| second.next_probability));
-        let is_alike = is_alike.is_some_and(|(next, there)| (next - there).abs() < NOTABLE_DIFFERENCE);
-        let as_easy = if is_alike && !self.is_by_plan() { "about as easy, " } else { "" };
-        let left =
-            self.next_probability.map(|next| format!("it leaves the next point {as_easy}at {}{there}", percent(next)));
+        let left = self.next_probability.map(|next| {
+            let is_alike = there.is_some_and(|there| (next - there).abs() < NOTABLE_DIFFERENCE);
+            let as_easy = if is_alike && !self.is_by_plan() { "about as easy, " } else { "" };
+            let there = there.map_or_else(String::new, |there| format!(" (after {other}: {})", percent(there)));
+            format!("it leaves the next point {as_easy}at {}{there}", percent(next))
+        });
         match left {
             Some(left) if self.is_by_plan() => Some(format!("the plan decides: {left}")),
             None if self.is_by_plan() => Some("the plan decides: the next point counts too".to_owned()),
