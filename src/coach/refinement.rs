@@ -255,7 +255,7 @@ mod tests {
     use crate::{
         coach::{Doubt, Skill, clock::Clock, draws::Worlds, evidence::Rate, first::FirstShots, make_probability},
         game::{Rule, Tally},
-        table::{Layout, Table},
+        table::{Layout, Opening, Table},
     };
 
     #[test]
@@ -280,8 +280,9 @@ mod tests {
 
     #[test]
     fn edge_strokes_climb_and_similar_strokes_are_merged() {
-        let (table, cancel, skill) = (Table::default(), AtomicBool::new(false), Skill::CLUB);
-        let (layout, rule) = (Layout::opening(&table), Rule::StraightRail);
+        let layout = Layout::opening(&Table::default());
+        let table = Table { opening: Opening::Thesis, ..Table::default() };
+        let (cancel, skill, rule) = (AtomicBool::new(false), Skill::CLUB, Rule::StraightRail);
         let worlds = Worlds::new(&table, &layout, Doubt::NONE);
         let [unlimited, clock] =
             [u64::MAX, 4000].map(|simulations| Clock::start(Duration::from_secs(60), simulations, &cancel));

@@ -175,7 +175,7 @@ fn repeated_request_never_worsens_the_advice() {
     // For a perfect player the former shot that makes the point is the answer again.
     let layout = Layout::opening(coach.table());
     let [first, second] = ["0.2,0.3,6,-72,2.5", "0,0,0,10,3"].map(|cue| CueInputs::parse(cue).unwrap());
-    let bare = Coach::without_policy(coach.table().clone());
+    let bare = Coach::without_policy(Table { opening: Opening::Thesis, ..coach.table().clone() });
     let request = Request { skill: Skill::PERFECT, former: vec![second, first], ..request(Rule::StraightRail, 5_000) };
     assert_eq!(bare.recommend(&layout, &request).unwrap().cue, first);
 }
@@ -263,18 +263,23 @@ fn perfect_player_never_misses() {
 }
 
 #[test]
-fn only_three_cushion_opening_advice_must_hit_red_first() {
+fn opening_advice_must_hit_red_first() {
     let table = Table { opening: Opening::Umb, ..Table::default() };
     let coach = Coach::new(table.clone());
     for side in [Side::Left, Side::Right] {
         let layout = Layout::opening_on(&table, side);
-        for skill in [Skill::EXPERT, Skill::PERFECT] {
-            let advice = coach.recommend(&layout, &Request { skill, ..request(Rule::ThreeCushion, 10_000) }).unwrap();
-            assert!(advice.solved && scores(Rule::ThreeCushion, &table, &layout, &advice.cue));
+        for (rule, skill) in [
+            (Rule::ThreeCushion, Skill::EXPERT),
+            (Rule::ThreeCushion, Skill::PERFECT),
+            (Rule::StraightRail, Skill::EXPERT),
+        ] {
+            let advice = coach.recommend(&layout, &Request { skill, ..request(rule, 10_000) }).unwrap();
+            assert!(advice.solved && scores(rule, &table, &layout, &advice.cue));
             let kinds = advice.alternatives.iter().map(|shot| shot.kind).chain(advice.kind);
             assert!(kinds.into_iter().all(|kind| kind.first_ball == 2), "{advice:?}");
         }
-        let free = coach.recommend(&layout, &request(Rule::StraightRail, 10_000)).unwrap();
+        let elsewhere = Layout::new(layout.balls.map(|ball| ball + DVec2::new(0.0, 0.1)));
+        let free = coach.recommend(&elsewhere, &request(Rule::StraightRail, 10_000)).unwrap();
         assert!(free.alternatives.iter().map(|shot| shot.kind).chain(free.kind).any(|kind| kind.first_ball == 1));
     }
 }

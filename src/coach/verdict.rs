@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::words::{LengthUnit, number_word};
 use crate::{
     game::{Point, Rule, Tally},
-    simulation::{EventKind, OffTable, Recording},
+    simulation::{CushionContacts, OffTable, Recording},
     table::{BALLS, CueBall, Layout, Table},
 };
 
@@ -203,7 +203,8 @@ fn cushion_words(count: u32) -> String {
 /// Finds the closest approach of the cue ball to one of these balls after its first `cushions` cushions. `None` if it only
 /// moves away from that ball, which then was not missed.
 fn miss(table: &Table, recording: &Recording, cushions: u32, balls: &[usize]) -> Option<Miss> {
-    let rails = recording.events().iter().filter(|event| matches!(event.kind, EventKind::BallRail(0, _)));
+    let mut contacts = CushionContacts::default();
+    let rails = recording.events().iter().filter(|event| contacts.follow(0, event).is_some());
     let start = match cushions.checked_sub(1) {
         None => 0.0,
         Some(before) => rails.map(|event| event.time).nth(before as usize)?,

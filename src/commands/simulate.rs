@@ -48,7 +48,7 @@ pub struct Args {
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
-    /// Also list when balls begin to roll, stop, or rest against something, and hops below 2 mm; --json always does.
+    /// Also list when balls begin to roll, stop, or rest against something, and hops and bounces too small to see; --json always does.
     #[arg(long)]
     rolls: bool,
     /// Report the positions and motions of the balls at these times after the stroke, s: "0.5,1,2".

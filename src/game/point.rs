@@ -19,12 +19,11 @@ impl From<Rule> for Point {
 }
 
 impl Point {
-    /// Returns the conditions for a shot from this layout. In the opening position by UMB rules, a three-cushion shot
-    /// must hit the red ball first.
+    /// Returns the conditions for a shot from this layout. In the opening position by UMB rules, a shot must hit the red
+    /// ball first.
     #[inline]
     pub fn of(rule: Rule, table: &Table, layout: &Layout) -> Self {
-        let asks = table.opening == Opening::Umb && rule == Rule::ThreeCushion;
-        Self { rule, red_first: asks && layout.is_opening(table) }
+        Self { rule, red_first: table.opening == Opening::Umb && layout.is_opening(table) }
     }
 
     /// Returns the object ball that must be hit first, or ball 1 if either may be.
@@ -49,14 +48,15 @@ mod tests {
     };
 
     #[test]
-    fn only_three_cushion_opening_requires_red_first() {
+    fn opening_by_umb_rules_requires_red_first() {
         let umb = Table { opening: Opening::Umb, ..Table::default() };
         let thesis = Table { opening: Opening::Thesis, ..Table::default() };
         for side in [Side::Left, Side::Right] {
             let layout = Layout::opening_on(&umb, side);
-            assert!(Point::of(Rule::ThreeCushion, &umb, &layout).red_first);
-            assert!(!Point::of(Rule::OneCushion, &umb, &layout).red_first);
-            assert!(!Point::of(Rule::ThreeCushion, &thesis, &layout).red_first);
+            for rule in Rule::ALL {
+                assert!(Point::of(rule, &umb, &layout).red_first);
+                assert!(!Point::of(rule, &thesis, &layout).red_first);
+            }
             let mut later = layout;
             later.balls[2].y += 0.01;
             assert!(!Point::of(Rule::ThreeCushion, &umb, &later).red_first);
@@ -66,10 +66,10 @@ mod tests {
 
     #[test]
     fn other_ball_first_is_no_point_if_red_required() {
-        let rail = EventKind::BallRail(0, Rail::Top);
+        let [one, two, three] = [Rail::Top, Rail::Left, Rail::Bottom].map(|rail| EventKind::BallRail(0, rail));
         let tally = |first, second| {
             let mut tally = Tally::default();
-            for kind in [EventKind::BallBall(0, first), rail, rail, rail, EventKind::BallBall(0, second)] {
+            for kind in [EventKind::BallBall(0, first), one, two, three, EventKind::BallBall(0, second)] {
                 tally.count(&Event { time: 0.0, kind });
             }
             tally

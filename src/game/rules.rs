@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{Point, Touching};
 use crate::{
     physics::{CueInputs, Impulse, strike},
-    simulation::{AllSavings, Event, EventKind, Observer, StepBudget, watch_with},
+    simulation::{AllSavings, CushionContacts, Event, EventKind, Observer, StepBudget, watch_with},
     table::{Layout, Table},
 };
 
@@ -74,7 +74,7 @@ impl FromStr for Rule {
 }
 
 /// The contacts of the cue ball in a shot so far.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tally {
     /// Whether it has hit each object ball (balls 1 and 2).
     pub hit: [bool; 2],
@@ -95,6 +95,8 @@ pub struct Tally {
     pub pushed: Option<usize>,
     /// Number of balls in the air.
     pub airborne: u8,
+    /// The cue ball's cushion contacts, without bounces that are too small to see.
+    pub contacts: CushionContacts,
 }
 
 impl Tally {
@@ -106,8 +108,8 @@ impl Tally {
 
     /// Counts one event.
     pub fn count(&mut self, event: &Event) {
+        self.cushions += u32::from(self.contacts.follow(0, event).is_some());
         match event.kind {
-            EventKind::BallRail(0, _) => self.cushions += 1,
             EventKind::BallBall(0, ball) if !self.hit[ball - 1] => {
                 if !self.has_hit_any() {
                     self.red_first = ball == 2;
@@ -231,7 +233,7 @@ pub fn scores(rule: Rule, table: &Table, layout: &Layout, cue: &CueInputs) -> bo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulation::Rail;
+    use crate::simulation::{Rail, Recording};
 
     fn tally(kinds: &[EventKind]) -> Tally {
         let mut tally = Tally::default();
@@ -250,6 +252,28 @@ mod tests {
         assert_eq!((before.first_ball(), tally(&[RAIL]).first_ball()), (Some(2), None));
         let after = tally(&[RAIL, EventKind::BallBall(0, 2), RAIL, EventKind::BallBall(0, 1), RAIL]);
         assert!(!after.is_point(Rule::ThreeCushion) && after.is_point(Rule::OneCushion));
+    }
+
+    /// Found as a recommendation on `thesis`, said to make five cushions: its spin presses the ball on a cushion.
+    #[test]
+    fn bounces_too_small_to_see_are_no_cushions() {
+        let table = Table::preset("thesis").unwrap();
+        let at = "0.6283951506,0.1520682201 -0.2642806437,0.5864331828 -1.0299205072,0.5257231269";
+        let (layout, cue) = (
+            Layout::parse(at, &table).unwrap(),
+            CueInputs::parse("-0.42116,0.07782,2.52145,155.41484,2.55193").unwrap(),
+        );
+        let recording = Recording::new(&table, &layout, &cue).unwrap();
+        let (mut counted, mut bounces) = (Tally::default(), 0);
+        for event in recording.events() {
+            counted.count(event);
+            if counted.has_hit_both() {
+                break;
+            }
+            bounces += u32::from(matches!(event.kind, EventKind::BallRail(0, _)));
+        }
+        assert_eq!((bounces, counted.cushions), (5, 2));
+        assert!(!scores(Rule::ThreeCushion, &table, &layout, &cue));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{End, Event, EventKind, Rail, Recording, cushions::rail_of};
+use super::{CushionContacts, End, Event, EventKind, Rail, Recording, cushions::rail_of};
 use crate::table::{BALLS, Layout, Table};
 
 /// Height from which a hop is reported, m. Every stroke over a rail and every rail impact causes lower hops, which are invisible.
@@ -111,11 +111,17 @@ impl Recording {
         Some(self.jump(ball, self.events()[from].time, &self.events()[from..]))
     }
 
-    /// Whether an event is reported by default: contacts, flights above the least height, and balls that leave the table.
+    /// Whether an event is reported by default: contacts and flights that are large enough to be seen, and balls that leave the table.
     pub fn is_reported(&self, event: &Event) -> bool {
         match event.kind {
             EventKind::LeavesTable(_) => true,
             EventKind::Jumps(_) | EventKind::Lands(_) => self.jump_of(event).is_some_and(|jump| jump.is_reported()),
+            EventKind::BallRail(ball, _) => {
+                let mut contacts = CushionContacts::default();
+                let before = self.events().iter().take_while(|other| *other != event);
+                before.for_each(|other| _ = contacts.follow(ball, other));
+                contacts.follow(ball, event).is_some()
+            }
             kind => kind.is_contact(),
         }
     }

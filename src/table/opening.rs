@@ -11,8 +11,8 @@ pub enum Opening {
     /// The cue ball stands on the near spot, the opponent's ball next to it (thesis Figure 8).
     #[default]
     Thesis,
-    /// The opponent's ball stands on the near spot. The cue ball stands next to it, on the left or right as the player chooses. In
-    /// three-cushion the first shot must hit the red ball first (UMB rules).
+    /// The opponent's ball stands on the near spot. The cue ball stands next to it, on the left or right as the player chooses. The first
+    /// shot must hit the red ball first (rules of carom, common to all its games).
     Umb,
 }
 

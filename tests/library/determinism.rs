@@ -5,7 +5,7 @@ use std::{fmt::Debug, ops::ControlFlow};
 use carom::{
     game::{Referee, Tally},
     physics::{CueInputs, strike},
-    simulation::{AllSavings, Event, EventKind, Observer, Savings, Segment, watch, watch_with},
+    simulation::{AllSavings, CushionContacts, Event, EventKind, Observer, Savings, Segment, watch, watch_with},
     study::{
         fingerprint::{TEXTBOOK, Trace, hash, shots, trace},
         stability::{Shot, adversarial, random},
@@ -151,7 +151,8 @@ fn compare_energy_early_end(count: usize) -> usize {
         watch_with::<S, _>(table, &shot.layout, &impulse, &mut watching);
         // Cushions no longer count if no ball is met after them.
         let Counting(Referee { tally, .. }, steps) = watching;
-        (Tally { cushions: 0, hit_again: tally.hit_again && tally.has_hit_both(), ..tally }, steps)
+        let hit_again = tally.hit_again && tally.has_hit_both();
+        (Tally { cushions: 0, contacts: CushionContacts::default(), hit_again, ..tally }, steps)
     }
     let table = Table::preset("thesis").unwrap();
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);

@@ -6,7 +6,7 @@ use super::lines::{Line, diamonds};
 use crate::{
     coach::technique::{JUST_BEFORE, english},
     physics::Impulse,
-    simulation::{EventKind, Rail, Recording},
+    simulation::{CushionContacts, EventKind, Rail, Recording},
     table::Table,
 };
 
@@ -28,15 +28,15 @@ impl Leg {
     /// object ball.
     pub fn of(table: &Table, recording: &Recording) -> Option<Self> {
         let mut from = recording.state(0, 0.0).position;
-        let (mut hits, mut met) = (Vec::new(), 0);
+        let (mut hits, mut met, mut contacts) = (Vec::new(), 0, CushionContacts::default());
         for event in recording.events() {
+            hits.extend(contacts.follow(0, event).map(|rail| (rail, event.time)));
             match event.kind {
                 EventKind::BallBall(0, ball) if met == 0 || met == ball => {
                     (met, from) = (ball, recording.state(0, event.time).position);
                     hits.clear();
                 }
                 EventKind::BallBall(0, _) => return None,
-                EventKind::BallRail(0, rail) => hits.push((rail, event.time)),
                 _ => {}
             }
             if let [first, second, third] = hits[..] {

@@ -122,6 +122,7 @@ impl Technique {
     fn follow(&mut self, table: &Table, recording: &Recording) {
         let (mut first, mut incoming, mut has_touched) = (None, None, false);
         for event in recording.events() {
+            let counted = self.tally.cushions;
             self.tally.count(event);
             let before = recording.state(0, event.time - JUST_BEFORE);
             if let (Some(way), true) = (incoming, event.kind.balls().0 == 0) {
@@ -154,7 +155,7 @@ impl Technique {
                 EventKind::BallBall(0, ball) if first == Some(ball) => {
                     self.rehit_after.get_or_insert(self.between.len());
                 }
-                EventKind::BallRail(0, rail) => {
+                EventKind::BallRail(0, rail) if self.tally.cushions > counted => {
                     let along = before.velocity.dot(rail.normal().perp().abs());
                     if self.before.is_empty() && self.between.is_empty() {
                         self.english = english(table, &before, rail);

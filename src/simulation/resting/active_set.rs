@@ -107,6 +107,10 @@ pub fn find_active_set(
             return None;
         }
         let (mut begin, mut resolved, departs) = stopped(tolerance.ending_slip, &now, &pressing)?;
+        if departs {
+            // A slip that would begin again immediately has not ended.
+            (begin, resolved, _) = stopped(tolerance.slip, &now, &pressing)?;
+        }
         if !resolved.paradoxes.is_empty() {
             for contact in &resolved.paradoxes {
                 separate(&mut now, contact, tolerance.first_bounce);
@@ -122,10 +126,6 @@ pub fn find_active_set(
         };
         if !departs && begin.iter().enumerate().all(still) {
             return None;
-        }
-        if departs {
-            // A slip that would begin again immediately has not ended.
-            (begin, resolved, _) = stopped(tolerance.slip, &now, &pressing)?;
         }
         // A contact that does not push holds nothing: it is not part of the step, and its opening continues.
         if resolved.contacts.len() == pressing.len() {

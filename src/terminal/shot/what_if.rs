@@ -153,7 +153,7 @@ mod tests {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let situation = Situation { table: &table, layout: &layout, rule: Rule::StraightRail };
-        let cue = CueInputs::parse("0.2,0.3,6,-72,2.5").unwrap();
+        let cue = CueInputs::parse("0.2,0.3,6,-8.8,2.5").unwrap();
         let coach = Shot::new(&table, &layout, cue, true, "search").unwrap();
         check(WhatIf::new(Arc::new(coach), situation), situation);
     }

@@ -245,7 +245,7 @@ fn the_real_coach_reports_progress_then_advice_then_next_shot() {
         player = player.tell(id, event);
     }
     let best = player.app.coach.proposal().unwrap().clone();
-    assert!(best.shot.solved && best.made.is_some_and(|made| made.rate > 0.8) && best.next.is_some());
+    assert!(best.shot.solved && best.made.is_some_and(|made| made.rate > 0.5) && best.next.is_some());
     let job = player.analysis_job.clone().unwrap();
     let answers = worker_answers(&mut worker, &job);
     assert_eq!(answers.len(), 3, "why it leads, the closer look, and the next shot");

@@ -94,16 +94,15 @@ fn the_thinking_coach_can_be_stopped() {
 fn a_shot_is_recommended() {
     let player = Player::new().press("Enter").answer();
     check("recommended", &player);
-    let large = ["expert makes it 94 % (92-95)", "Yellow, an eighth full on the left; two tips of", "noses top 1.52 "];
+    let large = ["expert makes it 94 % (92-95)", "Red, half full on the right; two tips of running", "aim left 2.82 "];
     player.shows_at((120, 40), &large);
     // At the smaller size: the sentence, the card next to the table, and the aim in the title or in a row.
-    let small =
-        ["Yellow, an eighth full on the left; two tips of", "yellow 1/8", "on the left", "2 tips left", "3 tips above"];
+    let small = ["Red, half full on the right; two tips of", "red 1/2", "on the right", "2 tips left", "3 tips above"];
     player.shows_at((80, 24), &small);
     let text = player.text(80, 24);
-    assert!(["aim top 1.52 → bottom 2.82, at noses", "nose to nose"].iter().any(|aim| text.contains(aim)), "{text}");
+    assert!(["aim left 2.82 → right 1.59, at noses", "nose to nose"].iter().any(|aim| text.contains(aim)), "{text}");
     // The thesis' numbers are one key away.
-    player.press("N").shows_at((120, 40), &["0.200 R, 6.2 mm left", "288.00° ", "V0", "ω0"]);
+    player.press("N").shows_at((120, 40), &["0.200 R, 6.2 mm left", "351.20° ", "V0", "ω0"]);
 }
 
 #[test]
@@ -207,7 +206,7 @@ fn contacts_or_all_events_are_listed_and_stepped_through() {
     assert_eq!(player.app.coach.playback.time, third);
     player.shows(&["Contacts 3/"]);
     player.does_not_show("yellow rolls");
-    player.press("E").shows(&["Events ", "/29"]);
+    player.press("E").shows(&["Events ", "/25"]);
 }
 
 #[test]
@@ -238,15 +237,15 @@ fn the_shot_plays() {
 #[test]
 fn stepping_stops_at_events() {
     let player = Player::new().press("Enter").answer().press("E . . Right Left .");
-    player.shows(&["Events 5/29", "white lands", "next: white rolls in 0.1 s", "● white   -639.3   14.1  2.61 slides"]);
+    player.shows(&["Events 4/25", "white - red", "next: white rolls in 0.3 s", "● white    653.2  -23.7  1.36 follow"]);
     let shot = player.app.coach.shot().unwrap();
-    assert_eq!(player.app.coach.playback.time, shot.recording.events()[4].time);
+    assert_eq!(player.app.coach.playback.time, shot.recording.events()[3].time);
 }
 
 #[test]
 fn the_next_shot_starts_from_the_end_positions() {
     let player = Player::new().press("Enter").answer().press("E End");
-    player.shows(&["Events 29/29", "white stops", "Point: yellow, ", "● white    -95.9  -94.1  0.00"]);
+    player.shows(&["Events 25/25", "red stops", "Point: red, ", "● white   -902.1 -266.6  0.00"]);
     let end = player.app.coach.shot().unwrap().recording.final_layout();
     let player = player.press("n");
     assert_eq!(*player.app.coach.layout(), end);
@@ -295,17 +294,17 @@ fn the_coach_screens_are_complete_without_colours() {
         } else {
             check_at(&[(80, 24)], "ascii", &player);
         }
-        player.is_plain().shows(&["Events 4/29", "W white", "Y yellow", "R red"]);
+        player.is_plain().shows(&["Events 3/25", "W white", "Y yellow", "R red"]);
         let player = player.press("2");
         player.is_plain().shows(&["Y yellow  -710.0    0.0", "121.0 mm from white; step 10 mm", "Enter ask"]);
         let player = player.press("v v").finish_analysis();
         let map = ["Margins", "# point", "- one ball", "X the stro"];
         player.is_plain().shows_at((120, 40), &map);
-        player.shows_at((120, 40), &["3.35 right  2.31 left", "speed   1.25 softer wide harder"]);
-        player.shows_at((80, 24), &["side  R3.35  L2.31", "# point - one ball"]);
+        player.shows_at((120, 40), &["1.62 right  0.71 left", "speed   0.45 softer 0.28 harder"]);
+        player.shows_at((80, 24), &["side  R1.62  L0.71", "# point - one ball"]);
         player.does_not_show("too few");
         let plan = player.press("v");
-        plan.is_plain().shows(&["now  94 % yellow, ", "next 100 % very hard"]);
+        plan.is_plain().shows(&["now  94 % red, ", "next 100 % very hard"]);
         // At 80 columns there is no room to explain the distances below them.
         plan.shows_at((80, 24), &["stop half within W 75, Y 45, R 95 cm"]);
         plan.shows_at((120, 40), &["stop white 75, yellow 45, red 95 cm"]);

@@ -114,7 +114,7 @@ fn the_hint_shows_the_model_shots_tip_and_hit() {
     let aiming = Player::practising(TRUE_COLOUR);
     aiming.does_not_show("Model tip");
     let shown = aiming.press("v");
-    shown.shows(&["Model tip", "yours: yellow 100 % full"]).says("Model hit");
+    shown.shows(&["Model tip", "yours: red 100 % full"]).says("Model hit");
     shown.press("v").shows(&["Your stroke"]).does_not_show("Model tip");
 }
 

@@ -86,26 +86,26 @@ fn the_search_filters_while_typing() {
 fn a_stroke_is_set_with_keys() {
     let player = Player::practising(TRUE_COLOUR);
     check("aiming", &player);
-    player.says("yellow 100 % full");
+    player.says("red 100 % full");
     let set = player.press("S-Left Left Left Left C-Right h h k K Up S-Up +");
-    set.shows(&["aim    bottom ", "left   0.3 tip", "up     1.1 tips", " lengths", "2.3° up"]);
-    set.says("275.59°").says("3.10 m/s");
+    set.shows(&["aim    right ", "left   0.3 tip", "up     1.1 tips", " lengths", "2.0° up"]);
+    set.says("358.27°").says("3.10 m/s");
     let numbers = set.press("N");
-    numbers.shows(&["aim    275.59°", "speed  3.10 m/s"]).does_not_show(" lengths");
+    numbers.shows(&["aim    358.27°", "speed  3.10 m/s"]).does_not_show(" lengths");
     let set = numbers.press("N");
     assert!(set.text(80, 24).contains("1 tip = 3 mm") && set.text(120, 40).contains("Tip = 3 mm"));
     let in_mm = Player::with_settings(TRUE_COLOUR, "tip_unit = \"mm\"\n").press("F3 Enter h");
     in_mm.says("left   0.5 mm").does_not_show("= 3 mm");
     let full = set.press("Tab 0");
     full.says("270.00°").says("side   middle");
-    let plain = Player::practising(NO_COLOUR).press("S-Left");
-    plain.is_plain().shows(&["yellow 74 % full, left side, 12 cm", "no attempt yet"]);
+    let plain = Player::practising(NO_COLOUR).press("Left Left Left");
+    plain.is_plain().shows(&["red 76 % full, left side, 137 cm", "no attempt yet"]);
     let plain = Player::practising(ASCII).press("S-Right S-Right");
     check_at(&[(80, 24)], "aiming_ascii", &plain);
     plain.is_plain();
     Player::practising(TRUE_COLOUR).shows_at(
         (200, 60),
-        &["Your stroke", "Tip", "Hit", "Task", "yellow 100 % full", "The first shot of every match."],
+        &["Your stroke", "Tip", "Hit", "Task", "red 100 % full", "The first shot of every match."],
     );
     let far = Player::practising(TRUE_COLOUR).press("H H H H H H H H H");
     far.says("further out the tip would slip off the ball");
@@ -149,9 +149,9 @@ fn the_hint_shows_the_shot_and_marks_the_attempt_helped() {
 fn aimed_as_the_model_shot(player: Player) -> Player {
     let turn = player.app.drills.turn.as_ref().unwrap();
     let degrees = turn.stroke().phi.to_degrees();
-    let fine = ((-72.0 - degrees) * 5.0).round() as usize;
+    let fine = ((degrees + 8.8) * 5.0).round() as usize;
     player
-        .press(&"Left ".repeat(fine))
+        .press(&"Right ".repeat(fine))
         .press("C-Left")
         .press(&"h ".repeat(12))
         .press(&"k ".repeat(18))

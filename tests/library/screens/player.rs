@@ -41,7 +41,7 @@ pub const SIZES: [(u16, u16); 2] = [(80, 24), (120, 40)];
 
 /// A shot that makes the point from the opening position, so that the pictures do not depend on the coach; two others; and one that makes
 /// the point from the end positions of the first.
-pub const SHOT: &str = "0.2,0.3,6,-72,2.5";
+pub const SHOT: &str = "0.2,0.3,6,-8.8,2.5";
 pub const OTHER_SHOTS: [&str; 2] = ["0.4,-0.22,2.37,-104.8,4.84", "0.09,0.35,2,-73.3,2.58"];
 pub const NEXT_SHOT: &str = "-0.353,0.054,3.2,87.8,5.07";
 

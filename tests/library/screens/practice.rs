@@ -19,7 +19,7 @@ pub fn exercise(name: &str, title: &str) -> Exercise {
         rule: Rule::StraightRail,
         table: "match".to_owned(),
         layout: Layout::opening(&Table::default()),
-        point: "The first shot of every match. Hit yellow thin with left side and let the cushions do the rest."
+        point: "The first shot of every match. Hit half of red with left side and let the cushions do the rest."
             .to_owned(),
         tags: vec!["opening".to_owned()],
         shot: Some(cue(SHOT)),

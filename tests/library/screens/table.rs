@@ -43,7 +43,7 @@ fn the_travelled_path_fades_behind_the_trail() {
     let start = Player::new().press("Enter").answer();
     let before = start.picture(120, 40);
     assert_eq!(count(&before, past), 0);
-    let later = start.press("Space").wait(0.8).picture(120, 40);
+    let later = start.press("Space").wait(7.0).picture(120, 40);
     assert!(count(&later, path) < count(&before, path));
     assert!(count(&later, past) > 5, "{}", count(&later, past));
     assert!(count(&later, ball) > count(&before, ball), "the trail has the ball's colour");

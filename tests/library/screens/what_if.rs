@@ -48,7 +48,7 @@ fn the_coachs_shot_is_copied_changed_and_played() {
 fn without_advice_a_stroke_starts_full_at_a_ball() {
     let player = Player::with(TRUE_COLOUR).press("w");
     assert_eq!(player.app.key_context(), KeyContext::OwnStroke);
-    player.shows(&["You … %", "if played exactly: ", "Yellow, full;"]).does_not_show("coach 9");
+    player.shows(&["You … %", "if played exactly: ", "Red, full;"]).does_not_show("coach 9");
     let player = report_success_rate(player.press("Right"), 40);
     player.shows(&["You 4 %"]);
     let end = player.app.coach.shot().unwrap().recording.final_layout();
@@ -95,10 +95,10 @@ fn speeds_are_in_feet_with_lengths_in_feet() {
 fn the_stroke_is_shown_in_the_units_of_the_keys() {
     let player = in_what_if_mode(TRUE_COLOUR);
     for size in SIZES {
-        player.shows_at(size, &["aim ", "288.00°", "2 tips", "2.50 m/s", "6.0° up"]).hides_at(size, &["ω0"]);
+        player.shows_at(size, &["aim ", "351.20°", "2 tips", "2.50 m/s", "6.0° up"]).hides_at(size, &["ω0"]);
     }
     // The smallest steps of every key are visible.
-    player.press("C-Right l Up +").shows_at((80, 24), &["287.99°", "1.8 tips", "2.60 m/s", "7.0° up"]);
+    player.press("C-Right l Up +").shows_at((80, 24), &["351.19°", "1.8 tips", "2.60 m/s", "7.0° up"]);
     Player::new().press("Enter").answer().press("N w").shows_at((80, 24), &["ω0"]);
 }
 
