@@ -86,29 +86,6 @@ fn leader_is_rated_by_attempts_that_did_not_choose_it() {
     assert!(starts.iter().filter(|start| **start > 0).count() == 2, "{starts:?}");
 }
 
-/// Of many shots, the search picks the one whose own attempts left the easiest next points.
-#[test]
-fn next_point_is_estimated_by_attempts_that_did_not_choose_the_shot() {
-    let coach = coach();
-    let (mut said, mut measured) = (0.0, 0.0);
-    let layouts = held_out_layouts(coach.table(), 40, 31);
-    for (seed, layout) in (0..).zip(&layouts) {
-        let asked = Request { skill: Skill::CLUB, plan: true, seed, ..request(Rule::StraightRail, 3_000) };
-        let advice = coach.recommend(layout, &asked).unwrap();
-        let cancel = AtomicBool::new(false);
-        let shooter = asked.shooter();
-        let next = trial::with_unlimited_task(coach.table(), layout, asked.rule, shooter, 100, &cancel, |task| {
-            let draws = draws::Draws::independent(4000, task.worlds, 1);
-            next::next_value(task, &advice.cue, draws.iter(), 300)
-        });
-        said += advice.next_probability.unwrap();
-        measured += next.unwrap();
-    }
-    let excess = (said - measured) / layouts.len() as f64;
-    println!("excess {excess}");
-    assert!(excess.abs() < 0.006, "{excess}");
-}
-
 /// The estimate uses errors that took no part in the choice, so it must agree with a plain Monte Carlo estimate of a
 /// hundred thousand attempts. Four standard errors are exceeded once in 16,000 such comparisons.
 #[test]
