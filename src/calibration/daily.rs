@@ -71,7 +71,7 @@ pub fn next_day_doubt(table: &Table, doubt: &TableDoubt) -> TableDoubt {
 /// How a table plays: the results of the two daily tests with exactly the requested strokes.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct TablePlay {
-    /// Distance of a lag along the table, diamonds.
+    /// Distance that a lag rolls, from the stroke to the stop, diamonds.
     pub lag: f64,
     /// Arrival of Corner-5 from 50 to 20 on the third rail, diamonds from the player's end.
     pub third_rail: f64,
@@ -88,13 +88,16 @@ impl TablePlay {
         let [lag, corner] = DAILY_TESTS;
         // 0 on a table on which the ball never gets there.
         let or_none = |mark: Option<f64>| mark.unwrap_or_default();
-        Self { lag: or_none(mark(lag, "stop")), third_rail: or_none(mark(corner, "third")) }
+        // The mark counts from the player's end, and the ball does not begin there.
+        let start = Test::named(lag).map_or(0.0, |test| test.balls[0][0]);
+        Self { lag: or_none(mark(lag, "stop").map(|stop| stop - start)), third_rail: or_none(mark(corner, "third")) }
     }
 
     /// Describes the difference from an earlier day in words.
     pub fn describe_change_from(&self, before: &Self) -> String {
+        let share = if before.lag > 0.0 { self.lag / before.lag - 1.0 } else { 0.0 };
         // Adding zero removes the sign of a negative zero.
-        let further = (100.0 * (self.lag / before.lag - 1.0)).round() + 0.0;
+        let further = (100.0 * share).round() + 0.0;
         let longer = before.third_rail - self.third_rail;
         let compare = |value: f64, least: f64, [less, more]: [&'static str; 2]| {
             if value.abs() < least {
@@ -112,5 +115,38 @@ impl TablePlay {
             self.third_rail,
             before.third_rail,
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        calibration::{forward::Observed, protocol::Quantity},
+        physics::strike,
+        simulation::watch,
+    };
+
+    #[test]
+    fn lag_is_measured_from_where_the_ball_starts() {
+        // With twenty times the friction the ball stops before the far rail.
+        let table = Table::default();
+        let slow = TableDoubt::with_value(&table, "mu_r", 20.0 * TableDoubt::value(&table, "mu_r").unwrap());
+        let lag = Test::named("lag").unwrap();
+        let (cue, layout) = StrokeSpread::ASSUMED.stroke(&slow, lag, &[0.0; STROKE_PARAMETERS]);
+        let mut observed = Observed::new(&layout);
+        watch(&slow, &layout, &strike(&slow, &cue), &mut observed);
+        let way = observed.position(Quantity::StopAlong(0)).unwrap().x - layout.balls[0].x;
+        let rolled = TablePlay::of(&slow).lag;
+        assert!((rolled - way / table.diamond()).abs() < 1e-9 && rolled < 6.0, "{rolled}, {way} m");
+    }
+
+    #[test]
+    fn change_of_the_lag_is_a_share_of_its_distance() {
+        let play = |lag| TablePlay { lag, third_rail: 2.0 };
+        let said = |now, before| play(now).describe_change_from(&play(before));
+        assert!(said(11.0, 10.0).starts_with("a lag rolls farther (+10 %)"), "{}", said(11.0, 10.0));
+        assert!(said(9.0, 10.0).starts_with("a lag rolls shorter (-10 %)"), "{}", said(9.0, 10.0));
+        assert!(said(9.0, 0.0).starts_with("a lag rolls as before (+0 %)"), "{}", said(9.0, 0.0));
     }
 }

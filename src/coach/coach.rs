@@ -1,55 +1,31 @@
 //! The recommender: finds the shot that a given player makes most often, from a layout and a request.
 
 use std::{
-    collections::BTreeSet,
-    ops::Range,
     sync::{Arc, OnceLock, atomic::AtomicBool},
     time::{Duration, Instant},
 };
 
 use super::{
-    Alternative, Cause, Improvement, Kind, LayoutDifficulty, Recommendation, Request, Risk, Shooter, Skill, Source,
+    Improvement, Recommendation, Request, Shooter, Skill,
     clock::Clock,
     draws::{Draws, Worlds},
     first::FirstShots,
-    next::NextValue,
-    pool::Candidate,
-    refinement::MIN_IMPROVEMENT,
+    judging::robust_answer,
     search::Search,
-    trial::{Attempts, Task, UNLIMITED_STEPS, with_unlimited_task},
+    trial::{Task, UNLIMITED_STEPS, with_unlimited_task},
 };
 use crate::{
     game::Rule,
     learning::Policy,
-    physics::{CueInputs, signed_angle},
+    physics::CueInputs,
     platform::parallel::Team,
     statistics::SuccessRate,
     table::{Layout, LayoutError, Table},
 };
 
-/// Independent attempts from which the make probability is estimated. Its standard error is at most 1.6 %, and 0.3 %
-/// for a shot that is made 99 times in 100.
-const ATTEMPTS: usize = 1000;
-
-/// Attempts for the make probability of each alternative.
-const ATTEMPTS_PER_ALTERNATIVE: usize = 400;
-
-/// Attempts for each cause of a miss.
-const ATTEMPTS_PER_CAUSE: usize = 300;
-
 /// Minimum time for judging the answer, even after the budget is used up. If other programs delay a thread, the answer
 /// would otherwise have no make probability.
 const GRACE: Duration = Duration::from_millis(3);
-
-/// Attempts in one work item of a thread.
-const CHUNK_SIZE: usize = 25;
-
-/// Maximum number of alternatives listed.
-const ALTERNATIVES: usize = 5;
-
-/// Alternatives below this share of the best shot's make probability are not listed: a shot that is made less than half
-/// as often is a gamble for a player who wants the point.
-const MIN_LISTED_SHARE: f64 = 0.5;
 
 /// A coach for one table. Cheap to share between threads.
 #[derive(Clone, Debug)]
@@ -151,7 +127,7 @@ impl Coach {
         let strokes: Vec<CueInputs> = proposals.iter().map(|proposal| proposal.cue).collect();
         let found = FirstShots::find(task, &strokes, &request.former, request.seed);
         let answer = if request.skill.is_perfect() || found.solutions.is_empty() {
-            first_point_answer(&found)
+            found.answer()
         } else {
             let mut last_reported = None;
             let search = Search::new(task, request.plan, team, request.seed);
@@ -175,190 +151,6 @@ impl Coach {
     }
 }
 
-/// Returns the answer for a player who makes errors. Judges the first shot of the (non-empty) pool and the first shots of the
-/// other kinds by errors that took no part in the choice.
-/// A search with few attempts may choose wrongly: if another shot seems to be made more often, both are judged by as
-/// many attempts, and the better one is the answer.
-fn robust_answer(
-    found: &FirstShots,
-    pool: Vec<Candidate>,
-    task: &Task,
-    request: &Request,
-    team: &Team,
-) -> Recommendation {
-    let mut pool = one_of_each_kind(pool, task.skill, task.table.radius);
-    pool.truncate(1 + ALTERNATIVES);
-    // Each piece is drawn by the first thread that needs it, so that no time is spent on pieces that are never used.
-    let attempts: Vec<OnceLock<Draws>> = (0..2 * ATTEMPTS).step_by(CHUNK_SIZE).map(|_| OnceLock::new()).collect();
-    let pieces_of = |candidates: &[usize], attempts: Range<usize>| -> Vec<(usize, usize)> {
-        let pieces = attempts.step_by(CHUNK_SIZE).map(|attempt| attempt / CHUNK_SIZE);
-        candidates.iter().flat_map(|candidate| pieces.clone().map(|piece| (*candidate, piece))).collect()
-    };
-    let judged = |pieces: &[(usize, usize)]| {
-        team.map(pieces, |&(index, piece)| {
-            let draw = || judging_draws(task.worlds, request.seed, piece);
-            (index, piece, task.attempts(&pool[index].shot.cue, attempts[piece].get_or_init(draw)))
-        })
-    };
-    let others: Vec<usize> = (1..pool.len()).collect();
-    let first = pieces_of(&[0], 0..ATTEMPTS).into_iter();
-    let mut made = judged(&first.chain(pieces_of(&others, 0..ATTEMPTS_PER_ALTERNATIVE)).collect::<Vec<_>>());
-    let better = made_more_often(&pool, &complete_rates(&made, pool.len(), ATTEMPTS_PER_ALTERNATIVE), request.plan);
-    made.extend(judged(&pieces_of(&better, ATTEMPTS_PER_ALTERNATIVE..ATTEMPTS)));
-    let mut rates = (0..pool.len()).map(|candidate| rate_within(&made, candidate, ATTEMPTS)).collect::<Vec<_>>();
-    let mut judged_from = 0;
-    if !better.is_empty() {
-        let complete = complete_rates(&made, pool.len(), ATTEMPTS);
-        let best = made_more_often(&pool, &complete, request.plan).first().copied().unwrap_or_default();
-        // The attempts that chose this shot flatter it. If there is time, its rate comes from as many other attempts.
-        let unbiased = rate_within(&judged(&pieces_of(&[best], ATTEMPTS..2 * ATTEMPTS)), best, 2 * ATTEMPTS);
-        if let Some(unbiased) = unbiased.filter(|rate| rate.trials == ATTEMPTS) {
-            (rates[best], judged_from) = (Some(unbiased), ATTEMPTS);
-        }
-        rates[..=best].rotate_right(1);
-        pool[..=best].rotate_right(1);
-    }
-    let best = pool[0];
-    let known_next =
-        |next: NextValue| next.known().filter(|_| request.plan && LayoutDifficulty::is_known_on(task.table));
-    let best_rate = rates[0].map_or(0.0, |rate| rate.rate);
-    let is_worth =
-        |shot: &Alternative| shot.make_probability.is_none_or(|rate| rate.rate >= MIN_LISTED_SHARE * best_rate);
-    let mut alternatives: Vec<_> = (1..pool.len())
-        .map(|index| Alternative {
-            cue: pool[index].shot.cue,
-            source: pool[index].shot.source,
-            kind: pool[index].kind,
-            make_probability: rates[index],
-            next_probability: known_next(pool[index].next),
-        })
-        .filter(is_worth)
-        .collect();
-    // If the next point counts too, the others keep the order of the search.
-    if !request.plan {
-        let chance = |shot: &Alternative| shot.make_probability.map_or(0.0, |rate| rate.rate);
-        alternatives.sort_by(|one, other| chance(other).total_cmp(&chance(one)));
-    }
-    Recommendation {
-        cue: best.shot.cue,
-        solved: true,
-        source: best.shot.source,
-        kind: Some(best.kind),
-        make_probability: rates[0],
-        judged_from,
-        risk: risk(&best.shot.cue, task, request, team),
-        next_probability: known_next(best.next),
-        is_planned: request.plan,
-        alternatives,
-        ..first_point_answer(found)
-    }
-}
-
-/// Index of a candidate, index of a piece of the judging attempts, and the candidate's results in this piece.
-type JudgedPiece = (usize, usize, Attempts);
-
-/// Returns the rate of a candidate in those of its judged attempts that are among the first `count`; `None` if there are none.
-fn rate_within(judged: &[JudgedPiece], candidate: usize, count: usize) -> Option<SuccessRate> {
-    let own = judged.iter().filter(|(index, piece, _)| *index == candidate && piece * CHUNK_SIZE < count);
-    own.map(|(.., part)| *part).sum::<Attempts>().rate()
-}
-
-/// Returns the rates of the candidates in the first `count` attempts; `None` if time ran out before all of these were made, because only
-/// rates in the same attempts are comparable.
-fn complete_rates(judged: &[JudgedPiece], candidates: usize, count: usize) -> Vec<Option<SuccessRate>> {
-    let rates = (0..candidates).map(|candidate| rate_within(judged, candidate, count));
-    rates.map(|rate| rate.filter(|rate| rate.trials == count)).collect()
-}
-
-/// Returns the indices of the shots that are made more often than the first one, less their effort penalties, best
-/// first. If the first one is a former answer, another shot must be better by [`MIN_IMPROVEMENT`]. In a `plan`, it must also leave a next
-/// shot that is known to be at least as easy.
-fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>], plan: bool) -> Vec<usize> {
-    let worth = |index: usize| rates[index].map(|rate| rate.rate - pool[index].effort_penalty);
-    let was_advised = pool.first().is_some_and(|first| first.shot.source == Source::Former);
-    let least = if was_advised { MIN_IMPROVEMENT } else { 0.0 };
-    let is_better = |index: &usize| worth(0).zip(worth(*index)).is_some_and(|(bar, own)| own > bar + least * own.abs());
-    let next = |index: usize| pool[index].next.known();
-    let leaves_enough = |index: &usize| !plan || next(0).zip(next(*index)).is_some_and(|(bar, own)| own >= bar);
-    let mut better: Vec<usize> = (1..pool.len()).filter(is_better).filter(leaves_enough).collect();
-    better.sort_by(|one, other| f64::total_cmp(&worth(*other).unwrap_or_default(), &worth(*one).unwrap_or_default()));
-    better
-}
-
-/// Estimates how often each cause alone misses a shot; `None` if nothing is in doubt, or time runs out.
-fn risk(cue: &CueInputs, task: &Task, request: &Request, team: &Team) -> Option<Risk> {
-    if task.worlds.is_certain() || task.clock.is_past(task.deadline) {
-        return None;
-    }
-    let missed = team.map(&Cause::ALL, |cause| {
-        let (doubt, errs) = cause.isolated(request.doubt);
-        let worlds = Worlds::new(task.table, task.layout, doubt);
-        let skill = if errs { task.skill } else { Skill::PERFECT };
-        let draws = Draws::independent(ATTEMPTS_PER_CAUSE, &worlds, judging_seed(request.seed));
-        let task = Task { worlds: &worlds, skill, ..*task };
-        let Attempts { tried, made } = task.attempts(cue, &draws);
-        (tried == ATTEMPTS_PER_CAUSE).then(|| 1.0 - made as f64 / ATTEMPTS_PER_CAUSE as f64)
-    });
-    let [hand, table, placing] = missed[..] else { return None };
-    Some(Risk { hand: hand?, table: table?, placing: placing? })
-}
-
-/// Keeps the first shot and, in the given order, the first of each other kind. Drops a shot if every input is within
-/// one standard error of a kept one:
-/// a stroke that makes the point in two ways, depending on its errors, is one stroke.
-fn one_of_each_kind(pool: Vec<Candidate>, skill: Skill, radius: f64) -> Vec<Candidate> {
-    let mut kept: Vec<Candidate> = Vec::new();
-    for candidate in pool {
-        let is_new = |other: &Candidate| {
-            let (one, cue) = (&other.shot.cue, &candidate.shot.cue);
-            let Skill { a, b, theta, phi, speed, .. } = skill.at(one);
-            let is_the_same = (one.a - cue.a).abs() <= a / radius
-                && (one.b - cue.b).abs() <= b / radius
-                && (one.theta - cue.theta).abs() <= theta
-                && signed_angle(one.phi, cue.phi).abs() <= phi
-                && (one.speed - cue.speed).abs() <= speed;
-            other.kind != candidate.kind && !is_the_same
-        };
-        if kept.iter().all(is_new) {
-            kept.push(candidate);
-        }
-    }
-    kept
-}
-
-/// Returns the answer for a perfect player, or for a search without a result.
-fn first_point_answer(found: &FirstShots) -> Recommendation {
-    let mut seen = BTreeSet::new();
-    let shots = found.solutions.iter().map(|(shot, tally)| (*shot, Kind::of(tally, &shot.cue)));
-    let mut shots = shots.filter(|(_, kind)| seen.insert(*kind));
-    let certain = SuccessRate { trials: 1, successes: 1, rate: 1.0, low: 1.0, high: 1.0 };
-    let first = shots.next();
-    let shot = first.map_or(found.attempt, |(shot, _)| shot);
-    Recommendation {
-        cue: shot.cue,
-        solved: first.is_some(),
-        source: shot.source,
-        kind: first.map(|(_, kind)| kind),
-        make_probability: first.map(|_| certain),
-        judged_from: 0,
-        risk: None,
-        next_probability: None,
-        is_planned: false,
-        alternatives: shots
-            .take(ALTERNATIVES)
-            .map(|(shot, kind)| Alternative {
-                cue: shot.cue,
-                source: shot.source,
-                kind,
-                make_probability: Some(certain),
-                next_probability: None,
-            })
-            .collect(),
-        simulations: 0,
-        elapsed: Duration::ZERO,
-    }
-}
-
 /// Estimates the share of `attempts` at `cue` that make a point, with its confidence interval: a plain Monte Carlo
 /// estimate. The same seed draws the same attempts for every shot. A perfect player has no doubts.
 pub fn make_probability(
@@ -374,127 +166,4 @@ pub fn make_probability(
         let attempts = task.attempts(cue, &Draws::independent(attempts, task.worlds, seed));
         SuccessRate::new(attempts.made, attempts.tried)
     })
-}
-
-/// Estimates how often a stroke is made in these `attempts` (widened to whole pieces of 25), with the errors by which
-/// the answer to a request with `seed` is judged.
-/// The result equals the make probability in the answer, if there was time for all of its attempts, for the range that
-/// the answer used: from [`Recommendation::judged_from`] for the recommended stroke, and from 0 for an alternative.
-pub fn judge(
-    shooter: Shooter,
-    rule: Rule,
-    table: &Table,
-    layout: &Layout,
-    cue: &CueInputs,
-    attempts: Range<usize>,
-    seed: u64,
-) -> SuccessRate {
-    with_unlimited_task(table, layout, rule, shooter, UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
-        let pieces = attempts.start / CHUNK_SIZE..attempts.end.div_ceil(CHUNK_SIZE);
-        let pieces = pieces.map(|piece| task.attempts(cue, &judging_draws(task.worlds, seed, piece)));
-        let Attempts { made, tried } = pieces.sum();
-        SuccessRate::new(made, tried)
-    })
-}
-
-/// Draws one piece of the errors by which the answer to a request with `seed` is judged. Its random stream differs from that
-/// of the search.
-fn judging_draws(worlds: &Worlds, seed: u64, piece: usize) -> Draws {
-    Draws::independent(CHUNK_SIZE, worlds, judging_seed(seed).wrapping_add(piece as u64))
-}
-
-/// The streams of neighbouring seeds are far apart, so that the pieces of one request are not those of the next.
-const fn judging_seed(seed: u64) -> u64 {
-    (seed ^ 0x6a75_6467_6521).wrapping_mul(0x9e37_79b9_7f4a_7c15)
-}
-
-#[cfg(test)]
-mod tests {
-    use std::f64::consts::PI;
-
-    use super::*;
-    use crate::{
-        coach::{Route, Suggestion},
-        game::Tally,
-    };
-
-    fn candidate(cue: CueInputs, way: Route, effort_penalty: f64) -> Candidate {
-        let candidate = Candidate::of(Suggestion { cue, source: Source::Search }, &Tally::default(), 0.0);
-        Candidate { kind: Kind { route: way, ..candidate.kind }, effort_penalty, ..candidate }
-    }
-
-    #[test]
-    fn requests_with_neighbouring_seeds_are_judged_by_different_errors() {
-        let pieces = |seed| (0..100).map(move |piece| judging_seed(seed).wrapping_add(piece));
-        let all: std::collections::HashSet<u64> = (0..1000).flat_map(pieces).collect();
-        assert_eq!(all.len(), 100_000);
-    }
-
-    #[test]
-    fn shots_are_compared_by_the_same_attempts_only() {
-        let pieces = |candidate, tried: usize, made| {
-            let whole =
-                (0..tried / CHUNK_SIZE).map(move |piece| (candidate, piece, Attempts { tried: CHUNK_SIZE, made }));
-            whole.chain([(candidate, tried / CHUNK_SIZE, Attempts { tried: tried % CHUNK_SIZE, made: 0 })])
-        };
-        // Time ran out after 13 attempts of the third shot, all of them made.
-        let cut = (2, 0, Attempts { tried: 13, made: 13 });
-        let judged: Vec<_> = pieces(0, 1000, 10).chain(pieces(1, 400, 15)).chain([cut]).collect();
-        let trials =
-            |count| complete_rates(&judged, 3, count).iter().map(|rate| rate.map(|rate| rate.trials)).collect();
-        let [some, all]: [Vec<_>; 2] = [trials(400), trials(1000)];
-        assert_eq!((some, all), (vec![Some(400), Some(400), None], vec![Some(1000), None, None]));
-    }
-
-    #[test]
-    fn made_more_often_returns_better_shots_best_first() {
-        let cue = CueInputs { a: 0.0, b: 0.3, theta: 0.01, phi: 1.0, speed: 3.0 };
-        // The first is made 220 times in 1000. Each of the others has a count of made attempts in 400 and an effort penalty.
-        let better = |others: &[(usize, f64)]| {
-            let mut pool = vec![candidate(cue, Route::Direct, 0.0)];
-            pool.extend(others.iter().map(|(_, penalty)| candidate(cue, Route::OffCushion, *penalty)));
-            let mut rates = vec![Some(SuccessRate::new(220, 1000))];
-            rates.extend(others.iter().map(|(made, _)| (*made > 0).then(|| SuccessRate::new(*made, 400))));
-            made_more_often(&pool, &rates, false)
-        };
-        assert!(better(&[]).is_empty());
-        assert!(better(&[(0, 0.0), (85, 0.0)]).is_empty());
-        assert!(better(&[(133, 0.15)]).is_empty());
-        assert_eq!(better(&[(90, 0.0), (0, 0.0), (133, 0.0)]), [3, 1]);
-        let next = [NextValue::Known(0.5), NextValue::Known(0.6), NextValue::Known(0.4), NextValue::Assumed(0.9)];
-        let pool = next.map(|next| Candidate { next, ..candidate(cue, Route::Direct, 0.0) });
-        let rates = [200, 300, 300, 300].map(|made| Some(SuccessRate::new(made, 1000)));
-        assert_eq!(made_more_often(&pool, &rates, true), [1], "the next shot is more difficult, or not known");
-    }
-
-    #[test]
-    fn similar_strokes_are_not_listed_as_alternatives() {
-        let meant = CueInputs { a: 0.0, b: 0.3, theta: 0.01, phi: 1.0, speed: 3.0 };
-        let candidate = |way, phi: f64| {
-            let cue = CueInputs { phi: meant.phi + phi * Skill::EXPERT.at(&meant).phi, ..meant };
-            candidate(cue, way, 0.0)
-        };
-        let kept = |ways: &[(Route, f64)]| {
-            let pool = ways.iter().map(|&(way, phi)| candidate(way, phi)).collect();
-            let kept = one_of_each_kind(pool, Skill::EXPERT, Table::default().radius);
-            kept.iter().map(|candidate| candidate.kind.route).collect::<Vec<_>>()
-        };
-        assert_eq!(kept(&[(Route::OffCushion, 0.0), (Route::AroundTheTable, 0.5)]), [Route::OffCushion]);
-        assert_eq!(
-            kept(&[
-                (Route::OffCushion, 0.0),
-                (Route::AroundTheTable, 2.0),
-                (Route::Direct, 1.5),
-                (Route::OffCushion, 9.0)
-            ]),
-            [Route::OffCushion, Route::AroundTheTable]
-        );
-        let turned = |phi: f64| Candidate {
-            shot: Suggestion { cue: CueInputs { phi, ..meant }, source: Source::Search },
-            ..candidate(if phi > 0.0 { Route::Direct } else { Route::OffCushion }, 0.0)
-        };
-        let pool = vec![turned(PI - 1e-5), turned(1e-5 - PI)];
-        let kept = one_of_each_kind(pool, Skill::EXPERT, Table::default().radius);
-        assert_eq!(kept.len(), 1, "the same direction");
-    }
 }

@@ -20,6 +20,11 @@ const CLIMBING_ROUNDS: usize = 2;
 /// information.
 const MAX_MOVE: f64 = 1.0;
 
+/// Width in which strokes are compared by an input that the player executes exactly, as a share of an expert's error. If such an input
+/// did not count, a soft and a hard stroke would be the same for a player with exact speed. If only equal values were alike, a cue raised
+/// by a hair would lose all attempts so far.
+const EXACT_INPUT_WIDTH: f64 = 0.1;
+
 /// The five inputs of a stroke that errors change: a, b, theta, phi and V.
 type InputVector = [f64; 5];
 
@@ -28,8 +33,9 @@ type InputVector = [f64; 5];
 pub struct Distribution {
     cue: CueInputs,
     at: InputVector,
-    /// The standard errors and their reciprocals; both zero for an input without error.
+    /// The standard errors; zero for an input without error.
     deviations: InputVector,
+    /// Their reciprocals; for an input without error, that of the width in which it is compared.
     inverse_deviations: InputVector,
     /// Product of the reciprocals, under the player's own errors and under the larger ones.
     height: [f64; 2],
@@ -38,10 +44,13 @@ pub struct Distribution {
 impl Distribution {
     /// Creates the distribution of `cue` for a player with this skill and balls of `radius` m.
     pub fn new(skill: &Skill, radius: f64, cue: &CueInputs) -> Self {
-        let Skill { a, b, theta, phi, speed, .. } = skill.at(cue);
-        let deviations = [a / radius, b / radius, theta, phi, speed];
-        let inverse_deviations = deviations.map(|deviation| if deviation > 0.0 { deviation.recip() } else { 0.0 });
-        let height = inverse_deviations.into_iter().filter(|inverse| *inverse > 0.0);
+        let deviations_of = |Skill { a, b, theta, phi, speed, .. }: Skill| [a / radius, b / radius, theta, phi, speed];
+        let (deviations, expert) = (deviations_of(skill.at(cue)), deviations_of(Skill::EXPERT));
+        let inverse_deviations = std::array::from_fn(|input| {
+            let is_exact = deviations[input] == 0.0;
+            (if is_exact { EXACT_INPUT_WIDTH * expert[input] } else { deviations[input] }).recip()
+        });
+        let height = deviations.into_iter().filter(|deviation| *deviation > 0.0).map(f64::recip);
         let height = height
             .fold([1.0, 1.0], |[own, larger], inverse| [own * inverse, larger * inverse / ErrorSize::Larger.factor()]);
         Self { cue: *cue, at: [cue.a, cue.b, cue.theta, cue.phi, cue.speed], deviations, inverse_deviations, height }
@@ -251,6 +260,27 @@ mod tests {
         let [own, _] = evidence.rates(&after);
         assert!((own.share - evidence.rates(&before)[0].share).abs() < 0.1 && own.attempts > 1000.0, "{own:?}");
         assert!((0.0..0.5).contains(&evidence.climb(&before)[3]), "{:?}", evidence.climb(&before));
+    }
+
+    #[test]
+    fn strokes_that_differ_in_an_exact_input_are_different() {
+        let skill = Skill { phi: 0.0, speed: 0.0, ..Skill::EXPERT };
+        let stroke = |phi: f64, speed| Distribution::new(&skill, RADIUS, &CueInputs { phi, speed, ..MEANT });
+        let [soft, hard] = [1.0, 4.0].map(|speed| stroke(MEANT.phi, speed));
+        let turned = stroke(MEANT.phi + 0.02, 1.0);
+        assert!(soft.distance(&hard) > 10.0 && soft.distance(&turned) > 10.0 && soft.distance(&soft) == 0.0);
+        // Always made softly, never hard.
+        let attempts =
+            |made| -> Vec<_> { (0..300).map(|n| (Halton::new(1).errors(n), ErrorSize::Own, made)).collect() };
+        let mut evidence = Evidence::default();
+        evidence.add(&soft, &attempts(true));
+        evidence.add(&hard, &attempts(false));
+        for (stroke, share, attempts) in [(soft, 1.0, 300.0), (hard, 0.0, 300.0), (turned, 0.0, 0.0)] {
+            let [own, _] = evidence.rates(&stroke);
+            assert!((own.share - share).abs() < 1e-9 && (own.attempts - attempts).abs() < 1e-6, "{own:?}");
+        }
+        let ways = evidence.improved_strokes(&Table::default(), skill, &hard);
+        assert!(ways.iter().all(|cue| cue.speed == 4.0), "{ways:?}");
     }
 
     #[test]

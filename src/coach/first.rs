@@ -1,10 +1,12 @@
 //! Finds the first shot that makes the point: the policy's own, the thesis' variation of it (its 5.1), or a wider search.
 
+use std::{collections::BTreeSet, time::Duration};
+
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
-    Source, Suggestion,
+    Alternative, Kind, Recommendation, Source, Suggestion,
     candidates::{TIP_SHARE, random_stroke, variation},
     elevated::random_elevated_stroke,
     trial::{CONTACT_STEPS, Task, UNLIMITED_STEPS},
@@ -12,6 +14,7 @@ use super::{
 use crate::{
     game::{Rule, Tally},
     physics::CueInputs,
+    statistics::SuccessRate,
     table::Layout,
 };
 
@@ -34,6 +37,9 @@ const USUAL_BEFORE_ELEVATED: u64 = 4000;
 
 /// From then on, one stroke in this number is a jump or a massé.
 const ELEVATED_INTERVAL: u64 = 4;
+
+/// Maximum number of alternatives listed.
+pub const MAX_ALTERNATIVES: usize = 5;
 
 /// Quality of a shot that makes no point: object balls hit, then cushions before the second, up to the number that the
 /// rule requires.
@@ -88,6 +94,39 @@ impl FirstShots {
         let attempt = search.best.map(|(_, shot)| shot);
         let attempt = attempt.unwrap_or_else(|| Suggestion { cue: search.plain_stroke(), source: Source::Search });
         Self { solutions: search.solutions, attempt }
+    }
+
+    /// Returns the answer for a perfect player, or for a search without a result.
+    pub fn answer(&self) -> Recommendation {
+        let mut seen = BTreeSet::new();
+        let shots = self.solutions.iter().map(|(shot, tally)| (*shot, Kind::of(tally, &shot.cue)));
+        let mut shots = shots.filter(|(_, kind)| seen.insert(*kind));
+        let certain = SuccessRate { trials: 1, successes: 1, rate: 1.0, low: 1.0, high: 1.0 };
+        let first = shots.next();
+        let shot = first.map_or(self.attempt, |(shot, _)| shot);
+        Recommendation {
+            cue: shot.cue,
+            solved: first.is_some(),
+            source: shot.source,
+            kind: first.map(|(_, kind)| kind),
+            make_probability: first.map(|_| certain),
+            judged_from: 0,
+            risk: None,
+            next_probability: None,
+            is_planned: false,
+            alternatives: shots
+                .take(MAX_ALTERNATIVES)
+                .map(|(shot, kind)| Alternative {
+                    cue: shot.cue,
+                    source: shot.source,
+                    kind,
+                    make_probability: Some(certain),
+                    next_probability: None,
+                })
+                .collect(),
+            simulations: 0,
+            elapsed: Duration::ZERO,
+        }
     }
 }
 

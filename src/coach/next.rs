@@ -2,11 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::{
-    LayoutDifficulty,
-    draws::{Draw, Draws},
-    trial::Task,
-};
+use super::{LayoutDifficulty, draws::Draw, trial::Task};
 use crate::{
     game::Tally,
     physics::{CueInputs, strike},
@@ -53,9 +49,14 @@ impl NextValue {
 
 /// Estimates the mean probability of the next point over the layouts that `cue` leaves, from the first `points` of
 /// these attempts that make the point. `None` if no attempt does, or time ran out.
-pub fn next_value(task: &Task, cue: &CueInputs, draws: &Draws, points: usize) -> Option<f64> {
+pub fn next_value<'d>(
+    task: &Task,
+    cue: &CueInputs,
+    draws: impl Iterator<Item = Draw<'d>>,
+    points: usize,
+) -> Option<f64> {
     let (mut sum, mut made) = (0.0, 0);
-    for draw in draws.iter().take(ATTEMPTS_PER_POINT * points) {
+    for draw in draws.take(ATTEMPTS_PER_POINT * points) {
         if made == points {
             break;
         }

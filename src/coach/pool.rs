@@ -75,7 +75,7 @@ impl Race {
     /// Estimates the probability of the next point after a candidate, from up to `points` successful attempts. `None`
     /// if no attempt makes the point, or time ran out.
     pub fn estimate_next_point(&self, task: &Task, candidate: &Candidate, points: usize) -> Option<Candidate> {
-        let next = NextValue::Known(next_value(task, &candidate.shot.cue, self.own_errors.drawn(), points)?);
+        let next = NextValue::Known(next_value(task, &candidate.shot.cue, self.own_errors.drawn().iter(), points)?);
         Some(Candidate { next, ..*candidate })
     }
 

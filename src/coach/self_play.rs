@@ -9,7 +9,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::{
     Coach, Doubt, Request, Shooter,
-    draws::{Draw, World, Worlds},
+    draws::{Draw, Worlds},
     next::final_layout,
     trial::{UNLIMITED_STEPS, with_unlimited_task},
 };
@@ -17,7 +17,7 @@ use crate::{
     physics::CueInputs,
     player::{
         errors::{self, Errors},
-        perturbed_layout,
+        perturbed_layout, re_aimed,
     },
     table::{Layout, LayoutError, Table},
 };
@@ -67,9 +67,9 @@ pub fn inning(
         inning.simulations += advice.simulations;
         inning.elapsed += advice.elapsed;
         inning.slowest = inning.slowest.max(advice.elapsed);
-        let world = World { table: real.clone(), layout };
-        let end = turn(coach.table(), &reported, &request, &advice.cue, &errors::random(rng), &world);
-        let Some(end) = end else {
+        // The player aims at the balls as they really lie.
+        let cue = re_aimed(coach.table(), &reported, &layout, &advice.cue);
+        let Some(end) = turn(&real, &layout, &request, &cue, &errors::random(rng)) else {
             inning.missed = true;
             break;
         };
@@ -80,28 +80,38 @@ pub fn inning(
     Ok(inning)
 }
 
-/// Plays one stroke with a player's errors in the real world. Returns the layout at rest if it makes the point, else `None`.
-fn turn(
-    table: &Table,
-    layout: &Layout,
-    request: &Request,
-    cue: &CueInputs,
-    errors: &Errors,
-    world: &World,
-) -> Option<Layout> {
+/// Plays one stroke with a player's errors, on the real table and from the real layout, by which fouls are judged too.
+/// Returns the layout at rest if it makes the point, else `None`.
+fn turn(table: &Table, layout: &Layout, request: &Request, cue: &CueInputs, errors: &Errors) -> Option<Layout> {
     // The simulation of the real stroke has no limits.
     let shooter = Shooter { skill: request.skill, doubt: Doubt::NONE };
     with_unlimited_task(table, layout, request.rule, shooter, UNLIMITED_STEPS, &AtomicBool::new(false), |task| {
-        final_layout(task, cue, Draw { errors, world: Some(world) })
+        final_layout(task, cue, Draw { errors, world: None })
     })
 }
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec2;
     use rand::SeedableRng;
 
     use super::*;
-    use crate::coach::Skill;
+    use crate::{coach::Skill, game::Rule};
+
+    #[test]
+    fn foul_of_a_touching_ball_is_judged_where_the_balls_really_lie() {
+        // Yellow lies before the cue ball; red lies behind it, where draw takes the cue ball.
+        let table = Table::default();
+        let cue = CueInputs::parse("0,-0.4,5,0,3").unwrap();
+        let request = Request { rule: Rule::StraightRail, skill: Skill::PERFECT, ..Request::default() };
+        let end = |gap: f64| {
+            let yellow = DVec2::new(2.0 * table.radius + gap, 0.0);
+            let layout = Layout::new([DVec2::ZERO, yellow, DVec2::new(-0.3, 0.02)]);
+            turn(&table, &layout, &request, &cue, &[0.0; 5])
+        };
+        assert_eq!(end(0.0), None, "a foul");
+        assert!(end(1e-3).is_some());
+    }
 
     #[test]
     fn perfect_player_is_unaffected_by_doubt() {

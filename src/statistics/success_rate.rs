@@ -39,10 +39,10 @@ impl SuccessRate {
         Self { trials, successes, rate, low, high }
     }
 
-    /// Whether the difference from a lower rate is significant: above zero by 1.96 of its standard errors, for independent trials.
+    /// Whether the difference from a lower rate is significant: the 95 % interval of the difference for independent trials, combined
+    /// from the two score intervals, is above zero (Newcombe 1998b, method 10). A rate of 0 or 1 is thus uncertain too.
     pub fn is_significantly_above(&self, lower: &Self) -> bool {
-        let variance = |rate: &Self| rate.rate * (1.0 - rate.rate) / rate.trials.max(1) as f64;
-        self.rate - lower.rate > Z * (variance(self) + variance(lower)).sqrt()
+        self.rate - lower.rate > (self.rate - self.low).hypot(lower.high - lower.rate)
     }
 }
 
@@ -60,6 +60,10 @@ mod tests {
         // 50 and 56 % of 1000 differ although their intervals overlap; 50 and 54 % do not.
         let [half, more, most] = [500, 540, 560].map(|made| SuccessRate::new(made, 1000));
         assert!(most.is_significantly_above(&half) && most.low < half.high && !more.is_significantly_above(&half));
+        // Few trials prove little, even if all succeed.
+        let [few, many] = [(13, 13), (130, 130)].map(|(made, tried)| SuccessRate::new(made, tried));
+        let nine_tenths = SuccessRate::new(900, 1000);
+        assert!(!few.is_significantly_above(&nine_tenths) && many.is_significantly_above(&nine_tenths));
         assert_eq!((SuccessRate::new(0, 0).low, SuccessRate::new(0, 0).high), (0.0, 1.0));
     }
 }
