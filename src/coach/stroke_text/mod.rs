@@ -151,8 +151,8 @@ pub struct StrokeText {
 }
 
 impl StrokeText {
-    /// Computes the stroke, for a player with `cue_ball`. Omitted properties are taken from `before`; without it the cue is
-    /// level and strikes the centre. If rails or balls behind the cue ball are in the way, the cue is raised as far as
+    /// Computes the stroke, for a player with `cue_ball`. Omitted properties are taken from `before`, and an omitted aim
+    /// is the initial path of its cue ball; without `before` the cue is level and strikes the centre. If rails or balls behind the cue ball are in the way, the cue is raised as far as
     /// needed.
     ///
     /// # Errors
@@ -203,7 +203,9 @@ impl StrokeText {
             return Ok(found.map_or_else(|| at(phi), |(_, cue)| cue));
         }
         if ball.is_none() && self.fullness.is_none() {
-            return before.map(|before| at(before.phi)).ok_or(StrokeTextError::NoAim);
+            // The text does not change the hit, so the ball's path stays, and the cue turns with the squirt of its new side.
+            let turn = |before: &CueInputs| squirt(table, before.a) - squirt(table, a);
+            return before.map(|before| at(before.phi + turn(before))).ok_or(StrokeTextError::NoAim);
         }
         let known = before.and_then(|before| aim(table, layout, before).ok()?.hit);
         let ball = ball.or(known.map(|hit| hit.ball)).ok_or(StrokeTextError::NoAim)?;

@@ -13,8 +13,9 @@ use carom::{
     coach::{FirstContact, Skill},
     game::Rule,
     learning::{Policy, run::follow::Update},
+    statistics::SuccessRate,
     table::Table,
-    terminal::{CoachAnswer, CoachEvent, CoachWorker, FollowSlot, InfoPanel, Settings, TrainingReport},
+    terminal::{CoachAnswer, CoachEvent, CoachJob, CoachWorker, FollowSlot, InfoPanel, Settings, TrainingReport},
 };
 use ratatui::{buffer::Buffer, style::Color};
 
@@ -46,8 +47,20 @@ fn escape_accepts_the_best_shot_and_ignores_late_answers() {
     assert_eq!(player.shown_cue(), Some(cue(OTHER_SHOTS[0])));
     assert_eq!(player.app.frame_interval(), None);
     // The estimate is biased by the errors used to choose the shot, so no interval is displayed.
-    let text = player.press("v").text(120, 40);
+    let player = player.press("v");
+    let text = player.text(120, 40);
     assert!(text.contains("expert so far 89 %") && !text.contains("89 % ("), "{text}");
+    // Earlier, this estimate stayed. Attempts of their own judge the shot before it is analysed.
+    let job = player.analysis_job.clone().unwrap();
+    let judged = job.stroke.clone().map(|(stroke, attempts)| (stroke, attempts.len()));
+    assert_eq!(judged, Some((cue(OTHER_SHOTS[0]), 500)));
+    let text = player.tell(job.id, CoachEvent::StrokeRated(SuccessRate::new(385, 500))).text(120, 40);
+    assert!(text.contains("expert 77 % (73-80)") && !text.contains("so far"), "{text}");
+    // The player may have gone on to another shot; the same job analyses this one then.
+    let mut parts = Vec::new();
+    let job = CoachJob { cancel: Arc::default(), ..*job };
+    CoachWorker::with_simulation_limit(1).answer(&job, |answer| parts.push(answer.event));
+    assert!(matches!(parts[..], [CoachEvent::StrokeRated(_), CoachEvent::Analysis(_), ..]), "{parts:?}");
 }
 
 #[test]
