@@ -268,7 +268,9 @@ pub(super) fn coordinates(word: &str) -> Option<Vec<Coordinate>> {
     let parts: Vec<&str> = word.trim_matches(',').split(',').collect();
     let has_unit = |part: &str| part.ends_with('d') || LENGTH_UNITS.iter().any(|(unit, _)| part.ends_with(unit));
     let numbers: Vec<String> = match parts.len() {
-        _ if has_unit(parts.last()?) => parts.split_inclusive(|part| has_unit(part)).map(|parts| parts.join(",")).collect(),
+        _ if has_unit(parts.last()?) => {
+            parts.split_inclusive(|part| has_unit(part)).map(|parts| parts.join(",")).collect()
+        }
         _ if parts.iter().any(|part| has_unit(part)) => return None,
         1 | 2 => parts.into_iter().map(str::to_owned).collect(),
         4 => parts.chunks(2).map(|parts| parts.join(",")).collect(),

@@ -220,7 +220,7 @@ mod tests {
             ("9d,1d", "red at 9.00d,1.00d is outside the table; accepted are 0.09d to 7.91d, and 0.09d to 3.91d"),
             ("9,0.1", "red at 9.00d,0.10d is outside the table"),
             ("-9,0.1", "|x| <= 1.389"),
-            ("2,2.4", "white and red are 0.0405 m apart; at least 0.0615 m is needed"),
+            ("2,2.4", "yellow and red are 0.0405 m apart; at least 0.0615 m is needed"),
             ("nan,1", "finite"),
             ("w -9,0.1", "white at (-9"),
             ("y 9m,0.1m", "yellow at (9"),

@@ -265,7 +265,7 @@ fn the_real_coach_reports_progress_then_advice_then_next_shot() {
     for CoachAnswer { id, event } in answers {
         player = player.tell(id, event);
     }
-    assert!(player.text(120, 40).contains("Why: shot 2 ("), "{}", player.text(120, 40));
+    assert!(player.text(120, 40).contains("Why: the next best is shot 2 ("), "{}", player.text(120, 40));
     let player = player.press("n");
     assert!(player.app.coach.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
     // The coach was cancelled: it reports only the end, at once.
@@ -307,4 +307,16 @@ fn the_coach_returns_to_the_bundled_weights() {
     assert_eq!(asked(&other.press("b")), (bundled.clone(), Rule::StraightRail));
     let chosen = take(Player::watching(TRUE_COLOUR), Rule::ThreeCushion).press("R R b");
     assert_eq!(asked(&chosen), (bundled, Rule::OneCushion));
+    // Networks are used on the table on which they were trained. Earlier the bundled ones stayed there.
+    let mut run = config("r1");
+    run.table = Table::preset("thesis").unwrap();
+    let update = Update { config: Some(Box::new(run)), ..Update::default() };
+    let policy = Policy::bundled(&Table::default(), Rule::StraightRail).unwrap().unwrap();
+    let player = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, RUN, update);
+    let player = player.report(TrainingReport::Policy(Path::new(RUNS).join(RUN), Ok(Arc::new(policy))));
+    player.says("the table is now thesis");
+    assert_eq!(player.app.coach.table().name, "thesis");
+    let player = player.press("b");
+    player.says("the table is now match");
+    assert_eq!(*player.app.coach.table(), Table::default());
 }
