@@ -218,8 +218,8 @@ impl Layout {
     }
 
     /// Parses `"x,y x,y x,y"` in metres from the middle, in another unit of length (`mm`, `cm`, `m`, `in`, `ft` after each number), or in
-    /// diamonds (`d`). Diamonds count from the lower left corner of the playing area: 8 along the length and 4 along the width. A ball that would be nearer to a cushion than its radius touches the cushion
-    /// instead.
+    /// diamonds (`d`). Diamonds count from the lower left corner of the playing area: 8 along the length and 4 along the width. A ball that
+    /// would be nearer to a cushion than its radius touches the cushion instead.
     ///
     /// # Errors
     /// [`LayoutError::Text`]; the positions are not checked against the table.

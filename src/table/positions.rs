@@ -103,8 +103,8 @@ impl Layout {
             (_, 0) => typed.iter().filter_map(|(ball, numbers)| Some(((*ball)?, &numbers[..]))).collect(),
             _ => return Err(PositionsError::Mixed),
         };
-        let all = || places.iter().flat_map(|(_, numbers)| numbers.iter());
-        let is_in_metres = all().any(|number| matches!(number, Coordinate::Bare(number) if *number < 0.0));
+        let mut all = places.iter().flat_map(|(_, numbers)| numbers.iter());
+        let is_in_metres = all.any(|number| matches!(number, Coordinate::Bare(number) if *number < 0.0));
         let with_unit = |number: Coordinate| match number {
             Coordinate::Bare(number) if !is_in_metres => Coordinate::Diamonds(number),
             number => number,

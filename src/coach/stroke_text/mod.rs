@@ -152,8 +152,8 @@ pub struct StrokeText {
 
 impl StrokeText {
     /// Computes the stroke, for a player with `cue_ball`. Omitted properties are taken from `before`, and an omitted aim
-    /// stays, or its hit if the side is given; without `before` the cue is level and strikes the centre. If rails or balls behind the cue ball are in the way, the cue is raised as far as
-    /// needed.
+    /// stays, or its hit if the side is given; without `before` the cue is level and strikes the centre. If rails or balls
+    /// behind the cue ball are in the way, the cue is raised as far as needed.
     ///
     /// # Errors
     /// Fails if a property is missing, or the stroke cannot be played in this layout.
