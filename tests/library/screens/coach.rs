@@ -153,7 +153,7 @@ fn reasons_are_shown_and_the_likely_kiss_is_marked() {
         player.shows(&["kiss with red 7 %"]);
         // If no panel has room for it, the status line displays what fits, instead of the chance that is displayed above.
         let text = player.text(80, 24);
-        assert!(text.contains("Why: the next best is shot 2 (") && !text.contains("makes it"), "{text}");
+        assert!(text.contains("Why: shot 2 (") && !text.contains("makes it"), "{text}");
         let mut player = player;
         for (keys, is_marked) in [("w", false), ("Esc", true), ("]", false), ("[", true), (".", false)] {
             player = player.press(keys);
