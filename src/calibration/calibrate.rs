@@ -261,11 +261,11 @@ impl Calibration {
         trials
     }
 
-    /// Whether so many trials look misread that they contradict each other, or all trials are left out.
+    /// Whether all trials are left out, or a third or more of several trials look misread: they contradict each other.
     pub fn is_contradictory(&self) -> bool {
         let mut trials: Vec<usize> = self.mark_checks.iter().map(|one| one.trial).collect();
         trials.dedup();
         let misread = self.misread().len();
-        self.left_out.len() == trials.len() || misread > 1 && 3 * misread >= trials.len()
+        self.left_out.len() == trials.len() || trials.len() > 1 && 3 * misread >= trials.len()
     }
 }

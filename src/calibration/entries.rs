@@ -186,7 +186,7 @@ impl Entry {
         if !(least..=most).contains(&value) {
             let reason = match unit {
                 Unit::Diamonds => "no ball can be there",
-                Unit::Seconds if value > most => "no ball rolls that long: was the stopwatch left running?",
+                Unit::Seconds if value > most => "no ball rolls that long, so the stopwatch was left running",
                 Unit::Seconds => "nobody stops a watch that fast",
             };
             return Err(format!("{name} = {written}: {reason}; accepted is {least} to {most} {}", unit.sign()));

@@ -196,9 +196,16 @@ impl Calibration {
                 self.mark_checks.iter().filter(|one| one.misread).map(|one| called(one.trial, one.test)).collect();
             strokes.dedup();
             if let [only] = &strokes[..] {
-                return format!(
-                    "most marks of {only} look misread, and no other stroke tells which: play it again, or delete it"
-                );
+                let is_alone = self.mark_checks.iter().all(|one| one.trial == self.mark_checks[0].trial);
+                return if is_alone {
+                    format!(
+                        "most marks of {only} look misread, and no other stroke tells which: play it again, or delete it"
+                    )
+                } else {
+                    format!(
+                        "{only} contradicts the others, and too few tell which is right: play more strokes, or delete the wrong one"
+                    )
+                };
             }
             return format!(
                 "so many strokes contradict the others that no value can be relied on: {}; play them again, or delete those that are wrong",

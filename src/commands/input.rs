@@ -92,9 +92,10 @@ impl PositionArgs {
         };
         let layout = Layout::parse(text, &table).map_err(Failure::wrong_input)?;
         if layout.validate(&table).is_err() {
-            // Errors in diamonds are reported in diamonds. Numbers without a unit are metres here; other parts of the program may read them
-            // as diamonds.
-            opening.with_positions(text, &table, CueBall::White, 0).map_err(Failure::wrong_input)?;
+            // Errors in diamonds are reported in diamonds. Numbers without a unit are metres here, and diamonds where positions are typed.
+            if text.contains('d') {
+                opening.with_positions(text, &table, CueBall::White, 0).map_err(Failure::wrong_input)?;
+            }
             layout.validate(&table).map_err(Failure::wrong_input)?;
         }
         Ok((table, layout))

@@ -217,9 +217,9 @@ impl Layout {
         Ok(())
     }
 
-    /// Parses `"x,y x,y x,y"` in metres, or in diamonds if a number ends in `d`. Diamonds count from the lower left corner of the playing
-    /// area: 8 along the length and 4 along the width. A ball that would be nearer to a cushion than its radius touches the cushion
-    /// instead.
+    /// Parses `"x,y x,y x,y"` in metres from the middle, in another unit of length (`mm`, `cm`, `m`, `in`, `ft` after each number), or in
+    /// diamonds (`d`). Diamonds count from the lower left corner of the playing area: 8 along the length and 4 along the width. A ball that
+    /// would be nearer to a cushion than its radius touches the cushion instead.
     ///
     /// # Errors
     /// [`LayoutError::Text`]; the positions are not checked against the table.
@@ -235,38 +235,62 @@ impl Layout {
     }
 }
 
-/// A number of a typed position, and whether its unit is the diamond.
+/// A number of a typed position.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Coordinate {
-    pub number: f64,
-    pub in_diamonds: bool,
+pub(super) enum Coordinate {
+    /// A number without a unit.
+    Bare(f64),
+    /// Diamonds from the lower left corner.
+    Diamonds(f64),
+    /// Metres from the middle of the table.
+    Metres(f64),
 }
 
-/// Parses the comma-separated numbers of a word. A comma is a decimal comma only if the text has no other meaning: with diamonds, `d` ends
-/// each number; without them, four parts are two numbers with decimal commas.
+/// Units of lengths, and their sizes, m. A unit stands before those that end like it.
+const LENGTH_UNITS: [(&str, f64); 5] = [("mm", 1e-3), ("cm", 1e-2), ("m", 1.0), ("in", 0.0254), ("ft", 0.3048)];
+
+impl Coordinate {
+    /// Parses a number with or without a unit.
+    fn parse(text: &str) -> Option<Self> {
+        if let Some(number) = text.strip_suffix('d') {
+            return parse_number(number).map(Self::Diamonds);
+        }
+        match LENGTH_UNITS.iter().find_map(|(unit, size)| Some((text.strip_suffix(unit)?, size))) {
+            Some((number, size)) => parse_number(number).map(|number| Self::Metres(number * size)),
+            None => parse_number(text).map(Self::Bare),
+        }
+    }
+}
+
+/// Parses the comma-separated numbers of a word. A comma is a decimal comma only if the text has no other meaning: if there are units, a unit
+/// ends each number; without them, four parts are two numbers with decimal commas.
 pub(super) fn coordinates(word: &str) -> Option<Vec<Coordinate>> {
     let parts: Vec<&str> = word.trim_matches(',').split(',').collect();
-    let in_diamonds = parts.iter().any(|part| part.ends_with('d'));
+    let has_unit = |part: &str| part.ends_with('d') || LENGTH_UNITS.iter().any(|(unit, _)| part.ends_with(unit));
     let numbers: Vec<String> = match parts.len() {
-        _ if in_diamonds => parts.join(",").strip_suffix('d')?.split("d,").map(str::to_owned).collect(),
+        _ if has_unit(parts.last()?) => {
+            parts.split_inclusive(|part| has_unit(part)).map(|parts| parts.join(",")).collect()
+        }
+        _ if parts.iter().any(|part| has_unit(part)) => return None,
         1 | 2 => parts.into_iter().map(str::to_owned).collect(),
         4 => parts.chunks(2).map(|parts| parts.join(",")).collect(),
         _ => return None,
     };
-    numbers.iter().map(|text| Some(Coordinate { number: parse_number(text)?, in_diamonds })).collect()
+    numbers.iter().map(|text| Coordinate::parse(text)).collect()
 }
 
-/// Returns the position of two coordinates, m from the middle; `None` if only one of them is in diamonds.
+/// Returns the position of two coordinates, m from the middle; `None` if only one of them has a unit, or is in diamonds. Numbers without a
+/// unit are metres.
 pub(super) fn position_of(x: Coordinate, y: Coordinate, table: &Table) -> Option<DVec2> {
-    if x.in_diamonds != y.in_diamonds {
-        return None;
-    }
-    let numbers = DVec2::new(x.number, y.number);
-    if !x.in_diamonds {
-        return Some(numbers);
-    }
+    let diamonds = match (x, y) {
+        (Coordinate::Diamonds(x), Coordinate::Diamonds(y)) => DVec2::new(x, y),
+        (Coordinate::Metres(x), Coordinate::Metres(y)) | (Coordinate::Bare(x), Coordinate::Bare(y)) => {
+            return Some(DVec2::new(x, y));
+        }
+        _ => return None,
+    };
     let (half, reach) = (0.5 * DVec2::new(table.length, table.width), table.reach());
-    let at = numbers * table.diamond() - half;
+    let at = diamonds * table.diamond() - half;
     // A ball nearer to the rail's diamonds than its radius, or on them, touches the cushion.
     let touching = |at: f64, half: f64, reach: f64| if at.abs() <= half { at.clamp(-reach, reach) } else { at };
     Some(DVec2::new(touching(at.x, half.x, reach.x), touching(at.y, half.y, reach.y)))

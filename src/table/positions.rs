@@ -1,7 +1,7 @@
 //! Parser for typed positions of one or more balls, with or without colours.
 
 use super::{
-    CueBall, Layout, LayoutError, Table,
+    BALLS, CueBall, Layout, LayoutError, Table,
     layout::{Coordinate, coordinates, position_of},
 };
 
@@ -10,8 +10,8 @@ use super::{
 pub enum PositionsError {
     /// A word is neither a position nor the name of a ball.
     #[error(
-        "\"{0}\" is not a position; write x,y in diamonds from the lower left corner like 2d,0.5d, or in metres from the middle, \
-         optionally after a colour"
+        "\"{0}\" is not a position; write x,y in diamonds from the lower left corner like 2d,0.5d, or in mm, cm, m, in or ft from the \
+         middle like 20cm,-5cm, optionally after a colour"
     )]
     Word(String),
     /// A ball is named, but no position follows.
@@ -63,8 +63,9 @@ impl Layout {
     /// - `2d,0.5d 6d,2d 4d,3.5d` moves the cue ball, the opponent's ball and the red ball;
     /// - `red 4d,3.5d` moves the ball of that colour for a player with `cue_ball`.
     ///
-    /// All other balls stay. Commas between the numbers may be missing, and decimal commas are accepted. If no number has a `d`, and the
-    /// layout is possible in diamonds but not in metres, the numbers are diamonds.
+    /// All other balls stay. Commas between the numbers may be missing, and decimal commas are accepted. `d` stands for diamonds from the
+    /// lower left corner; `mm`, `cm`, `m`, `in` and `ft` are lengths from the middle. Numbers without a unit are diamonds, but metres from
+    /// the middle if one of them is negative.
     ///
     /// # Errors
     /// [`PositionsError`], also if the layout is not possible on `table`.
@@ -102,30 +103,31 @@ impl Layout {
             (_, 0) => typed.iter().filter_map(|(ball, numbers)| Some(((*ball)?, &numbers[..]))).collect(),
             _ => return Err(PositionsError::Mixed),
         };
-        let put = |in_diamonds: bool| {
-            let mut layout = *self;
-            for (ball, numbers) in &places {
-                let [x, y] = numbers[..] else {
-                    return Err(if numbers.len() < 2 {
-                        PositionsError::Missing(names[*ball])
-                    } else {
-                        PositionsError::Mixed
-                    });
-                };
-                let [x, y] = [x, y].map(|one| Coordinate { in_diamonds: one.in_diamonds || in_diamonds, ..one });
-                layout.balls[*ball] = position_of(x, y, table).ok_or_else(|| unknown(text.trim()))?;
-            }
-            Ok(layout)
+        let mut all = places.iter().flat_map(|(_, numbers)| numbers.iter());
+        let is_in_metres = all.any(|number| matches!(number, Coordinate::Bare(number) if *number < 0.0));
+        let with_unit = |number: Coordinate| match number {
+            Coordinate::Bare(number) if !is_in_metres => Coordinate::Diamonds(number),
+            number => number,
         };
-        let is_in_diamonds = places.iter().any(|(_, numbers)| numbers.iter().any(|number| number.in_diamonds));
-        let layout = put(false)?;
-        if let (Err(LayoutError::Outside { .. }), false) = (layout.validate(table), is_in_diamonds)
-            && let Some(layout) = put(true).ok().filter(|layout| layout.validate(table).is_ok())
-        {
-            return Ok(layout);
+        let mut layout = *self;
+        let mut in_diamonds = [false; BALLS];
+        for (ball, numbers) in &places {
+            let [x, y] = numbers[..] else {
+                return Err(if numbers.len() < 2 {
+                    PositionsError::Missing(names[*ball])
+                } else {
+                    PositionsError::Mixed
+                });
+            };
+            if matches!(x, Coordinate::Bare(_)) != matches!(y, Coordinate::Bare(_)) {
+                return Err(unknown(text.trim()));
+            }
+            let [x, y] = [x, y].map(with_unit);
+            layout.balls[*ball] = position_of(x, y, table).ok_or_else(|| unknown(text.trim()))?;
+            in_diamonds[*ball] = matches!(x, Coordinate::Diamonds(_));
         }
         layout.validate(table).map_err(|error| match error {
-            LayoutError::Outside { ball, x, y, max_x, max_y } if is_in_diamonds => {
+            LayoutError::Outside { ball, x, y, max_x, max_y } if in_diamonds[ball] => {
                 let [x, least, along] = [x, -max_x, max_x].map(|x| (0.5 * table.length + x) / table.diamond());
                 let [y, up] = [y, max_y].map(|y| (0.5 * table.width + y) / table.diamond());
                 PositionsError::Outside { name: names[ball], x, y, least, along, up }
@@ -169,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn commas_are_optional_or_decimal_and_large_numbers_are_diamonds() {
+    fn commas_are_optional_or_decimal_and_numbers_without_a_unit_are_diamonds() {
         let all = typed("2d,0.5d 6d,2d 4d,3.5d");
         for same in [
             "2d 0.5d 6d 2d 4d 3.5d",
@@ -184,7 +186,21 @@ mod tests {
         assert_eq!(typed("red 7d 3,5d"), typed("red 7d,3.5d"));
         assert_eq!(typed("7,3.5"), typed("7d,3.5d"));
         assert_eq!(typed("-0,71,0,2"), typed("-0.71,0.2"));
-        assert_eq!(typed("1,0.5").unwrap().balls[2], DVec2::new(1.0, 0.5), "what can be metres is metres");
+        assert_eq!(typed("1,0.5"), typed("1d,0.5d"), "also where they could be metres");
+        assert_eq!(typed("1,0.5 6,2 0.3,0.2"), typed("1d,0.5d 6d,2d 0.3d,0.2d"));
+        assert_eq!(typed("-0.71,0.1 1,0.5 0.2,0.3").unwrap().balls[1], DVec2::new(1.0, 0.5), "unless one is negative");
+    }
+
+    #[test]
+    fn lengths_count_from_the_middle() {
+        let place = DVec2::new(1.0, -0.25);
+        for same in ["1m,-0.25m", "1m,-25cm", "1000mm,-250mm", "1000mm -250mm", "1m,-0,25m"] {
+            assert!(typed(same).unwrap().balls[2].distance(place) < 1e-12, "{same}");
+        }
+        assert!(typed("100 cm").unwrap_err().contains("\"cm\" is not a position"), "a unit stands at its number");
+        assert!(typed("20in,-1ft").unwrap().balls[2].distance(DVec2::new(0.508, -0.3048)) < 1e-12);
+        assert!(typed("2d,10cm").unwrap_err().contains("\"2d,10cm\""), "two origins");
+        assert_eq!(Layout::parse("-71cm,0cm 0m,0m 30in,1ft", &Table::default()).unwrap().balls[0].x, -0.71);
     }
 
     #[test]
@@ -202,10 +218,12 @@ mod tests {
             ("red", "where is red?"),
             ("red 2d,1d 3d,3d", "some have none"),
             ("9d,1d", "red at 9.00d,1.00d is outside the table; accepted are 0.09d to 7.91d, and 0.09d to 3.91d"),
-            ("9,0.1", "|x| <= 1.389"),
+            ("9,0.1", "red at 9.00d,0.10d is outside the table"),
+            ("-9,0.1", "|x| <= 1.389"),
+            ("2,2.4", "yellow and red are 0.0405 m apart; at least 0.0615 m is needed"),
             ("nan,1", "finite"),
-            ("w 9,0.1", "white at (9"),
-            ("y 9,0.1", "yellow at (9"),
+            ("w -9,0.1", "white at (-9"),
+            ("y 9m,0.1m", "yellow at (9"),
         ] {
             let error = typed(text).unwrap_err();
             assert!(error.contains(part), "{text}: {error}");

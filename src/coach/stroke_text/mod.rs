@@ -6,14 +6,14 @@ mod parse;
 mod tests;
 
 use super::{
-    RailPoint, aim,
+    Hit, RailPoint, aim, first_hit,
     systems::DIAMOND_SETBACK,
     words::{TIP, format_trimmed, table_lengths},
 };
 use crate::{
     physics::{CueError, CueInputs, raise_to_clear, squirt},
     printing::number,
-    simulation::ShotError,
+    simulation::{EventKind, Recording, ShotError},
     table::{CueBall, Layout, Table},
 };
 
@@ -151,9 +151,9 @@ pub struct StrokeText {
 }
 
 impl StrokeText {
-    /// Computes the stroke, for a player with `cue_ball`. Omitted properties are taken from `before`; without it the cue is
-    /// level and strikes the centre. If rails or balls behind the cue ball are in the way, the cue is raised as far as
-    /// needed.
+    /// Computes the stroke, for a player with `cue_ball`. Omitted properties are taken from `before`, and an omitted aim
+    /// stays, or its hit if the side is given; without `before` the cue is level and strikes the centre. If rails or balls
+    /// behind the cue ball are in the way, the cue is raised as far as needed.
     ///
     /// # Errors
     /// Fails if a property is missing, or the stroke cannot be played in this layout.
@@ -203,7 +203,9 @@ impl StrokeText {
             return Ok(found.map_or_else(|| at(phi), |(_, cue)| cue));
         }
         if ball.is_none() && self.fullness.is_none() {
-            return before.map(|before| at(before.phi)).ok_or(StrokeTextError::NoAim);
+            let before = before.ok_or(StrokeTextError::NoAim)?;
+            // Side alone does not change the hit.
+            return if self.side.is_some() { with_same_hit(table, layout, before, a, at) } else { Ok(at(before.phi)) };
         }
         let known = before.and_then(|before| aim(table, layout, before).ok()?.hit);
         let ball = ball.or(known.map(|hit| hit.ball)).ok_or(StrokeTextError::NoAim)?;
@@ -232,11 +234,37 @@ impl Mark {
     }
 }
 
+/// Returns the stroke with another `side` that hits the first ball as full as `before`. Off a cushion, or if no ball is hit, its cue ball
+/// starts on the same path.
+fn with_same_hit(
+    table: &Table,
+    layout: &Layout,
+    before: &CueInputs,
+    side: f64,
+    at: impl Fn(f64) -> CueInputs,
+) -> Result<CueInputs, StrokeTextError> {
+    let played = raise_to_clear(table, layout, before).unwrap_or(*before);
+    let recording = Recording::new(table, layout, &played)?;
+    let is_contact = |kind: &EventKind| matches!(kind, EventKind::BallBall(0, _) | EventKind::BallRail(0, _));
+    let first = recording.events().iter().map(|event| event.kind).find(is_contact);
+    if let (Some(EventKind::BallBall(..)), Some(hit)) = (first, first_hit(table, &recording))
+        && let Some(found) = aim_at(table, layout, (hit.ball, offset(&hit)), side, &at)?
+    {
+        return Ok(found);
+    }
+    Ok(at(before.phi + squirt(table, before.a) - squirt(table, side)))
+}
+
+/// Returns the signed distance between the cue ball's line and the ball's centre at impact, in ball diameters, positive to the left.
+fn offset(hit: &Hit) -> f64 {
+    if hit.left { 1.0 - hit.fullness } else { hit.fullness - 1.0 }
+}
+
 /// Returns the signed distance between the cue ball's line and the centre of `ball` at impact, in ball diameters,
 /// positive to the left. `None` if the cue ball hits another ball first, or none.
 fn offset_at_impact(table: &Table, layout: &Layout, ball: usize, cue: &CueInputs) -> Result<Option<f64>, ShotError> {
     let hit = aim(table, layout, cue)?.hit.filter(|hit| hit.ball == ball);
-    Ok(hit.map(|hit| if hit.left { 1.0 - hit.fullness } else { hit.fullness - 1.0 }))
+    Ok(hit.as_ref().map(offset))
 }
 
 /// Finds the stroke, among directions up to `half` from `phi`, rad, whose offset from the ball is nearest to the wanted one. Returns the

@@ -103,6 +103,11 @@ fn omitted_properties_keep_their_previous_values() {
     let fuller = stroke("3/4 right", Some(&before)).unwrap();
     let hit = aim(&table, &layout(&table), &fuller).unwrap().hit.unwrap();
     assert!(hit.ball == 2 && (hit.fullness - 0.75).abs() < 2e-4 && fuller.speed == before.speed);
+    // Earlier the cue kept its direction, so that other side meant another hit.
+    let other_side = stroke("3 right", Some(&before)).unwrap();
+    let hit = aim(&table, &layout(&table), &other_side).unwrap().hit.unwrap();
+    assert!(hit.ball == 2 && (hit.fullness - 0.5).abs() < 2e-4 && other_side.phi != before.phi, "{hit:?}");
+    assert_eq!(stroke("raised 5", Some(&before)).unwrap().phi, before.phi);
 }
 
 #[test]

@@ -94,7 +94,7 @@ impl Why {
 
     /// Returns short forms, for a display that already contains the make probability, and for a player with `cue_ball`. The
     /// difference from the second-best shot comes first, and the plan if it decides. The first text is complete; each
-    /// further one has one fact fewer.
+    /// further one has one fact fewer, and the last one fewer words.
     pub fn brief(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
         let names = cue_ball.names();
         let alone = if self.is_the_first { "no other was looked for" } else { "no other was found" };
@@ -108,7 +108,9 @@ impl Why {
         );
         let mut facts: Vec<String> = with_but(self.reasons(cue_ball, "shot 2")).collect();
         let first = if self.is_by_plan() { format!("{second}; {}", facts.remove(0)) } else { second };
-        shortened_texts(std::iter::once(first).chain(facts).collect())
+        let role = if self.second.is_some() { "the next best is " } else { "" };
+        let shortest = std::iter::once(format!("{first}."));
+        shortened_texts(std::iter::once(format!("{role}{first}")).chain(facts).collect()).chain(shortest)
     }
 
     /// Returns short forms without what a list of the shots with their probabilities contains, each with one fact
@@ -244,7 +246,8 @@ mod tests {
         assert!(why.second.is_some() && !advice.alternatives.is_empty());
         let sentences: Vec<String> = why.brief(CueBall::White).collect();
         let [brief, .., least] = &sentences[..] else { panic!("{sentences:?}") };
-        assert!(brief.starts_with("shot 2 (") && brief.contains("aim tolerance is ") && brief.len() < 170, "{brief}");
+        assert!(brief.starts_with("the next best is shot 2 ("), "{brief}");
+        assert!(brief.contains("aim tolerance is ") && brief.len() < 180, "{brief}");
         assert!(least.starts_with("shot 2 (") && least.ends_with(" %.") && !least.contains("tolerance"), "{least}");
         let said = why.words(CueBall::White, Units::default());
         assert!(said.ends_with('.') && said.contains("The second shot is ") && !said.contains(';'), "{said}");

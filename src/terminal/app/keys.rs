@@ -112,7 +112,9 @@ impl App {
         if self.is_too_small() {
             return;
         }
-        self.input(Typed::Paste(text));
+        if self.input(Typed::Paste(text)) {
+            self.toasts.dismiss_answers();
+        }
         self.collect_toasts(true);
     }
 

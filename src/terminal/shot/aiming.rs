@@ -58,9 +58,10 @@ pub fn raised(cue: &CueInputs, degrees: f64) -> CueInputs {
     CueInputs { theta: theta.to_radians(), ..*cue }
 }
 
-/// Increases the speed by `by` m/s.
-pub fn faster(cue: &CueInputs, by: f64) -> CueInputs {
-    CueInputs { speed: rounded(cue.speed + by, SPEED).clamp(SPEEDS.0, SPEEDS.1), ..*cue }
+/// Increases the speed by `by` m/s; `None` at the limit. A stroke that was typed may be beyond the limits of the keys.
+pub fn faster(cue: &CueInputs, by: f64) -> Option<CueInputs> {
+    let speed = rounded(cue.speed + by, SPEED).clamp(SPEEDS.0.min(cue.speed), SPEEDS.1.max(cue.speed));
+    (speed != cue.speed).then_some(CueInputs { speed, ..*cue })
 }
 
 /// Moves the tip, mm to the player's left and up; `None` if it would slip off the ball.
@@ -112,7 +113,7 @@ mod tests {
             moved = tip_moved(&table, &moved, left, up).unwrap();
         }
         assert!(moved.a.abs() < 1e-12 && moved.b.abs() < 1e-12);
-        assert_eq!(faster(&faster(&moved, 0.1), -0.1).speed, 2.5);
+        assert_eq!(faster(&faster(&moved, 0.1).unwrap(), -0.1).unwrap().speed, 2.5);
     }
 
     #[test]
@@ -123,8 +124,13 @@ mod tests {
             cue = moved;
         }
         assert!(cue.a * cue.a <= table.miscue_limit && cue.a * cue.a > 0.9 * table.miscue_limit);
-        assert_eq!((faster(&cue, -9.0).speed, faster(&cue, 9.0).speed), SPEEDS);
+        let [slowest, fastest] = [-9.0, 9.0].map(|by| faster(&cue, by).unwrap());
+        assert_eq!((slowest.speed, fastest.speed), SPEEDS);
+        assert_eq!((faster(&slowest, -0.1), faster(&fastest, 0.1)), (None, None));
+        // Earlier a faster stroke that was typed became slower.
+        let typed = CueInputs { speed: 8.0, ..cue };
+        assert_eq!((faster(&typed, 0.1), faster(&typed, -0.1).unwrap().speed), (None, 7.9));
         assert_eq!(raised(&cue, -1.0).theta, 0.0);
-        assert!(faster(&raised(&cue, 900.0), -9.0).validate().is_ok());
+        assert!(faster(&raised(&cue, 900.0), -9.0).unwrap().validate().is_ok());
     }
 }

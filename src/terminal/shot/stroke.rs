@@ -32,10 +32,19 @@ pub const STROKE_PROMPT: &str = "your stroke, or what changes of it (red 1/2 rig
 /// Longest text of a stroke in words, bytes: the coach's own texts have up to 400.
 pub const MAX_TEXT_LENGTH: usize = 600;
 
-/// Error: the tip would slip off.
+/// Why a key does not change the stroke further.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("further out the tip would slip off the ball")]
-pub struct TipSlips;
+pub enum StrokeLimit {
+    /// The tip would slip off.
+    #[error("further out the tip would slip off the ball")]
+    TipSlips,
+    /// The stroke has the highest speed of the keys.
+    #[error("this is the hardest stroke that the keys set")]
+    Hardest,
+    /// The stroke has the lowest speed of the keys.
+    #[error("this is the softest stroke that the keys set")]
+    Softest,
+}
 
 /// The player's stroke and its earlier versions.
 #[derive(Clone, Debug)]
@@ -64,16 +73,19 @@ impl OwnStroke {
     /// Changes the stroke.
     ///
     /// # Errors
-    /// The tip would slip off; the stroke stays as it is.
-    pub fn change(&mut self, change: StrokeChange, table: &Table, layout: &Layout) -> Result<(), TipSlips> {
+    /// The change leads beyond a limit; the stroke stays as it is.
+    pub fn change(&mut self, change: StrokeChange, table: &Table, layout: &Layout) -> Result<(), StrokeLimit> {
         let cue = *self.cue();
         let next = match change {
             StrokeChange::Turn(degrees) => aiming::turned(&cue, degrees),
             StrokeChange::AimAtBall => aiming::aimed_at_ball(&cue, layout, aiming::next_ball(&cue, layout)),
-            StrokeChange::Tip(left, up) => aiming::tip_moved(table, &cue, left, up).ok_or(TipSlips)?,
+            StrokeChange::Tip(left, up) => aiming::tip_moved(table, &cue, left, up).ok_or(StrokeLimit::TipSlips)?,
             StrokeChange::Centre => CueInputs { a: 0.0, b: 0.0, ..cue },
             StrokeChange::Raise(degrees) => aiming::raised(&self.raised(table, layout), degrees),
-            StrokeChange::Faster(by) => aiming::faster(&cue, by),
+            StrokeChange::Faster(by) => {
+                let limit = if by > 0.0 { StrokeLimit::Hardest } else { StrokeLimit::Softest };
+                aiming::faster(&cue, by).ok_or(limit)?
+            }
         };
         if next == cue {
             return Ok(());
@@ -215,12 +227,16 @@ mod tests {
     }
 
     #[test]
-    fn miscues_and_empty_changes_leave_the_stroke() {
+    fn limits_and_empty_changes_leave_the_stroke() {
         let table = Table::default();
         let layout = Layout::opening(&table);
         let mut stroke = OwnStroke::new(aiming::first_stroke(Point::default(), &layout));
-        assert_eq!(stroke.change(StrokeChange::Tip(40.0, 0.0), &table, &layout), Err(TipSlips));
+        assert_eq!(stroke.change(StrokeChange::Tip(40.0, 0.0), &table, &layout), Err(StrokeLimit::TipSlips));
         stroke.change(StrokeChange::Centre, &table, &layout).unwrap();
         assert_eq!(stroke.can_undo_redo(), (false, false));
+        stroke.change(StrokeChange::Faster(9.0), &table, &layout).unwrap();
+        assert_eq!(stroke.change(StrokeChange::Faster(0.1), &table, &layout), Err(StrokeLimit::Hardest));
+        stroke.change(StrokeChange::Faster(-9.0), &table, &layout).unwrap();
+        assert_eq!(stroke.change(StrokeChange::Faster(-0.1), &table, &layout), Err(StrokeLimit::Softest));
     }
 }

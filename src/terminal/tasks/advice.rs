@@ -94,7 +94,7 @@ pub struct Proposal {
     pub risk: Option<Risk>,
     /// Probability of the next point, if known.
     pub next: Option<f64>,
-    /// Whether the search had not ended: the rate is then from the errors by which the shot was selected, and too optimistic.
+    /// Whether the rate is that of a search that has not ended: from the errors by which the shot was selected, and too optimistic.
     pub is_early: bool,
 }
 

@@ -4,7 +4,7 @@ use std::sync::{Arc, atomic::AtomicBool};
 
 use crate::{
     coach::{Shooter, Skill},
-    drills::{Advice, Attempt, Exercise, PlayedStroke, Session},
+    drills::{Advice, Attempt, Exercise, PlayedStroke, Session, store::OwnSkill},
     game::Rule,
     physics::CueInputs,
     statistics::SuccessRate,
@@ -137,7 +137,7 @@ pub struct LoadedRecords {
     /// The user's own positions.
     pub positions: Vec<Exercise>,
     /// The saved skill.
-    pub skill: Option<Skill>,
+    pub skill: Option<OwnSkill>,
     /// Messages about what could not be read.
     pub troubles: Vec<String>,
 }

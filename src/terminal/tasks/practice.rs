@@ -300,5 +300,5 @@ fn load(store: &Store) -> LoadedRecords {
         troubles.push(error.to_string());
         None
     });
-    LoadedRecords { sessions: sessions.items, positions: positions.items, skill: skill.map(|own| own.skill), troubles }
+    LoadedRecords { sessions: sessions.items, positions: positions.items, skill, troubles }
 }

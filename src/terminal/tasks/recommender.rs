@@ -60,7 +60,8 @@ pub struct CoachJob {
     pub shot: Option<CueInputs>,
     /// The recommendation, if the answer has to explain why its shot is best.
     pub found: Option<Arc<Recommendation>>,
-    /// A stroke of the player's own and the range of attempts at it, as counted by [`judge`]: only its success rate is computed then.
+    /// A stroke whose success rate is to be known, and the range of attempts at it, as counted by [`judge`]. Without a `shot`, nothing else
+    /// is computed.
     pub stroke: Option<(CueInputs, Range<usize>)>,
     /// Time that the coach may think.
     pub budget: Duration,
@@ -92,7 +93,7 @@ pub enum CoachEvent {
     Why(Box<Why>),
     /// The analysis of a shot.
     Analysis(Arc<ShotAnalysis>),
-    /// The success rate of the player's own stroke.
+    /// The success rate of [`CoachJob::stroke`].
     StrokeRated(SuccessRate),
     /// The end of an analysis: the advice for the layout after the shot, if any.
     Next(Option<Advice>),
@@ -122,7 +123,9 @@ impl CoachWorker {
             if let Ok(made) = catch_unwind(AssertUnwindSafe(rate)) {
                 report(CoachEvent::StrokeRated(made));
             }
-            return;
+            if job.shot.is_none() {
+                return;
+            }
         }
         if let Some(cue) = job.shot {
             let analysis = || self.analyze(job, &cue, &mut report);

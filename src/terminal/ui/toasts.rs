@@ -47,12 +47,18 @@ impl Toasts {
             }
         }
         let end = if more.is_empty() { String::new() } else { format!("; and {} more: F6", more.len()) };
-        self.push(format!("{first}{end}"), false);
+        self.push_with(first.clone(), &end, false);
     }
 
     /// Shows `text`; if it is already visible, restarts its time.
     pub fn push(&mut self, text: String, is_answer: bool) {
-        let text = without_error_numbers(text);
+        self.push_with(text, "", is_answer);
+    }
+
+    /// Shows `text` followed by `end`, and keeps `text` in the list.
+    fn push_with(&mut self, text: String, end: &str, is_answer: bool) {
+        let listed = without_error_numbers(text);
+        let text = format!("{listed}{end}");
         let (answer, unprompted) = NOTICE_TIMES;
         let time_left = text.chars().count() as f64 / READING_SPEED + if is_answer { answer } else { unprompted };
         if let Some(known) = self.shown.iter_mut().find(|toast| toast.text == text) {
@@ -62,7 +68,7 @@ impl Toasts {
         if self.shown.len() == MAX_SHOWN {
             self.shown.remove(0);
         }
-        self.keep(text.clone());
+        self.keep(listed);
         self.shown.push(Toast { text, is_answer, is_listed: true, time_left });
     }
 
@@ -171,7 +177,7 @@ mod tests {
             toasts.push_first(&sentences);
         }
         assert_eq!(texts(&toasts), ["line 1; and 2 more: F6"]);
-        assert_eq!(toasts.messages().collect::<Vec<_>>(), ["line 1; and 2 more: F6", "line 2", "line 3"]);
+        assert_eq!(toasts.messages().collect::<Vec<_>>(), ["line 1", "line 2", "line 3"]);
         assert_eq!(toasts.take_unlogged().len(), 3);
         toasts.push_first(&sentences[2..]);
         assert_eq!(texts(&toasts)[1], "line 3", "alone there is nothing more");

@@ -13,8 +13,9 @@ use carom::{
     coach::{FirstContact, Skill},
     game::Rule,
     learning::{Policy, run::follow::Update},
+    statistics::SuccessRate,
     table::Table,
-    terminal::{CoachAnswer, CoachEvent, CoachWorker, FollowSlot, InfoPanel, Settings, TrainingReport},
+    terminal::{CoachAnswer, CoachEvent, CoachJob, CoachWorker, FollowSlot, InfoPanel, Settings, TrainingReport},
 };
 use ratatui::{buffer::Buffer, style::Color};
 
@@ -46,8 +47,20 @@ fn escape_accepts_the_best_shot_and_ignores_late_answers() {
     assert_eq!(player.shown_cue(), Some(cue(OTHER_SHOTS[0])));
     assert_eq!(player.app.frame_interval(), None);
     // The estimate is biased by the errors used to choose the shot, so no interval is displayed.
-    let text = player.press("v").text(120, 40);
+    let player = player.press("v");
+    let text = player.text(120, 40);
     assert!(text.contains("expert so far 89 %") && !text.contains("89 % ("), "{text}");
+    // Earlier, this estimate stayed. Attempts of their own judge the shot before it is analysed.
+    let job = player.analysis_job.clone().unwrap();
+    let judged = job.stroke.clone().map(|(stroke, attempts)| (stroke, attempts.len()));
+    assert_eq!(judged, Some((cue(OTHER_SHOTS[0]), 500)));
+    let text = player.tell(job.id, CoachEvent::StrokeRated(SuccessRate::new(385, 500))).text(120, 40);
+    assert!(text.contains("expert 77 % (73-80)") && !text.contains("so far"), "{text}");
+    // The player may have gone on to another shot; the same job analyses this one then.
+    let mut parts = Vec::new();
+    let job = CoachJob { cancel: Arc::default(), ..*job };
+    CoachWorker::with_simulation_limit(1).answer(&job, |answer| parts.push(answer.event));
+    assert!(matches!(parts[..], [CoachEvent::StrokeRated(_), CoachEvent::Analysis(_), ..]), "{parts:?}");
 }
 
 #[test]
@@ -252,7 +265,7 @@ fn the_real_coach_reports_progress_then_advice_then_next_shot() {
     for CoachAnswer { id, event } in answers {
         player = player.tell(id, event);
     }
-    assert!(player.text(120, 40).contains("Why: shot 2 ("), "{}", player.text(120, 40));
+    assert!(player.text(120, 40).contains("Why: the next best is shot 2 ("), "{}", player.text(120, 40));
     let player = player.press("n");
     assert!(player.app.coach.shot().is_some_and(|shot| shot.solved), "{}", player.text(120, 40));
     // The coach was cancelled: it reports only the end, at once.
@@ -294,4 +307,16 @@ fn the_coach_returns_to_the_bundled_weights() {
     assert_eq!(asked(&other.press("b")), (bundled.clone(), Rule::StraightRail));
     let chosen = take(Player::watching(TRUE_COLOUR), Rule::ThreeCushion).press("R R b");
     assert_eq!(asked(&chosen), (bundled, Rule::OneCushion));
+    // Networks are used on the table on which they were trained. Earlier the bundled ones stayed there.
+    let mut run = config("r1");
+    run.table = Table::preset("thesis").unwrap();
+    let update = Update { config: Some(Box::new(run)), ..Update::default() };
+    let policy = Policy::bundled(&Table::default(), Rule::StraightRail).unwrap().unwrap();
+    let player = Player::watching(TRUE_COLOUR).update(FollowSlot::Main, RUN, update);
+    let player = player.report(TrainingReport::Policy(Path::new(RUNS).join(RUN), Ok(Arc::new(policy))));
+    player.says("the table is now thesis");
+    assert_eq!(player.app.coach.table().name, "thesis");
+    let player = player.press("b");
+    player.says("the table is now match");
+    assert_eq!(*player.app.coach.table(), Table::default());
 }

@@ -148,7 +148,7 @@ fn invalid_marks_are_named_and_remain_editable() {
     let player = player.press("Backspace Backspace").type_in("5.4").press("Enter Enter Enter");
     assert_eq!(saved_entries(&player).trials[0].field_text("stop"), "5.4");
     for (marks, says) in [
-        (["240", "", "", ""], "was the stopwatch left running?"),
+        (["240", "", "", ""], "the stopwatch was left running; accepted is 0.2 to"),
         (["abc", "", "", ""], "time = \"abc\" is no time; accepted is a number of"),
         (["", "", "", ""], "nothing is marked yet"),
         (["9", "5", "", "two"], "rails two is no number of rails"),
@@ -211,6 +211,11 @@ fn long_reports_on_the_marks_are_paged() {
     let odd = |player: Player, stop: &str| enter(player.press("Home"), &["9.6", stop, "2", ""]);
     let entered = ["1", "2", "7"].into_iter().fold(measured(), odd);
     entered.says("stroke 4 of slow-roll looks misread: you marked");
+    // Earlier a wide screen said it in the status line too.
+    for (width, height) in [(80, 24), (120, 40)] {
+        let text = entered.text(width, height);
+        assert_eq!(text.matches("stroke 4 of slow-roll looks misread").count(), 1, "{text}");
+    }
     let values = entered.press("Tab");
     let first = values.text(80, 24);
     assert!(first.contains("values, 1 of 2: PgDn"), "{first}");

@@ -148,7 +148,7 @@ fn reasons_are_shown_and_the_likely_kiss_is_marked() {
         let player = player.tell(job.id, CoachEvent::Why(Box::new(why.clone())));
         let text = player.text(120, 40);
         // Its lines may break anywhere; the last words, which speak against the shot, are present.
-        assert!(text.contains("Why: shot 2 (") && text.contains("7 %."), "{text}");
+        assert!(text.contains("Why: the next best is shot 2 (") && text.contains("7 %."), "{text}");
         player.shows(&["kiss with red 7 %"]);
         // If no panel has room for it, the status line displays what fits, instead of the chance that is displayed above.
         let text = player.text(80, 24);

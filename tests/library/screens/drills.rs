@@ -215,6 +215,13 @@ fn results_from_a_real_table_are_noted_and_undone() {
     assert_eq!(back.store().sessions().items[0].attempts.len(), 2);
     let none = back.press("u u u");
     none.says("no attempt yet").says("there is no note from a real table to undo");
+    // Earlier, nothing could be undone after the exercise was left.
+    let opened = none.press("m n Esc Enter");
+    opened.says("free repetition: it goes on here after 2 played");
+    let undone = opened.press("u");
+    undone.says("undone: missed, 1 of 1 now");
+    assert_eq!(undone.store().sessions().items[0].attempts.len(), 1);
+    let none = undone.press("u");
     // A stroke that is played in the simulator counts separately.
     let played = none.press("m Space Space").wait(60.0);
     assert_eq!(played.store().sessions().items.len(), 2);

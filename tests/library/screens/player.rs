@@ -251,7 +251,7 @@ impl Player {
 impl Player {
     fn run_effect(&mut self, effect: Effect) {
         match effect {
-            Effect::AskCoach(job) if job.stroke.is_some() => self.success_rate_job = Some(job),
+            Effect::AskCoach(job) if job.stroke.is_some() && job.shot.is_none() => self.success_rate_job = Some(job),
             Effect::AskCoach(job) if job.shot.is_some() => self.analysis_job = Some(job),
             Effect::AskCoach(job) => self.advice_job = Some(job),
             Effect::Copy(text) => self.copied.push(text),

@@ -63,6 +63,8 @@ fn layouts_and_share_codes_can_be_pasted() {
     player.app.paste("a letter to a friend, by accident");
     player.warns("pasted text not used");
     assert_eq!(*player.app.coach.layout(), exercise.layout);
+    player.app.paste("4d,3.5d");
+    player.warns_nothing();
     // A text that is too long is cut at a character boundary.
     player.app.paste(&format!("x{}", "\u{e9}".repeat(2000)));
     let toast = player.app.toasts.shown.last().expect("it is refused");

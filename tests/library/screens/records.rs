@@ -39,7 +39,14 @@ fn the_record_of_a_player() {
     let skill = kept.store().own_skill().unwrap().unwrap().skill;
     let played = kept.app.drills.player.skill;
     assert_eq!(played.to_string(), skill.to_string());
-    assert_eq!(kept.press("Esc Esc Esc").app.coach.query.skill, played, "the same player everywhere");
+    let left = kept.press("Esc Esc");
+    left.does_not_show("newer than your skill");
+    let mut newer = session(20, "opening", Goal::Free, &"x-".repeat(10));
+    newer.attempts.iter_mut().for_each(|note| note.at = 4_000_000_000);
+    left.store().save(&newer, &[], 0).unwrap();
+    let left = left.press("Esc");
+    assert_eq!(left.app.coach.query.skill, played, "the same player everywhere");
+    left.press("d").shows(&["20 notes are newer than your skill: r, then w takes the new estimate"]);
 }
 
 #[test]

@@ -34,8 +34,10 @@ fn balls_from_another_table_are_one_undo_step() {
     assert_eq!(taken.0, "thesis");
     let back = player.press("u");
     assert_eq!(place(&back), ("match".to_owned(), Layout::opening(back.app.coach.table())));
+    back.says("the table is match");
     let again = back.press("U");
     assert_eq!(place(&again), taken);
+    again.says("the table is thesis");
     again.press("u u").says("there is nothing to undo");
 }
 

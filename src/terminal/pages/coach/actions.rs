@@ -135,8 +135,8 @@ impl CoachPage {
             Action::UndoStroke => return self.step_stroke_history(OwnStroke::undo),
             Action::RedoStroke => return self.step_stroke_history(OwnStroke::redo),
             Action::UseBundledPolicies => {
-                let rule = self.rule_without_policy();
-                self.set_query(&self.table().clone(), CoachQuery { policy: None, rule, ..self.query.clone() });
+                let (table, rule) = self.table_and_rule_without_policy();
+                self.set_query(&table, CoachQuery { policy: None, rule, ..self.query.clone() });
             }
             Action::Playback(key) => self.apply_playback_key(key),
             // The app opens the other page, or resumes the session.
@@ -271,7 +271,14 @@ impl CoachPage {
             self.query = self.query.with(before.with_change(change));
         }
         self.reset_playback();
+        let table = (left.table != self.history.present().table).then(|| format!("the table is {}", self.table().name));
         self.report_terms(before, false);
+        if let Some(table) = table {
+            self.message = Some(match self.message.take() {
+                Some(terms) => Message { text: format!("{table}; {}", terms.text), ..terms },
+                None => Message::plain(format!("{table} now")),
+            });
+        }
     }
 
     /// Resets mode and playback after the displayed shot has changed or disappeared.

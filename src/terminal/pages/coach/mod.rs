@@ -135,8 +135,8 @@ pub struct CoachPage {
     history: History<Snapshot>,
     /// The mouse drag in progress; it moves the selected ball.
     drag: Option<Drag>,
-    /// The rule that was in force before a policy of the user's own was taken, and the rule that came with it.
-    rules_of_policy: Option<[Rule; 2]>,
+    /// The table and the rule before a policy of the user's own was taken, and the rule that came with it.
+    before_policy: Option<(Arc<Table>, [Rule; 2])>,
     /// The query terms from the settings, without later changes by keys.
     settings_terms: Terms,
     /// The query terms at the start of this session.
@@ -191,7 +191,7 @@ impl CoachPage {
             own_stroke: None,
             history: History::new(Snapshot::new(Arc::new(table), layout)),
             drag: None,
-            rules_of_policy: None,
+            before_policy: None,
             settings_terms: CoachQuery::default().terms(),
             start_terms: CoachQuery::default().terms(),
             earlier_sessions: Vec::new(),
@@ -287,20 +287,25 @@ impl CoachPage {
         let layout = if stays { current } else { Layout::opening(table) };
         let rule =
             if query.rule == self.query.rule { String::new() } else { format!("; the rule is now {}", query.rule) };
-        let news = format!("the coach plays with {}{rule}; Enter asks it", query.name());
+        let on =
+            if table.name == self.table().name { String::new() } else { format!("; the table is now {}", table.name) };
+        let news = format!("the coach plays with {}{on}{rule}; Enter asks it", query.name());
         if query.policy.is_some() {
-            self.rules_of_policy = Some([self.rule_without_policy(), query.rule]);
+            let (before, rule) = self.table_and_rule_without_policy();
+            self.before_policy = Some((before, [rule, query.rule]));
         }
         let CoachQuery { skill, doubt, plan, jumps, first, .. } = self.query;
         self.replace_position(table, layout, self.cue_ball(), CoachQuery { skill, doubt, plan, jumps, first, ..query });
         self.message = Some(Message::good(news));
     }
 
-    /// The rule without the user's own policy: the one before it was taken, unless another rule was chosen since.
-    fn rule_without_policy(&self) -> Rule {
-        match self.rules_of_policy.filter(|_| self.query.policy.is_some()) {
-            Some([before, own]) if self.query.rule == own => before,
-            _ => self.query.rule,
+    /// The table and the rule without the user's own policy: those before it was taken, but a rule that was chosen since.
+    fn table_and_rule_without_policy(&self) -> (Arc<Table>, Rule) {
+        match self.before_policy.as_ref().filter(|_| self.query.policy.is_some()) {
+            Some((table, [before, own])) => {
+                (Arc::clone(table), if self.query.rule == *own { *before } else { self.query.rule })
+            }
+            None => (Arc::clone(&self.history.present().table), self.query.rule),
         }
     }
 

@@ -17,8 +17,9 @@ use crate::{
     },
 };
 
-/// Number of simulated attempts at the player's own stroke, if the coach's shot was not judged because the search was stopped.
-const DEFAULT_TRIALS: usize = 500;
+/// Number of simulated attempts at the player's own stroke if there is no judged shot of the coach, and at the best shot of a search that was
+/// stopped.
+pub(super) const DEFAULT_TRIALS: usize = 500;
 
 /// Minimum number of simulated attempts if the coach's shot was judged.
 const MIN_TRIALS: usize = 100;

@@ -15,7 +15,7 @@ use crate::{
         Terms,
         pages::{
             Page,
-            coach::{Choice, CoachPage, Snapshot},
+            coach::{Choice, CoachPage, Snapshot, own_stroke::DEFAULT_TRIALS},
         },
         ui::Message,
         words::{chance_words, named_skill, skill_word},
@@ -72,7 +72,7 @@ impl CoachPage {
         }
     }
 
-    /// Cancels the pending request; the best shot so far is kept.
+    /// Cancels the pending request; the best shot so far is kept, and its analysis begins with a success rate of its own.
     pub(super) fn cancel(&mut self) {
         let Some(pending) = self.pending.take() else { return };
         pending.cancel.store(true, Ordering::Relaxed);
@@ -124,6 +124,11 @@ impl CoachPage {
             (CoachEvent::Analysis(study), _) if is_study => {
                 if let Some((_, choice)) = self.analysed_shot() {
                     choice.study = Some(study);
+                }
+            }
+            (CoachEvent::StrokeRated(made), _) if is_study => {
+                if let Some((_, choice)) = self.analysed_shot() {
+                    (choice.proposal.made, choice.proposal.is_early) = (Some(made), false);
                 }
             }
             (CoachEvent::StrokeRated(made), _) => {
@@ -190,8 +195,15 @@ impl CoachPage {
             old.cancel.store(true, Ordering::Relaxed);
         }
         let shot = wanted?;
-        let found = self.current_advice().and_then(AdviceState::unexplained_search).cloned();
-        let job = CoachJob { found, ..self.new_job(Some(shot.cue)) };
+        let job = self.new_job(Some(shot.cue));
+        let advised = self.current_advice()?;
+        let found = advised.unexplained_search().cloned();
+        // The rate of a search that was stopped flatters the shot, which was selected by it: other attempts judge the shot first.
+        let job = if advised.choice().proposal.is_early {
+            CoachJob { stroke: Some((shot.cue, 0..DEFAULT_TRIALS)), seed: advised.seed, ..job }
+        } else {
+            CoachJob { found, ..job }
+        };
         self.running_analysis = Some(RunningAnalysis { id: job.id, cancel: Arc::clone(&job.cancel), shot });
         Some(Effect::AskCoach(Box::new(job)))
     }

@@ -141,7 +141,10 @@ impl DrillsPage {
 
     fn open_marked(&mut self) -> Option<Effect> {
         let exercise = self.catalogue.marked()?.clone();
-        let Some(place) = self.unfinished_sessions.iter().position(|left| left.repeats(&exercise)) else {
+        // A free repetition has no end for which its player must stay.
+        let goes_on = |left: &Session| left.goal != Goal::Free || left.skill == self.player.skill;
+        let is_left = |left: &Session| left.repeats(&exercise) && goes_on(left);
+        let Some(place) = self.unfinished_sessions.iter().position(is_left) else {
             let goal = self.options.goals.get(&exercise.name).copied().unwrap_or(Goal::Free);
             return Some(self.begin(goal, vec![exercise]));
         };

@@ -27,7 +27,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::{
     coach::{Skill, Units},
-    drills::{Goal, Library, Session},
+    drills::{Goal, Library, Session, Venue},
     game::Rule,
     storage::DataPaths,
     table::{CueBall, Layout, PRESETS, Table},
@@ -115,6 +115,8 @@ pub struct DrillsPage {
     pub film: FilmsScreen,
     /// The player whose errors are simulated.
     pub player: Player,
+    /// When the user's own skill was saved, or the time of the last attempt before that, Unix time in seconds; `None` if none is saved.
+    skill_since: Option<u64>,
     /// The open question.
     pub question: Option<Question>,
     /// The message of the status line.
@@ -142,7 +144,7 @@ pub struct DrillsPage {
     pub unfinished_exam: Option<Session>,
     /// What the disk has refused, as the player was last told; `None` if everything is saved.
     unsaved: Option<String>,
-    /// Unfinished runs, games and matches that were left, one for each exercise. Opening the exercise resumes it.
+    /// Unfinished runs, games, matches and notes from a real table that were left, one for each exercise. Opening the exercise resumes it.
     unfinished_sessions: Vec<Session>,
     rng: Xoshiro256PlusPlus,
 }
@@ -158,6 +160,7 @@ impl DrillsPage {
             records: Records::default(),
             film: FilmsScreen::default(),
             player: Player::default(),
+            skill_since: None,
             question: None,
             message: None,
             jumps: true,
@@ -272,16 +275,24 @@ impl DrillsPage {
         }
     }
 
+    /// Number of notes from a real table that are newer than the user's own skill; 0 if none is saved.
+    pub fn notes_since_skill(&self) -> usize {
+        let since = self.skill_since.unwrap_or(u64::MAX);
+        let notes = self.book.sessions.iter().filter(|session| session.venue == Venue::Table);
+        notes.flat_map(|session| &session.attempts).filter(|note| note.at > since).count()
+    }
+
     /// Draws the random seed of a session.
     fn seed(&mut self) -> u64 {
         self.rng.random()
     }
 
-    /// Closes the exercise. Its attempts are on the disk already; an unfinished run, game or match is kept for resuming.
+    /// Closes the exercise. Its attempts are on the disk already. An unfinished run, game or match is kept for resuming, and so are notes from
+    /// a real table, which can then still be undone.
     fn close_exercise(&mut self) {
         if let Some(mut turn) = self.turn.take() {
             turn.cancel_request();
-            if turn.is_in_progress() {
+            if turn.is_in_progress() || turn.can_undo() && !turn.latest_session().is_over() {
                 self.unfinished_sessions.retain(|left| !left.repeats(&turn.exercise));
                 self.unfinished_sessions.push(turn.latest_session().clone());
             }

@@ -2,7 +2,7 @@
 
 use crate::{
     coach::Skill,
-    drills::{Attempt, Exercise, Library, Session},
+    drills::{Attempt, Exercise, Library, Session, store::OwnSkill},
     terminal::{
         DrillContext, DrillReport, DrillTask, LoadedRecords,
         pages::{
@@ -110,6 +110,8 @@ impl DrillsPage {
             }
             DrillReport::SkillSaved(skill, kept) => {
                 self.player.own_skill = Some(skill);
+                self.skill_since =
+                    self.book.sessions.iter().flat_map(|session| &session.attempts).map(|attempt| attempt.at).max();
                 self.player.choose(skill);
                 self.message = Some(Message::good("this is your skill now: you are the player \"me by my notes\""));
                 self.warn_unsaved(kept, "the skill is used now, but it could not be saved");
@@ -124,7 +126,8 @@ impl DrillsPage {
         self.book = Book::new(sessions, troubles);
         self.set_own_positions(positions);
         // The saved skill becomes the current one unless the user has chosen another.
-        if let Some(skill) = skill.filter(|_| self.player.own_skill.is_none()) {
+        self.skill_since = skill.map(|own| own.since).or(self.skill_since);
+        if let Some(OwnSkill { skill, .. }) = skill.filter(|_| self.player.own_skill.is_none()) {
             self.player.own_skill = Some(skill);
             if self.player.skill == Skill::default() {
                 self.player.skill = skill;

@@ -19,7 +19,7 @@ use crate::{
     terminal::{
         AdviceTask, AttemptOutcome, DrillTask, ModelShot, PlayTask, Shot,
         pages::drills::{Watched, aim_line::AimLine},
-        shot::{OwnStroke, Playback, Profile, StrokeChange, WhatIf, aiming, stroke::TipSlips},
+        shot::{OwnStroke, Playback, Profile, StrokeChange, WhatIf, aiming, stroke::StrokeLimit},
         ui::Message,
     },
 };
@@ -133,7 +133,7 @@ impl Turn {
     }
 
     /// Changes the stroke.
-    pub(super) fn change_stroke(&mut self, change: StrokeChange) -> Result<Vec<DrillTask>, TipSlips> {
+    pub(super) fn change_stroke(&mut self, change: StrokeChange) -> Result<Vec<DrillTask>, StrokeLimit> {
         self.stroke.change(change, &self.table, &self.layout)?;
         Ok(self.compare())
     }

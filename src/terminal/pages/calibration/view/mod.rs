@@ -32,11 +32,14 @@ impl PageView for CalibrationPage {
         let body = Rect { height: area.body.height.saturating_sub(u16::from(is_asked)), ..area.body };
         let [left, right] = halves(body);
         list::draw(self, left, ui);
-        match self.side {
+        let says_results = match self.side {
             SidePanel::Test => test::draw(self, right, ui),
-            SidePanel::Values => values::draw(self, right, ui),
-        }
-        self.message.clone().unwrap_or_else(|| status_line(self))
+            SidePanel::Values => {
+                values::draw(self, right, ui);
+                false
+            }
+        };
+        self.message.clone().unwrap_or_else(|| status_line(self, says_results))
     }
 
     fn open_question(&self, _: Capabilities) -> Option<OpenQuestion<'_>> {
@@ -71,8 +74,8 @@ fn question(page: &CalibrationPage) -> Option<(String, Option<&TextField>)> {
     })
 }
 
-/// The default text of the status line.
-fn status_line(page: &CalibrationPage) -> Message {
+/// The default text of the status line; `says_results` if a panel shows what the marks say.
+fn status_line(page: &CalibrationPage, says_results: bool) -> Message {
     let sheet = page.sheet();
     // A toast has shown the error already.
     if sheet.trouble.is_some() {
@@ -87,7 +90,7 @@ fn status_line(page: &CalibrationPage) -> Message {
     if sheet.is_evaluating() {
         return Message::plain("evaluating the marks");
     }
-    if let Some(doubt) = sheet.doubt_about_last_stroke() {
+    if let Some(doubt) = sheet.doubt_about_last_stroke().filter(|_| !says_results) {
         return Message::warning(doubt);
     }
     let (entered, wanted) = sheet.count();

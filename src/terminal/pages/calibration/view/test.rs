@@ -44,8 +44,8 @@ const DOT_COLUMNS: f64 = 2.0;
 const CUE: f64 = 0.3;
 const CUE_DOTS: f64 = 0.01;
 
-/// Draws the panel.
-pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
+/// Draws the panel. Returns whether it had room for what the marks say.
+pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) -> bool {
     let test = page.sheet().test();
     let room = usize::from(area.width.saturating_sub(4));
     let inner = draw_title(shorten(test.title, room, ui.caps), area, ui);
@@ -77,10 +77,12 @@ pub fn draw(page: &CalibrationPage, area: Rect, ui: &mut Ui) {
     // If there is room, the results are shown here too.
     let end = (below + asked.len() as u16 + 1).min(inner.bottom());
     let rest = Rect { y: end, height: inner.bottom() - end, ..inner };
-    if let Some(found) = page.sheet().calibration().filter(|_| rest.height > MIN_RESULT_ROWS) {
+    let found = page.sheet().calibration().filter(|_| rest.height > MIN_RESULT_ROWS);
+    if let Some(found) = found {
         let rest = draw_title("What the marks say", rest, ui);
         write_paragraphs(&sentences(page, found, ui), rest.inner(Margin::new(1, 0)), ui);
     }
+    found.is_some()
 }
 
 /// Draws the tip and, below it, the stroke in numbers.

@@ -24,9 +24,12 @@ use crate::{
 /// Distance between the dots of the path, m.
 const DOTS: f64 = 0.05;
 
+/// Character of the path if only letters are drawn, unlike those of the balls' paths.
+const LETTER: char = '~';
+
 /// The ball's path as dots of this colour, starting at the diamond behind the ball.
 pub fn lesson_spots(lesson: &Lesson, color: Color) -> Vec<Spot> {
-    let dot = |place: DVec2| Spot { position: place, is_ball: false, color, letter: '.' };
+    let dot = |place: DVec2| Spot { position: place, is_ball: false, color, letter: LETTER };
     let legs = lesson.path.windows(2).flat_map(|leg| {
         let way = leg[1] - leg[0];
         let count = (way.length() / DOTS).ceil().max(1.0) as u32;

@@ -6,9 +6,10 @@ use ratatui::{
 };
 
 use crate::{
-    drills::{Category, Exercise, Venue, bare_tag},
+    drills::{Category, Exercise, Venue, bare_tag, estimate::MIN_ATTEMPTS},
     table::{CueBall, Table},
     terminal::{
+        DrillAction, DrillContext,
         pages::{
             Target,
             drills::{
@@ -49,7 +50,7 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
         Some(exercise) => draw_exercise(drills, exercise, preview, ui),
         None => draw_placeholder(drills, list, ui),
     }
-    status_line(drills)
+    status_line(drills, ui)
 }
 
 /// The areas of the list and of the marked exercise.
@@ -65,13 +66,23 @@ pub fn target(drills: &DrillsPage, area: Rect, at: Position) -> Option<Target> {
     list.contains(at).then(|| Target::list(line, drills.catalogue.mark))
 }
 
-fn status_line(drills: &DrillsPage) -> Message {
+fn status_line(drills: &DrillsPage, ui: &Ui) -> Message {
     let book = &drills.book;
     if !book.is_known {
         return Message::plain("reading what was played so far");
     }
     if !book.troubles.is_empty() {
         return Message::warning("some saved data cannot be read: F6 lists it; the rest is here");
+    }
+    let notes = drills.notes_since_skill();
+    // As many as an estimate needs.
+    if notes >= MIN_ATTEMPTS {
+        let [record, take] =
+            [(DrillContext::Library, DrillAction::OpenRecord), (DrillContext::Record, DrillAction::SaveSkill)]
+                .map(|(screen, action)| ui.key_of(screen.bindings(), &action));
+        return Message::plain(format!(
+            "{notes} notes are newer than your skill: {record}, then {take} takes the new estimate"
+        ));
     }
     Message::plain("choose an exercise; Enter opens it")
 }
