@@ -129,6 +129,16 @@ pub fn parse_seed(text: &str) -> Result<u64, String> {
     whole_number(0..=u64::MAX)(text)
 }
 
+/// Returns the time and the number of simulations of a search from the values of `--budget-ms` and `--simulations`. Without either, the time
+/// is `default_ms`; with a number of simulations alone, it is unlimited, so that the result is the same on every machine.
+pub fn search_limits(budget_ms: Option<u64>, simulations: Option<u64>, default_ms: u64) -> (Duration, u64) {
+    let budget = match (budget_ms, simulations) {
+        (None, Some(_)) => Duration::MAX,
+        (budget, _) => Duration::from_millis(budget.unwrap_or(default_ms)),
+    };
+    (budget, simulations.unwrap_or(u64::MAX))
+}
+
 /// Converts the value of `--minutes`, which may be fractional.
 ///
 /// # Errors

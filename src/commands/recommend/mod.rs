@@ -21,7 +21,8 @@ use self::{
 use super::{
     Failure,
     input::{
-        PositionArgs, TableCache, answer_lines, note_training_mismatch, parse_seed, whole_number, whole_number_from,
+        PositionArgs, TableCache, answer_lines, note_training_mismatch, parse_seed, search_limits, whole_number,
+        whole_number_from,
     },
     lookup::{policy_by_name, skill_by_name},
     output::{chance_words, impulse_words, player_and_rule_words, units},
@@ -283,6 +284,7 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
         let shot = Shot { make_probability: predicted, ..Shot::of(cue, None, None, Source::Policy, None) };
         return Ok(RecommendAnswer::of(shot, 0, start.elapsed()));
     }
+    let (budget, simulations) = search_limits(args.budget_ms, args.simulations, BUDGET_MS);
     let request = Request {
         rule,
         skill: args.skill,
@@ -290,12 +292,8 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
         plan: args.plan,
         jumps: !args.no_jumps,
         first: args.first,
-        budget: match (args.budget_ms, args.simulations) {
-            (Some(budget), _) => Duration::from_millis(budget),
-            (None, Some(_)) => Duration::MAX,
-            (None, None) => Duration::from_millis(BUDGET_MS),
-        },
-        simulations: args.simulations.unwrap_or(u64::MAX),
+        budget,
+        simulations,
         seed: args.seed,
         ..Request::default()
     };
