@@ -21,8 +21,12 @@ pub enum HeaderError {
         /// The expected format.
         accepted: &'static str,
     },
-    /// The version is not supported, most likely because a newer program wrote the file.
-    #[error("it has version {0}; versions 1 to {NEWEST_VERSION} can be read, a newer carom may have written it")]
+    /// The version is not supported.
+    #[error(
+        "it has version {found}; versions 1 to {NEWEST_VERSION} can be read{newer}",
+        found = .0,
+        newer = (*_0 > NEWEST_VERSION).then_some(", a newer carom may have written it").unwrap_or_default()
+    )]
     Version(u32),
 }
 

@@ -124,8 +124,13 @@ impl Layout {
         {
             return Ok(layout);
         }
+        // Some balls may be in diamonds and others in metres.
+        let has_diamonds = |ball: usize| {
+            let numbers = places.iter().filter(|(moved, _)| *moved == ball).flat_map(|(_, numbers)| *numbers);
+            is_in_diamonds && numbers.into_iter().all(|number| number.in_diamonds)
+        };
         layout.validate(table).map_err(|error| match error {
-            LayoutError::Outside { ball, x, y, max_x, max_y } if is_in_diamonds => {
+            LayoutError::Outside { ball, x, y, max_x, max_y } if has_diamonds(ball) => {
                 let [x, least, along] = [x, -max_x, max_x].map(|x| (0.5 * table.length + x) / table.diamond());
                 let [y, up] = [y, max_y].map(|y| (0.5 * table.width + y) / table.diamond());
                 PositionsError::Outside { name: names[ball], x, y, least, along, up }
