@@ -1,6 +1,9 @@
 //! Look-up of runs, policies and skills by name.
 
-use std::path::{Path, PathBuf};
+use std::{
+    fmt::Display,
+    path::{Path, PathBuf},
+};
 
 use super::Failure;
 use crate::{
@@ -49,12 +52,12 @@ fn saved_policy_path(name: &Path) -> Option<PathBuf> {
 }
 
 /// Reports that nothing is called `name`, and what would be accepted.
-fn not_found(what: &str, name: &str, accepted: &str) -> Failure {
+fn not_found(what: impl Display, name: &str, accepted: &str) -> Failure {
     let (paths, bundled) = (DataPaths::of_this_user(), bundled_names().collect::<Vec<_>>());
     let saved = names_in(&paths.policies, Some(library::EXTENSION));
     let known = bundled.iter().map(|name| (*name).to_owned()).chain(names_in(&paths.runs, None)).chain(saved);
     Failure::failed(format_args!(
-        "there is {what} {name}, neither here nor among the runs in {}; accepted are a run (its folder, its name or {LATEST}), {accepted} a \
+        "there is {what}, neither here nor among the runs in {}; accepted are a run (its folder, its name or {LATEST}), {accepted} a \
          policy (its file, the name of one that was kept, {BUNDLED}, or one of {}){}",
         paths.runs.display(),
         bundled.join(", "),
@@ -105,7 +108,9 @@ pub fn weights_by_name(name: &Path, table: &Table, rule: Rule) -> Result<Source,
         return Ok(Source::Path(path));
     }
     let bundled = bundled_names().find(|bundled| name == Path::new(bundled)).map(Source::Bundled);
-    bundled.ok_or_else(|| not_found("nothing to start from called", &name.to_string_lossy(), "a checkpoint file and"))
+    let called = name.to_string_lossy();
+    let what = format_args!("nothing called {called} to start from");
+    bundled.ok_or_else(|| not_found(what, &called, "a checkpoint file and"))
 }
 
 /// Returns the bundled policy for `rule` on `table`, for a player with execution errors if `errs`.
@@ -132,7 +137,8 @@ pub fn policy_by_name(name: &str) -> Result<Policy, Failure> {
     // A run's folder may have the same name as a saved policy, which takes precedence.
     let file = Some(path.to_owned()).filter(|path| path.is_file());
     let Some(found) = file.or_else(|| saved_policy_path(path)).or_else(|| run_path(path)) else {
-        let bundled = Policy::bundled_by_name(name).ok_or_else(|| not_found("no policy", name, "and"))?;
+        let bundled =
+            Policy::bundled_by_name(name).ok_or_else(|| not_found(format_args!("no policy {name}"), name, "and"))?;
         return Ok(bundled?);
     };
     if found.is_dir() {

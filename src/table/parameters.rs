@@ -328,6 +328,8 @@ mod tests {
         let words = "line 9, mu_s: invalid type: string \"slow\", expected a number";
         assert!(message.contains(words), "{message}");
         assert!(Table::from_toml("").unwrap_err().to_string().ends_with("`name` is missing"));
+        let message = Table::from_toml(&TEXTBOOK.replace("R = 0.03075", "R = inf")).unwrap_err().to_string();
+        assert!(message.contains("R = inf; accepted is a finite number of metres from 0.0001 on"), "{message}");
     }
 
     #[test]

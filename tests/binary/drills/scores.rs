@@ -146,7 +146,6 @@ fn a_session_without_attempts_is_not_named_because_it_is_not_saved() {
 #[test]
 fn exams_offer_no_table() {
     let folder = folder();
-    drill(folder.path(), &["exam", "--table", "match"]).fails(2, &["--table"]);
     assert!(!drill(folder.path(), &["exam", "--help"]).out.contains("--table"));
 }
 
@@ -258,7 +257,7 @@ fn exercises_accept_a_users_table_of_the_same_size() {
     assert_ne!(own[1]["end"], bundled[1]["end"], "the cloth has another friction");
     drill(folder.path(), &["try", "mine", "--shot", "coach", "--table", "thesis"])
         .fails(2, &["2.84 by 1.42 m", "\"thesis\" is another"]);
-    drill(folder.path(), &["exam", "--table", file]).fails(2, &["leave out --table"]);
+    drill(folder.path(), &["exam", "--table", file]).fails(2, &["--table"]);
     let game =
         run_with_input(command(folder.path(), &["play", "--table", file, "--innings", "1", "--json"]), "0,0,0,0,1\n")
             .json();
