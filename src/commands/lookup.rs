@@ -30,7 +30,7 @@ pub const LATEST: &str = "latest";
 fn run_path(name: &Path) -> Option<PathBuf> {
     let runs = DataPaths::of_this_user().runs;
     let named = [name.to_owned(), runs.join(name)].into_iter().find(|path| path.exists());
-    named.or_else(|| latest_in(&runs).filter(|_| name == Path::new(LATEST)))
+    named.or_else(|| if name == Path::new(LATEST) { latest_in(&runs) } else { None })
 }
 
 /// Returns the names of the files in `folder` with this extension, or of the folders in it without one.

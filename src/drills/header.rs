@@ -25,9 +25,14 @@ pub enum HeaderError {
     #[error(
         "it has version {found}; versions 1 to {NEWEST_VERSION} can be read{newer}",
         found = .0,
-        newer = (*_0 > NEWEST_VERSION).then_some(", a newer carom may have written it").unwrap_or_default()
+        newer = cause(*_0)
     )]
     Version(u32),
+}
+
+/// Returns the likely cause of an unsupported version, as the end of a sentence.
+const fn cause(version: u32) -> &'static str {
+    if version > NEWEST_VERSION { ", a newer carom may have written it" } else { "" }
 }
 
 #[derive(Serialize)]
