@@ -11,7 +11,8 @@ use crate::{
     drills::Category,
     game::{Reward, Rule},
     learning::agents::AGENTS,
-    printing,
+    printing::{self, FULL_VERSION, did_you_mean},
+    study::reproduction::FIGURES,
     table::{CueBall, Side},
 };
 
@@ -47,6 +48,11 @@ fn with_known_words(command: clap::Command) -> clap::Command {
         "side" => [Side::Left, Side::Right].map(Side::name).to_vec(),
         "category" => Category::ALL.map(Category::name).to_vec(),
         "reward" => Reward::ALL.map(Reward::name).to_vec(),
+        "figures" => FIGURES.iter().map(|figure| figure.name).collect(),
+        "doubt" | "choose_doubt" => vec!["full", "none"],
+        "results" => vec!["make", "miss", "undo"],
+        "level" => vec!["1", "2", "3"],
+        "grade" => vec!["0", "1", "2", "3", "4", "5"],
         "agent" => AGENTS.map(|agent| agent.name).to_vec(),
         _ => Vec::new(),
     };
@@ -58,17 +64,26 @@ fn with_known_words(command: clap::Command) -> clap::Command {
 }
 
 pub(super) fn man(args: &Man) -> Result<(), Failure> {
-    let mut program = Cli::command();
+    // The subcommand help has no page.
+    let mut program = Cli::command().disable_help_subcommand(true);
+    for subcommand in program.get_subcommands_mut() {
+        *subcommand = subcommand.clone().disable_help_subcommand(true);
+    }
     program.build();
     let mut command = &program;
     for name in &args.command {
         command = command.find_subcommand(name).ok_or_else(|| {
-            let known = command.get_subcommands().map(clap::Command::get_name).collect::<Vec<_>>().join(", ");
-            let accepted = if known.is_empty() { "none".to_owned() } else { known };
-            Failure::wrong_input(format_args!("there is no subcommand \"{name}\" of carom; there are: {accepted}"))
+            let known: Vec<_> = command.get_subcommands().map(clap::Command::get_name).collect();
+            let whole = command.get_bin_name().unwrap_or_default();
+            Failure::wrong_input(if known.is_empty() {
+                format!("\"{whole}\" has no subcommands; leave out \"{name}\"")
+            } else {
+                let meant = did_you_mean(name, &known);
+                format!("there is no subcommand \"{name}\" of {whole}; there are: {}{meant}", known.join(", "))
+            })
         })?;
     }
     let mut page = Vec::new();
-    clap_mangen::Man::new(command.clone()).render(&mut page)?;
+    clap_mangen::Man::new(command.clone().version(FULL_VERSION)).render(&mut page)?;
     Ok(printing::stdout().exact(true).write_all(&page)?)
 }

@@ -26,17 +26,37 @@ use crate::{
     table::{CueBall, Layout, PRESETS, Table, TableError},
 };
 
-/// Returns the bundled table, the table in the TOML file at the path `name`, or the user's own table of that name.
+/// Returns the bundled table, the table in the TOML file at the path `name`, or the user's own table whose file or which itself has that
+/// name.
 pub fn table_by_name(name: &str) -> Result<Table, Failure> {
     match Table::preset(name) {
         Err(error @ TableError::Unknown(_)) => {
-            let here = Some(PathBuf::from(name)).filter(|path| path.exists());
+            let (here, paths) = (Some(PathBuf::from(name)).filter(|path| path.exists()), DataPaths::of_this_user());
             let file = here.clone().filter(|path| !path.is_dir());
-            let path = file.or_else(|| DataPaths::of_this_user().own_table(name)).or(here);
-            load_table(&path.ok_or_else(|| Failure::failed(error))?)
+            match file.or_else(|| paths.own_table(name)).or(here) {
+                Some(path) => load_table(&path),
+                None => own_table_named(name, &paths.own_tables(), &error),
+            }
         }
         table => table.map_err(Failure::wrong_input),
     }
+}
+
+/// Returns the table among `files` whose own name, by which the output calls it, is `name`; `unknown` is the error if there is none.
+fn own_table_named(name: &str, files: &[PathBuf], unknown: &TableError) -> Result<Table, Failure> {
+    let tables = files.iter().filter_map(|file| Some((file, load_table(file).ok()?)));
+    let (mut named, others): (Vec<_>, Vec<_>) = tables.partition(|(_, table)| table.name == name);
+    if named.len() > 1 {
+        let files: Vec<_> = named.iter().map(|(file, _)| file.display().to_string()).collect();
+        return Err(Failure::failed(format_args!(
+            "\"{name}\" is the name of several tables of your own; accepted is one of their files: {}",
+            files.join(", ")
+        )));
+    }
+    let stem = |file: &PathBuf| file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let known = others.iter().flat_map(|(file, table)| [stem(file), Some(table.name.clone())]).flatten();
+    let meant = || printing::did_you_mean(name, known.chain(PRESETS.map(str::to_owned)));
+    named.pop().map(|(_, table)| table).ok_or_else(|| Failure::failed(format_args!("{unknown}{}", meant())))
 }
 
 /// Returns the bundled table of this name. Stored positions refer to a table by name, so the name must mean the same to everybody.
@@ -130,6 +150,16 @@ pub fn parse_seed(text: &str) -> Result<u64, String> {
     whole_number(0..=u64::MAX)(text)
 }
 
+/// Returns the time and the number of simulations of a search from the values of `--budget-ms` and `--simulations`. Without either, the time
+/// is `default_ms`; with a number of simulations alone, it is unlimited, so that the result is the same on every machine.
+pub fn search_limits(budget_ms: Option<u64>, simulations: Option<u64>, default_ms: u64) -> (Duration, u64) {
+    let budget = match (budget_ms, simulations) {
+        (None, Some(_)) => Duration::MAX,
+        (budget, _) => Duration::from_millis(budget.unwrap_or(default_ms)),
+    };
+    (budget, simulations.unwrap_or(u64::MAX))
+}
+
 /// Converts the value of `--minutes`, which may be fractional.
 ///
 /// # Errors
@@ -146,18 +176,25 @@ pub fn parse_minutes(value: f64) -> Result<Duration, Failure> {
 /// Longest accepted time, minutes: a thousand years.
 const MAX_MINUTES: f64 = 5e8;
 
+/// The mark with which some editors begin a file.
+pub const BYTE_ORDER_MARK: &str = "\u{feff}";
+
+/// Opens a file, pipe or device for reading; `-` is the standard input.
+pub fn open_input(file: &Path) -> io::Result<Box<dyn BufRead>> {
+    if file == Path::new("-") {
+        return Ok(Box::new(io::stdin().lock()));
+    }
+    Ok(Box::new(BufReader::new(storage::open_stream(file)?)))
+}
+
 /// Answers every line of the JSON Lines in `file` (`-` is the standard input) on the standard output, in the same order. A refused line is
 /// answered with `error`, and the following lines are still processed; the command then ends with exit code 2.
 pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
     file: &str,
     mut answer: impl FnMut(Q) -> Result<A, Failure>,
 ) -> Result<(), Failure> {
-    let mut reader: Box<dyn BufRead> = if file == "-" {
-        Box::new(io::stdin().lock())
-    } else {
-        let unreadable = |error| Failure::failed(format_args!("{file} cannot be read: {error}"));
-        Box::new(BufReader::new(storage::open_stream(Path::new(file)).map_err(unreadable)?))
-    };
+    let unreadable = |error| Failure::failed(format_args!("{file} cannot be read: {error}"));
+    let mut reader = open_input(Path::new(file)).map_err(unreadable)?;
     let is_stream = file == "-" || !Path::new(file).is_file();
     let mut out = io::BufWriter::new(printing::stdout().exact(true));
     let (mut lines, mut refused) = (0_usize, 0_usize);
@@ -169,8 +206,7 @@ pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
             NextLine::End => break,
             NextLine::Line if line.trim_ascii().is_empty() => continue,
             NextLine::Line => {
-                // Some editors begin a file with a byte order mark.
-                let request = line.strip_prefix("\u{feff}".as_bytes()).filter(|_| index == 1).unwrap_or(&line);
+                let request = line.strip_prefix(BYTE_ORDER_MARK.as_bytes()).filter(|_| index == 1).unwrap_or(&line);
                 parse_request(request).map_err(|reason| format!("line {index} is not a valid JSON request: {reason}"))
             }
             NextLine::TooLong => Err(format!("line {index} is too long; accepted are up to {MAX_LINE_BYTES} bytes")),
@@ -233,6 +269,8 @@ mod tests {
         };
         assert!(said("9d,1d 7d,1d 1d,1d").contains("accepted are 0.09d to 7.91d"));
         assert!(said("2,0 0,0 0.5,0").contains("accepted are |x| <= 1.3892"));
+        let [metres, diamonds] = ["2d,2d 3,0.2 6d,2d", "2d,2d 0.1,0.2 9d,2d"].map(said);
+        assert!(metres.contains("yellow at (3.0000, 0.2000) m") && diamonds.contains("red at 9.00d,2.00d"), "{metres}");
         assert!(said("2,3 5,1 6,3").ends_with("in metres from the middle, or diamonds like 2d,0.5d"));
         assert!(said("0,0 0.5,0").contains("0,0 0.5,0"), "one place is missing");
     }

@@ -1,6 +1,9 @@
 //! Look-up of runs, policies and skills by name.
 
-use std::path::{Path, PathBuf};
+use std::{
+    fmt::Display,
+    path::{Path, PathBuf},
+};
 
 use super::Failure;
 use crate::{
@@ -15,6 +18,7 @@ use crate::{
         },
         run::{Config, POLICY, agent_of_checkpoint, list::latest_in},
     },
+    printing::did_you_mean,
     storage::DataPaths,
     table::Table,
 };
@@ -22,9 +26,24 @@ use crate::{
 /// The name for the run that was trained most recently.
 pub const LATEST: &str = "latest";
 
-/// Returns the file or folder `name`, or the folder of that name among the user's runs.
+/// Returns the file or folder `name`, the folder of that name among the user's runs, or the most recent run for `latest`.
 fn run_path(name: &Path) -> Option<PathBuf> {
-    [name.to_owned(), DataPaths::of_this_user().runs.join(name)].into_iter().find(|path| path.exists())
+    let runs = DataPaths::of_this_user().runs;
+    let named = [name.to_owned(), runs.join(name)].into_iter().find(|path| path.exists());
+    named.or_else(|| if name == Path::new(LATEST) { latest_in(&runs) } else { None })
+}
+
+/// Returns the names of the files in `folder` with this extension, or of the folders in it without one.
+fn names_in(folder: &Path, extension: Option<&str>) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let of_kind = |path: &PathBuf| match extension {
+        Some(extension) => path.extension().is_some_and(|own| own == extension),
+        None => path.is_dir(),
+    };
+    let name = |path: PathBuf| {
+        if extension.is_some() { path.file_stem()?.to_str() } else { path.file_name()?.to_str() }.map(str::to_owned)
+    };
+    entries.filter(of_kind).filter_map(name).collect()
 }
 
 /// Returns the file of the policy that the user has saved under this name.
@@ -32,14 +51,17 @@ fn saved_policy_path(name: &Path) -> Option<PathBuf> {
     library::find(&DataPaths::of_this_user().policies, name.to_str()?)
 }
 
-/// Reports that nothing of this name exists, and what would be accepted.
-fn not_found(what: &str, accepted: &str) -> Failure {
-    let bundled: Vec<_> = bundled_names().collect();
+/// Reports that nothing is called `name`, and what would be accepted.
+fn not_found(what: impl Display, name: &str, accepted: &str) -> Failure {
+    let (paths, bundled) = (DataPaths::of_this_user(), bundled_names().collect::<Vec<_>>());
+    let saved = names_in(&paths.policies, Some(library::EXTENSION));
+    let known = bundled.iter().map(|name| (*name).to_owned()).chain(names_in(&paths.runs, None)).chain(saved);
     Failure::failed(format_args!(
-        "there is {what}, neither here nor among the runs in {}; accepted are a run (its folder or its name), {accepted} a policy (its \
-         file, the name of one that was kept, {BUNDLED}, or one of {})",
-        DataPaths::of_this_user().runs.display(),
-        bundled.join(", ")
+        "there is {what}, neither here nor among the runs in {}; accepted are a run (its folder, its name or {LATEST}), {accepted} a \
+         policy (its file, the name of one that was kept, {BUNDLED}, or one of {}){}",
+        paths.runs.display(),
+        bundled.join(", "),
+        did_you_mean(name, known)
     ))
 }
 
@@ -52,16 +74,16 @@ pub fn existing_run(name: &Path) -> Result<PathBuf, Failure> {
         return Ok(folder);
     }
     let runs = DataPaths::of_this_user().runs;
-    if name == Path::new(LATEST) {
-        return latest_in(&runs).ok_or_else(|| {
-            Failure::failed(format_args!("there are no runs in {} yet; start one with carom train", runs.display()))
-        });
-    }
-    Err(Failure::failed(format_args!(
-        "there is no run {}, neither here nor in {}; carom train --list shows all runs",
-        name.display(),
-        runs.display()
-    )))
+    Err(if name == Path::new(LATEST) {
+        Failure::failed(format_args!("there are no runs in {} yet; start one with carom train", runs.display()))
+    } else {
+        Failure::failed(format_args!(
+            "there is no run {}, neither here nor in {}; carom train --list shows all runs{}",
+            name.display(),
+            runs.display(),
+            did_you_mean(&name.to_string_lossy(), names_in(&runs, None))
+        ))
+    })
 }
 
 /// Source of the initial weights of a training run.
@@ -72,7 +94,7 @@ pub enum Source {
     Bundled(&'static str),
 }
 
-/// Returns the source that `--from` names: a file or folder, one of the user's runs, a saved policy or a bundled one. The name `bundled`
+/// Returns the source that `--from` names: a file or folder, one of the user's runs, the most recent one for `latest`, a saved policy or a bundled one. The name `bundled`
 /// means the bundled policy for a run on `table` under `rule`.
 ///
 /// # Errors
@@ -86,8 +108,9 @@ pub fn weights_by_name(name: &Path, table: &Table, rule: Rule) -> Result<Source,
         return Ok(Source::Path(path));
     }
     let bundled = bundled_names().find(|bundled| name == Path::new(bundled)).map(Source::Bundled);
-    bundled
-        .ok_or_else(|| not_found(&format!("nothing called {} to start from", name.display()), "a checkpoint file and"))
+    let called = name.to_string_lossy();
+    let what = format_args!("nothing called {called} to start from");
+    bundled.ok_or_else(|| not_found(what, &called, "a checkpoint file and"))
 }
 
 /// Returns the bundled policy for `rule` on `table`, for a player with execution errors if `errs`.
@@ -114,7 +137,8 @@ pub fn policy_by_name(name: &str) -> Result<Policy, Failure> {
     // A run's folder may have the same name as a saved policy, which takes precedence.
     let file = Some(path.to_owned()).filter(|path| path.is_file());
     let Some(found) = file.or_else(|| saved_policy_path(path)).or_else(|| run_path(path)) else {
-        let bundled = Policy::bundled_by_name(name).ok_or_else(|| not_found(&format!("no policy {name}"), "and"))?;
+        let bundled =
+            Policy::bundled_by_name(name).ok_or_else(|| not_found(format_args!("no policy {name}"), name, "and"))?;
         return Ok(bundled?);
     };
     if found.is_dir() {
@@ -173,7 +197,9 @@ pub fn skill_by_name(name: &str) -> Result<Skill, Failure> {
     }
     name.parse().map_err(|error| match error {
         SkillError::Unknown(_) => {
-            Failure::wrong_input(format_args!("{error}; \"{OWN}\" is what carom drill skill --keep saved"))
+            let names = Skill::NAMED.map(|(name, _)| name).into_iter().chain([OWN]);
+            let meant = did_you_mean(name, names);
+            Failure::wrong_input(format_args!("{error}; \"{OWN}\" is what carom drill skill --keep saved{meant}"))
         }
         error => Failure::wrong_input(error),
     })

@@ -54,7 +54,7 @@ pub struct Cli {
     #[arg(long)]
     plain: bool,
     /// For a machine that players share: no training can be started, the coach thinks for at most one second, and only the player's own
-    /// files are read or written (docs/club.md).
+    /// files are read or written.
     #[arg(long)]
     guest: bool,
     /// The player whose settings, practice and last session are used: letters, digits, "-" and "_". Each player has a separate folder.

@@ -49,12 +49,16 @@ pub struct Args {
     /// Let the coach play.
     #[arg(long)]
     coach: bool,
+    /// The table: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file. It must have the size of a bundled
+    /// table.
+    #[arg(long, default_value = PRESETS[0])]
+    table: String,
     #[command(flatten)]
     options: PlayOptions,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let (table, bundled) = tables(args.options.table.as_deref().unwrap_or(PRESETS[0]))?;
+    let (table, bundled) = tables(&args.table)?;
     let layout = match &args.layout {
         None => opening(&table, args.side)?,
         Some(text) => Layout::parse(text, &table).map_err(Failure::wrong_input)?,
@@ -63,7 +67,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let game = Exercise::new_own(GAME, args.rule, bundled, layout);
     let &Args { innings, against_coach, .. } = args;
     let goal = if args.both || against_coach { Goal::Match { innings, against_coach } } else { Goal::Game { innings } };
-    let mut session = args.options.session(goal, vec![game])?;
+    let mut session = args.options.session(goal, vec![game], Some(&args.table))?;
     session.cue_ball = args.ball;
     let workspace = Workspace::open();
     play(&workspace.store, session, &args.options, strokes(args.coach), args.strokes as usize)

@@ -21,9 +21,18 @@ pub enum HeaderError {
         /// The expected format.
         accepted: &'static str,
     },
-    /// The version is not supported, most likely because a newer program wrote the file.
-    #[error("it has version {0}; versions 1 to {NEWEST_VERSION} can be read, a newer carom may have written it")]
+    /// The version is not supported.
+    #[error(
+        "it has version {found}; versions 1 to {NEWEST_VERSION} can be read{newer}",
+        found = .0,
+        newer = cause(*_0)
+    )]
     Version(u32),
+}
+
+/// Returns the likely cause of an unsupported version, as the end of a sentence.
+const fn cause(version: u32) -> &'static str {
+    if version > NEWEST_VERSION { ", a newer carom may have written it" } else { "" }
 }
 
 #[derive(Serialize)]

@@ -2,9 +2,8 @@
 
 use std::sync::LazyLock;
 
-use strsim::jaro_winkler;
-
 use super::{Category, Exercise, LibraryFile, exercise::bare_tag};
+use crate::printing;
 
 /// The bundled files, one per category.
 const BUNDLED: [&str; 9] = [
@@ -37,9 +36,6 @@ pub enum LibraryError {
     #[error("there is an exercise \"{0}\" already; give this one another name")]
     NameTaken(String),
 }
-
-/// Minimum similarity, from 0 to 1, of a text to a name or title for a suggestion.
-const MIN_SIMILARITY: f64 = 0.8;
 
 /// Maximum number of exercises listed in a sentence.
 const MAX_LISTED: usize = 8;
@@ -136,14 +132,8 @@ impl Library {
 
     /// Finds the name of the exercise whose name or title is most similar to `text`, if one is similar enough.
     pub fn most_similar(&self, text: &str) -> Option<&str> {
-        let wanted = text.to_lowercase();
-        let alike = |exercise: &Exercise| {
-            let of = |words: &str| jaro_winkler(&words.to_lowercase(), &wanted);
-            of(&exercise.name).max(of(&exercise.title))
-        };
-        let rated = self.exercises.iter().map(|exercise| (alike(exercise), exercise));
-        let (alike, nearest) = rated.max_by(|one, other| one.0.total_cmp(&other.0))?;
-        (alike > MIN_SIMILARITY).then_some(nearest.name.as_str())
+        let names = self.exercises.iter().map(|exercise| (exercise.name.as_str(), exercise.title.as_str()));
+        printing::most_similar(text, names.flat_map(|(name, title)| [[name, name], [title, name]]))
     }
 
     /// Returns all exercises.

@@ -5,6 +5,7 @@ use super::{
     learner::AgentKind,
     thesis::{agent::kind_of, ddpg::PlainDdpg, dqn::Dqn, q_learning::QLearning},
 };
+use crate::printing::did_you_mean;
 
 /// The agents that can be trained. To add one: implement [`Learner`](super::learner::Learner) and add its line here.
 pub const AGENTS: [AgentKind; 4] = [DDPG, kind_of::<QLearning>(), kind_of::<Dqn>(), kind_of::<PlainDdpg>()];
@@ -21,5 +22,9 @@ impl AgentKind {
 
 /// The name of an agent is unknown.
 #[derive(Debug, thiserror::Error, PartialEq)]
-#[error("there is no agent \"{0}\"; use {list}", list = AGENTS.map(|agent| agent.name).join(", "))]
+#[error(
+    "there is no agent \"{0}\"; use {list}{meant}",
+    list = AGENTS.map(|agent| agent.name).join(", "),
+    meant = did_you_mean(_0, AGENTS.map(|agent| agent.name))
+)]
 pub struct UnknownAgent(String);

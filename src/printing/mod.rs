@@ -12,6 +12,7 @@ mod json;
 mod number;
 mod progress;
 mod shell;
+mod similar;
 mod version;
 mod visible;
 mod wrapping;
@@ -24,6 +25,7 @@ pub use self::{
     number::{fixed, number, parse_number},
     progress::ProgressLine,
     shell::shell_word,
+    similar::{did_you_mean, most_similar},
     version::{COMMIT, FULL_VERSION, TARGET, VERSION},
     visible::{OneLine, is_hidden},
 };

@@ -201,7 +201,12 @@ impl Table {
         let (spin, mu_rail, mu_b) = (self.spinning_friction, self.rail_friction, self.ball_friction.unwrap_or(0.0));
         let values: [Check; 14] = [
             // Keeps [`super::TOUCHING_TOLERANCE`] far below the size of a ball.
-            ("R", radius, (1e-4..f64::INFINITY).contains(&radius), "0.0001 m or more; a carom ball has 0.03075"),
+            (
+                "R",
+                radius,
+                (1e-4..f64::INFINITY).contains(&radius),
+                "a finite number of metres from 0.0001 on; a carom ball has 0.03075",
+            ),
             // Ball: from a light toy ball to more than any stone ball. Cue: from a stick to an iron bar.
             ("m", ball_mass, (0.001..=1.0).contains(&ball_mass), "0.001 to 1 kg; a carom ball has 0.21"),
             ("M", cue_mass, (0.05..=5.0).contains(&cue_mass), "0.05 to 5 kg; a carom cue has 0.5"),
@@ -323,6 +328,8 @@ mod tests {
         let words = "line 9, mu_s: invalid type: string \"slow\", expected a number";
         assert!(message.contains(words), "{message}");
         assert!(Table::from_toml("").unwrap_err().to_string().ends_with("`name` is missing"));
+        let message = Table::from_toml(&TEXTBOOK.replace("R = 0.03075", "R = inf")).unwrap_err().to_string();
+        assert!(message.contains("R = inf; accepted is a finite number of metres from 0.0001 on"), "{message}");
     }
 
     #[test]

@@ -189,6 +189,17 @@ fn each_recommend_batch_line_has_its_own_rule_and_table() {
 }
 
 #[test]
+fn a_recommend_batch_line_without_a_rule_has_that_of_the_command() {
+    let line = |rule: &str| format!(r#"{{"preset":"match","layout":[[-0.5,0],[0,0],[0.5,0.03]]{rule}}}"#);
+    let named = batch(&["recommend", "--policy-only"], line(r#","rule":"3c""#)).ok().json()[0]["cue"].clone();
+    let [default, other] = ["three-cushion", "straight"].map(|rule| {
+        let answer = batch(&["recommend", "--policy-only", "--rule", rule], line("")).ok();
+        answer.json()[0]["cue"].clone()
+    });
+    assert!(default == named && other != named, "{named} {default} {other}");
+}
+
+#[test]
 fn at_timeout_the_best_attempt_is_reported_as_such() {
     // The balls are in three corners and there is time for one batch of simulated shots at most, which finds no three-cushion shot.
     let layout = "-1.38,-0.67 1.38,0.67 1.38,-0.67";

@@ -83,6 +83,9 @@ fn every_shell_has_completions() {
             "{shell}"
         );
     }
+    let fixed = ["q-learning", "thesis-ddpg", "future-work", "full none", "make miss undo"];
+    let script = stdout(&["completions", "bash"]);
+    assert!(fixed.iter().all(|words| script.contains(words)), "{script}");
     assert!(stderr(&["completions", "tcsh"], 2).contains("bash"));
 }
 
@@ -91,6 +94,12 @@ fn there_is_a_manual_page_for_the_program_and_every_subcommand() {
     assert!(stdout(&["man"]).contains("carom\\-recommend(1)"), "{}", stdout(&["man"]));
     assert!(stdout(&["man", "recommend"]).contains("budget\\-ms"));
     assert!(stdout(&["man", "table", "check"]).contains("TOML"));
+    for page in [&["man"][..], &["man", "drill"], &["man", "drill", "list"]] {
+        let page = stdout(page);
+        assert!(page.contains(&format!(" {}", env!("CARGO_PKG_VERSION"))) && page.contains(".SH VERSION"), "{page}");
+        assert!(!page.contains("help(1)") && !page.contains("docs/"), "no page or file that may be missing: {page}");
+    }
+    assert!(stderr(&["man", "simulate", "recommend"], 2).contains("\"carom simulate\" has no subcommands"));
     let message = stderr(&["man", "snooker"], 2);
     assert!(message.contains("snooker") && message.contains("recommend"), "{message}");
 }
@@ -206,6 +215,8 @@ fn the_command_line_page_lists_exactly_the_existing_options() {
 fn the_command_line_page_names_every_json_field() {
     let home = tempfile::tempdir().unwrap();
     let page = include_str!("../../docs/command-line.md");
+    let entries = "[[trial]]\ntest = \"lag\"\nstop = 3.2\n";
+    std::fs::write(home.path().join("entries.toml"), entries).unwrap();
     for line in [
         "simulate --rule straight --shot 0,0.3,0,1,4",
         "simulate --shot 0,0.3,0,1,4 --method steps --dt 0.01",
@@ -219,6 +230,10 @@ fn the_command_line_page_names_every_json_field() {
         "play --coach --innings 1 --strokes 2 --budget-ms 50",
         "play --against-coach --innings 1 --strokes 2 --budget-ms 50",
         "doctor",
+        "accuracy --quick --shots 8 --table match",
+        "calibrate --tests",
+        "calibrate --simulate 1",
+        "calibrate entries.toml",
     ] {
         let name = line.split(' ').next().unwrap();
         let section =

@@ -169,8 +169,8 @@ fn merging_incomplete_or_mismatched_parts_is_refused() {
         assert!(out.is_empty(), "{out}");
         assert!(!["EOF", "missing field", "expected", "struct"].iter().any(|jargon| error.contains(jargon)), "{error}");
     }
-    for shard in ["0/3", "4/3", "2", "a/b", "1/0"] {
-        assert_eq!(run(&["evaluate", "--shard", shard]).code, Some(2), "{shard}");
+    for shard in ["0/3", "4/3", "2", "a/b", "1/0", "1/4294967296"] {
+        run(&["evaluate", "--shard", shard]).fails(2, &["K/N like 2/8, N up to 4294967295"]);
     }
 }
 

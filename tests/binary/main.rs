@@ -17,6 +17,7 @@ mod exit_codes;
 mod fuzz;
 mod hostile;
 mod locale;
+mod names;
 mod program;
 mod pty;
 mod refusals;

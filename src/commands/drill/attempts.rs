@@ -29,6 +29,10 @@ pub struct TryArgs {
     /// Shift the balls by half a ball at each repetition except the first.
     #[arg(long)]
     shifted: bool,
+    /// The table to play on: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file. It must have the size
+    /// of the exercise's table. Default: the exercise's table
+    #[arg(long)]
+    table: Option<String>,
     #[command(flatten)]
     options: PlayOptions,
 }
@@ -53,6 +57,10 @@ pub struct RunArgs {
     /// Maximum number of attempts.
     #[arg(long, default_value_t = 1000, value_parser = whole_number(1..=MAX_STROKES))]
     strokes: u32,
+    /// The table to play on: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file. It must have the size
+    /// of the exercise's table. Default: the exercise's table
+    #[arg(long)]
+    table: Option<String>,
     #[command(flatten)]
     options: PlayOptions,
 }
@@ -76,26 +84,24 @@ pub struct ExamArgs {
 pub fn try_stroke(args: &TryArgs) -> Result<(), Failure> {
     let stroke: StrokeInput = args.shot.parse()?;
     let workspace = Workspace::open();
-    let mut session = args.options.session(Goal::Free, vec![workspace.exercise(&args.name)?.clone()])?;
+    let exercise = workspace.exercise(&args.name)?.clone();
+    let mut session = args.options.session(Goal::Free, vec![exercise], args.table.as_deref())?;
     session.shifted = args.shifted;
     play(&workspace.store, session, &args.options, Strokes::Same(stroke), args.repeat as usize)
 }
 
 pub fn run(args: &RunArgs) -> Result<(), Failure> {
     let workspace = Workspace::open();
-    let mut session = args.options.session(Goal::Run(args.goal), vec![workspace.exercise(&args.name)?.clone()])?;
+    let exercise = workspace.exercise(&args.name)?.clone();
+    let mut session = args.options.session(Goal::Run(args.goal), vec![exercise], args.table.as_deref())?;
     session.shifted = args.shifted;
     play(&workspace.store, session, &args.options, strokes(args.coach), args.strokes as usize)
 }
 
 pub fn exam(args: &ExamArgs) -> Result<(), Failure> {
     let workspace = Workspace::open();
-    if args.options.table.is_some() {
-        return Err(Failure::wrong_input(
-            "an exam is played on the tables of its exercises, for which its averages are known; leave out --table",
-        ));
-    }
-    let mut session = args.options.session(Goal::Exam, Vec::new())?;
+    // On the tables of its exercises, for which its averages are known.
+    let mut session = args.options.session(Goal::Exam, Vec::new(), None)?;
     // The same seed determines the exam and the errors in it.
     session.exercises = draw(workspace.library.exercises(), args.level, session.seed).map_err(Failure::failed)?;
     play(&workspace.store, session, &args.options, strokes(args.coach), LENGTH)

@@ -12,7 +12,7 @@ use crate::{
     commands::{
         Failure,
         input::whole_number,
-        output::{json_line, print_line, print_table, shot_text, units},
+        output::{json_line, print_line, print_note, print_table, shot_text, units},
     },
     drills::{Category, Exercise, Filter, Record, encode},
     table::{BALL_NAMES, CueBall},
@@ -89,9 +89,8 @@ pub fn list(args: &ListArgs) -> Result<(), Failure> {
         ]);
     }
     if rows.is_empty() {
-        return Err(Failure::failed("there are no such exercises; carom drill list without a filter shows all"));
-    }
-    if !args.json {
+        print_note("there are no such exercises; carom drill list without a filter shows all");
+    } else if !args.json {
         let heads = ["name", "category", "grade", "rule", "made", "tried", "high run", "title"];
         print_table(heads, rows, &[2, 4, 5, 6])?;
     }

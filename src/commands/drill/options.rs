@@ -1,11 +1,13 @@
 //! Options that the playing subcommands share, and the typed stroke.
 
+use std::time::Duration;
+
 use super::workspace::skill_or_default;
 use crate::{
     coach::Skill,
     commands::{
         Failure,
-        input::{parse_seed, table_by_name, whole_number},
+        input::{parse_seed, search_limits, table_by_name, whole_number, whole_number_from},
         lookup::skill_by_name,
         output::{player_and_rule_words, print_note},
         typed_stroke::TypedStroke,
@@ -18,6 +20,9 @@ use crate::{
 /// The word that requests the coach's shot.
 const COACH: &str = "coach";
 
+/// Default time that the coach has for a shot, ms, if neither a time nor a number of simulations is given.
+const BUDGET_MS: u64 = 300;
+
 /// The player, and the form of the output.
 #[derive(Debug, clap::Args)]
 pub struct PlayOptions {
@@ -29,29 +34,30 @@ pub struct PlayOptions {
     /// Seed of the errors; without it they differ every time.
     #[arg(long, value_parser = parse_seed)]
     seed: Option<u64>,
-    /// Time that the coach has for a shot, ms.
-    #[arg(long, default_value_t = 300, value_parser = whole_number(0..=3_600_000_u64))]
-    pub(super) budget_ms: u64,
+    /// Time that the coach has for a shot, ms. Default: 300, or unlimited if --simulations is given.
+    #[arg(long, value_parser = whole_number(0..=3_600_000_u64))]
+    pub(super) budget_ms: Option<u64>,
+    /// Number of simulations after which the coach starts nothing new.
+    ///
+    /// With --seed and without --budget-ms, the same strokes then give the same session on every machine. As for `carom recommend`, a
+    /// minimum of work is always done in addition.
+    #[arg(long, value_name = "COUNT", value_parser = whole_number_from(1_u64))]
+    pub(super) simulations: Option<u64>,
     /// Let the coach recommend neither jumps over a ball nor massés, which most clubs forbid.
     #[arg(long)]
     pub(super) no_jumps: bool,
-    /// The table to play on: "match", "textbook", "thesis", one of your own by its name, or the path of a TOML file. It must have the size
-    /// of the exercise's table, or with carom play that of a bundled table; exams have tables of their own. Default: the exercise's table,
-    /// with carom play "match"
-    #[arg(long)]
-    pub table: Option<String>,
     /// Print JSON: one object a line, of the kinds "position", "attempt", "refused" and "result".
     #[arg(long)]
     pub(super) json: bool,
 }
 
 impl PlayOptions {
-    /// Creates a session that is played in the simulator.
+    /// Creates a session that is played in the simulator, on the exercises' tables or on `table`.
     ///
     /// # Errors
     /// Fails if the table does not exist, or if its size differs from that of an exercise.
-    pub fn session(&self, goal: Goal, exercises: Vec<Exercise>) -> Result<Session, Failure> {
-        let own = self.table.as_deref().map(table_by_name).transpose()?;
+    pub fn session(&self, goal: Goal, exercises: Vec<Exercise>, table: Option<&str>) -> Result<Session, Failure> {
+        let own = table.map(table_by_name).transpose()?;
         if let Some(own) = &own {
             exercises.iter().try_for_each(|exercise| check_size(exercise, own))?;
         }
@@ -60,6 +66,11 @@ impl PlayOptions {
         let is_another = |own: &Table| session.exercises.iter().any(|exercise| exercise.table != own.name);
         session.table = own.filter(is_another).map(Box::new);
         Ok(session)
+    }
+
+    /// Returns the time and the number of simulations that the coach has for a shot.
+    pub(super) fn limits(&self) -> (Duration, u64) {
+        search_limits(self.budget_ms, self.simulations, BUDGET_MS)
     }
 
     /// Prints whose errors are played, and a game's rule, for a user who may expect those of the full-screen program.

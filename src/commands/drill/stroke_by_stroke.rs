@@ -1,7 +1,5 @@
 //! A session that is played stroke by stroke: each stroke is judged, saved, and then printed.
 
-use std::time::Duration;
-
 use serde::Serialize;
 
 use super::{
@@ -38,8 +36,8 @@ pub struct StrokeByStroke<'a> {
     coach: Option<Coach>,
     /// The coach's shot for a layout: for the same layout it is searched only once.
     advice: Option<(Layout, Advice)>,
-    /// The exercise and the layout that were printed last.
-    shown: Option<(String, Layout)>,
+    /// What was printed last: the exercise, the layout and, in JSON, the number of the stroke.
+    shown: Option<(String, Layout, Option<usize>)>,
 }
 
 /// The position of the balls before a stroke.
@@ -109,7 +107,9 @@ struct Refused {
 #[derive(Serialize)]
 #[serde(tag = "kind", rename = "result")]
 struct Outcome {
-    session: String,
+    /// Absent before the first attempt, with which the session is saved.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    session: Option<String>,
     over: bool,
     #[serde(flatten)]
     score: Score,
@@ -147,14 +147,14 @@ impl<'a> StrokeByStroke<'a> {
         &self.session
     }
 
-    /// Prints the position to be played, if it has changed.
+    /// Prints the position to be played: for people if it has changed, in JSON once before every stroke.
     pub fn show(&mut self, table: &Table, layout: &Layout) -> Result<(), Failure> {
         let Some(Exercise { name, title, rule, .. }) = self.session.exercise() else { return Ok(()) };
-        let shown = Some((name.clone(), *layout));
+        let number = self.session.attempts.len() + 1;
+        let shown = Some((name.clone(), *layout, self.options.json.then_some(number)));
         if shown == self.shown {
             return Ok(());
         }
-        let number = self.session.attempts.len() + 1;
         let cue_ball = self.session.next_cue_ball();
         if self.options.json {
             let rule = rule.name();
@@ -278,8 +278,15 @@ impl<'a> StrokeByStroke<'a> {
 
     /// Explains why the coach did not play.
     pub fn no_point(&self) -> Failure {
-        let budget = self.options.budget_ms;
-        Failure::failed(format_args!("the coach found no point in {budget} ms; a larger --budget-ms may help"))
+        let (budget, simulations) = self.options.limits();
+        Failure::failed(match self.options.simulations {
+            Some(_) => {
+                format!("the coach found no point in {simulations} simulations; a larger --simulations may help")
+            }
+            None => {
+                format!("the coach found no point in {} ms; a larger --budget-ms may help", budget.as_millis())
+            }
+        })
     }
 
     /// Returns the model shot, if the balls are in its position.
@@ -298,9 +305,9 @@ impl<'a> StrokeByStroke<'a> {
         let (Shooter { skill, doubt }, seed) = (self.session.shooter(), self.session.seed);
         // In a game, the next point counts, too.
         let plan = self.session.is_game();
-        let budget = Duration::from_millis(self.options.budget_ms);
+        let (budget, simulations) = self.options.limits();
         let jumps = !self.options.no_jumps;
-        let request = Request { rule, skill, doubt, plan, jumps, budget, seed, ..Request::default() };
+        let request = Request { rule, skill, doubt, plan, jumps, budget, simulations, seed, ..Request::default() };
         let known = self.coach.take().filter(|coach| coach.table() == table);
         let coach = self.coach.insert(known.map_or_else(|| coach_for(table.clone(), "bundled"), Ok)?);
         let advice = advise(coach, layout, &request, self.session.is_coachs_turn()).map_err(Failure::wrong_input)?;
@@ -323,7 +330,7 @@ impl<'a> StrokeByStroke<'a> {
         let score = score(session).filter(|_| session.goal == Goal::Exam);
         if self.options.json {
             return Ok(json_line(&Outcome {
-                session: session.id.clone(),
+                session: (!session.attempts.is_empty()).then(|| session.id.clone()),
                 over: session.is_over(),
                 score: record.into(),
                 sides: session.is_match().then(|| Sides {

@@ -9,6 +9,7 @@ use super::{Workspace, workspace::print_notes};
 use crate::{
     commands::{
         Failure,
+        input::{BYTE_ORDER_MARK, open_input},
         output::{check_folder_exists, json_line, plural, print_line, print_note},
     },
     drills::{
@@ -80,22 +81,20 @@ pub fn export(args: &ExportArgs) -> Result<(), Failure> {
     Err(Failure::failed(format_args!("{} could not be read; the export lacks this data", plural(notes.len(), "file"))))
 }
 
+/// Reads a text of at most [`storage::MAX_PRACTICE_FILE`] bytes from a file or a pipe.
+fn read(file: &Path) -> io::Result<String> {
+    let (mut text, most) = (String::new(), storage::MAX_PRACTICE_FILE);
+    if open_input(file)?.take(most + 1).read_to_string(&mut text)? as u64 > most {
+        return Err(io::Error::other(format!("it is longer than {most} bytes, the most that is accepted")));
+    }
+    Ok(text)
+}
+
 pub fn import(args: &ImportArgs) -> Result<(), Failure> {
     let file = args.file.display();
-    let mut text = String::new();
-    let most = storage::MAX_PRACTICE_FILE;
-    let read = if args.file == Path::new("-") {
-        match io::stdin().take(most + 1).read_to_string(&mut text) {
-            Ok(bytes) if bytes as u64 > most => {
-                Err(io::Error::other(format!("it is longer than {most} bytes, the most that is accepted")))
-            }
-            read => read.map(drop),
-        }
-    } else {
-        storage::read_text(&args.file, most).map(|read| text = read)
-    };
-    read.map_err(|error| Failure::failed(format_args!("{file} cannot be read: {error}")))?;
-    let practice = Practice::parse(&text).map_err(|error| Failure::wrong_input(format_args!("{file}: {error}")))?;
+    let text = read(&args.file).map_err(|error| Failure::failed(format_args!("{file} cannot be read: {error}")))?;
+    let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&text);
+    let practice = Practice::parse(text).map_err(|error| Failure::wrong_input(format_args!("{file}: {error}")))?;
     let workspace = Workspace::open();
     let imported = workspace.store.import(&practice);
     let Imported { positions, sessions, longer, known, refused } = &imported;

@@ -7,7 +7,7 @@ mod self_play;
 mod shots;
 mod spec;
 
-use std::{path::PathBuf, time::Duration};
+use std::path::PathBuf;
 
 use clap::builder::NonEmptyStringValueParser;
 
@@ -19,7 +19,10 @@ use self::{
 };
 use super::{
     Failure,
-    input::{note_training_mismatch, parse_minutes, parse_seed, table_by_name, whole_number, whole_number_from},
+    input::{
+        note_training_mismatch, parse_minutes, parse_seed, search_limits, table_by_name, whole_number,
+        whole_number_from,
+    },
     lookup::{bundled_policy, policy_by_name, skill_by_name},
     output::{json_line, print_line},
     recommend::coach_for,
@@ -219,10 +222,8 @@ fn measure(args: &Args) -> Result<(Spec, Records), Failure> {
 
 /// Returns the request to the recommender.
 fn request(args: &Args, skill: Skill) -> Request {
-    let (budget, simulations) = match args.simulations {
-        Some(simulations) => (Duration::MAX, simulations),
-        None => (Duration::from_millis(args.budget_ms), u64::MAX),
-    };
+    // The command line accepts one of the two; the default of the other does not count.
+    let (budget, simulations) = search_limits(None, args.simulations, args.budget_ms);
     let doubt = args.choose_doubt.or(args.doubt).unwrap_or(Doubt::FULL);
     let Args { rule, plan, no_jumps, seed, .. } = *args;
     Request { rule, skill, doubt, plan, jumps: !no_jumps, budget, simulations, seed, ..Request::default() }

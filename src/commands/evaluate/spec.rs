@@ -107,7 +107,7 @@ impl FromStr for Shard {
         let shard = text.split_once('/').and_then(|(part, of)| Some((part.parse().ok()?, of.parse().ok()?)));
         match shard {
             Some((part, of)) if (1..=of).contains(&part) => Ok(Self { part, of }),
-            _ => Err(format!("\"{text}\" is not a part: write K/N like 2/8, K from 1 to N")),
+            _ => Err(format!("\"{text}\" is not a part: write K/N like 2/8, N up to {}, K from 1 to N", u32::MAX)),
         }
     }
 }

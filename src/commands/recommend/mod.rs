@@ -21,7 +21,8 @@ use self::{
 use super::{
     Failure,
     input::{
-        PositionArgs, TableCache, answer_lines, note_training_mismatch, parse_seed, whole_number, whole_number_from,
+        PositionArgs, TableCache, answer_lines, note_training_mismatch, parse_seed, search_limits, whole_number,
+        whole_number_from,
     },
     lookup::{policy_by_name, skill_by_name},
     output::{chance_words, impulse_words, player_and_rule_words, units},
@@ -50,7 +51,7 @@ const BUDGET_MS: u64 = 500;
 pub struct Args {
     #[command(flatten)]
     position: PositionArgs,
-    /// What counts as a point: straight, one-cushion or three-cushion.
+    /// What counts as a point: straight, one-cushion or three-cushion. In a batch, for lines without `rule`.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
     /// Who plays the shot: perfect, expert, world-class, national, club, beginner or own.
@@ -63,7 +64,8 @@ pub struct Args {
     /// Uncertainty in addition to the errors of the hand: full or none.
     ///
     /// With "full", the table is known as well as it was measured, and the positions of the balls within 3 mm. A multiple of the first and
-    /// a value in mm for the second are accepted, too, like "table=1,placing=3". A perfect player has no doubts.
+    /// a value in mm for the second are accepted, too, like "table=1,placing=3". A part that is
+    /// left out is as with "full". A perfect player has no doubts.
     #[arg(long, default_value_t = Doubt::FULL)]
     doubt: Doubt,
     /// Rank shots by the probability of this point and the next, so that the balls stay easy to play.
@@ -103,7 +105,7 @@ pub struct Args {
     #[arg(long)]
     json: bool,
     /// JSON Lines of layouts with `preset`, `layout` and `rule`; "-" reads the standard input.
-    #[arg(long, value_name = "FILE", conflicts_with = "rule", value_parser = NonEmptyStringValueParser::new())]
+    #[arg(long, value_name = "FILE", value_parser = NonEmptyStringValueParser::new())]
     batch: Option<String>,
 }
 
@@ -112,8 +114,7 @@ pub struct Args {
 struct BatchLine {
     preset: String,
     layout: Layout,
-    #[serde(default)]
-    rule: RuleName,
+    rule: Option<RuleName>,
 }
 
 impl Keys for BatchLine {
@@ -204,7 +205,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(file) = &args.batch {
         let mut coaches = TableCache::new(|table| coach_for(table, &args.policy));
         let mut noted = HashSet::new();
-        return answer_lines(file, |BatchLine { preset, layout, rule: RuleName(rule) }: BatchLine| {
+        return answer_lines(file, |BatchLine { preset, layout, rule }: BatchLine| {
+            let rule = rule.map_or(args.rule, |RuleName(rule)| rule);
             let coach = coaches.get(&preset)?;
             if noted.insert((preset, rule)) {
                 note(args, coach, rule);
@@ -283,6 +285,7 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
         let shot = Shot { make_probability: predicted, ..Shot::of(cue, None, None, Source::Policy, None) };
         return Ok(RecommendAnswer::of(shot, 0, start.elapsed()));
     }
+    let (budget, simulations) = search_limits(args.budget_ms, args.simulations, BUDGET_MS);
     let request = Request {
         rule,
         skill: args.skill,
@@ -290,12 +293,8 @@ fn shot(args: &Args, coach: &Coach, layout: &Layout, rule: Rule) -> Result<Recom
         plan: args.plan,
         jumps: !args.no_jumps,
         first: args.first,
-        budget: match (args.budget_ms, args.simulations) {
-            (Some(budget), _) => Duration::from_millis(budget),
-            (None, Some(_)) => Duration::MAX,
-            (None, None) => Duration::from_millis(BUDGET_MS),
-        },
-        simulations: args.simulations.unwrap_or(u64::MAX),
+        budget,
+        simulations,
         seed: args.seed,
         ..Request::default()
     };

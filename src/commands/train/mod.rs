@@ -223,6 +223,7 @@ fn train(mut run: Run, options: &TrainOptions<'_>) -> Result<(), Failure> {
         ));
     }
     let mut progress = Progress::new(&run, options.json, None);
+    progress.repeat_result(&run).map_err(failure)?;
     let ending = run.train(&options.limits(options.limit), &mut |report| progress.report(report));
     let written = progress.close();
     match ending.map_err(failure)? {

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::{
     commands::output::print_note,
-    learning::run::{Report, Run, metrics::Record},
+    learning::run::{Report, Run, RunError, metrics::Record},
     printing::{self, shell_word},
 };
 
@@ -67,6 +67,14 @@ impl Progress {
     pub fn close(self) -> io::Result<()> {
         self.bar.finish_and_clear();
         self.unwritten.map_or(Ok(()), Err)
+    }
+
+    /// Prints the last line of a run that is finished already, in JSON: it has the result, and no other line follows.
+    pub fn repeat_result(&mut self, run: &Run) -> Result<(), RunError> {
+        if self.json && run.learner().is_finished() {
+            run.last_line()?.iter().for_each(|record| self.print_record(record));
+        }
+        Ok(())
     }
 
     /// Prints a report.

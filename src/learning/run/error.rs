@@ -38,7 +38,7 @@ pub enum RunError {
     #[error("another process is training in {0}; wait until it ends or stop it, or choose another folder with --run")]
     Busy(String),
     /// A file of the run cannot be read or written.
-    #[error("{path} cannot be used: {reason}")]
+    #[error("{path} cannot be {}: {reason}", participle(reason))]
     File {
         /// Path of the file.
         path: String,
@@ -98,6 +98,15 @@ pub enum RunError {
         /// The run's folder.
         folder: String,
     },
+}
+
+/// Returns what cannot be done with a file: a full or read-only disk only refuses writing.
+fn participle(reason: &std::io::Error) -> &'static str {
+    use std::io::ErrorKind::{QuotaExceeded, ReadOnlyFilesystem, StorageFull};
+    match reason.kind() {
+        QuotaExceeded | ReadOnlyFilesystem | StorageFull => "written",
+        _ => "used",
+    }
 }
 
 /// Version of the checkpoint format.

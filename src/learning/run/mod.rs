@@ -39,7 +39,7 @@ pub use self::{
 use self::{
     checkpoint::{Checkpoints, Loaded, State},
     error::file,
-    metrics::MetricsFile,
+    metrics::{MetricsFile, Record},
 };
 use crate::{
     learning::{evaluation::Score, learner::Learner},
@@ -162,6 +162,15 @@ impl Run {
         let number = |name: &str| result.get(name)?.as_f64();
         let score = Score { mean_reward: number(REWARD)?, best_of_k: number(BEST_OF_K)? };
         self.learner.is_finished().then_some(score)
+    }
+
+    /// Returns the last line of metrics, if there is one. That of a finished run has its result.
+    ///
+    /// # Errors
+    /// Fails if the file cannot be read.
+    pub fn last_line(&self) -> Result<Option<Record>, RunError> {
+        let path = self.folder.join(METRICS);
+        Ok(metrics::read(&path).map_err(file(&path))?.pop())
     }
 
     /// The run's folder.

@@ -318,3 +318,10 @@ fn a_follower_sees_a_run_start_report_and_end() {
     followed.apply(follower.poll().unwrap());
     assert!(followed.notices[0].contains("metrics.jsonl has been removed"), "{:?}", followed.notices);
 }
+
+#[test]
+fn a_full_disk_is_said_to_refuse_writing() {
+    let said = |kind: std::io::ErrorKind| file(Path::new("metrics.jsonl"))(kind.into()).to_string();
+    assert!(said(std::io::ErrorKind::StorageFull).starts_with("metrics.jsonl cannot be written: "));
+    assert!(said(std::io::ErrorKind::PermissionDenied).starts_with("metrics.jsonl cannot be used: "));
+}

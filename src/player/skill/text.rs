@@ -25,6 +25,14 @@ pub enum SkillError {
         /// The names of the errors that it does not state.
         missing: String,
     },
+    /// An error is stated twice.
+    #[error("the skill \"{text}\" has {name} twice; each error is accepted once")]
+    Twice {
+        /// The text.
+        text: String,
+        /// The name of the error.
+        name: &'static str,
+    },
     /// The average is outside the measured range.
     #[error(
         "no measured player averages {}; accepted are {} to {} points an inning at three-cushion, or world-class \
@@ -97,6 +105,7 @@ impl FromStr for Skill {
             return Self::of_average(average).ok_or(SkillError::Average(average));
         }
         let unknown = || SkillError::Unknown(text.to_owned());
+        let twice = |name| SkillError::Twice { text: text.to_owned(), name };
         let number = |text: &str| text.trim().parse::<f64>().map_err(|_| unknown());
         // Written so that NaN is rejected.
         let checked = |name, value: f64, most, unit| {
@@ -108,7 +117,7 @@ impl FromStr for Skill {
             if let Some(which) = GROWTH_LIMITS.iter().position(|growth| growth.0 == name.trim()) {
                 let (name, most) = GROWTH_LIMITS[which];
                 if growths[which].replace(checked(name, number(value)?, most, "(a share)")?).is_some() {
-                    return Err(unknown());
+                    return Err(twice(name));
                 }
                 continue;
             }
@@ -122,7 +131,7 @@ impl FromStr for Skill {
                 None => checked(input.name(), number(value)?, most, input.unit())? * unit,
             };
             if values[input as usize].replace(value).is_some() {
-                return Err(unknown());
+                return Err(twice(input.name()));
             }
         }
         let [Some(a), Some(b), Some(theta), Some(phi), Some(speed)] = values else {
@@ -203,9 +212,9 @@ mod tests {
         let said = |text: &str| text.parse::<Skill>().unwrap_err().to_string();
         assert!(said("master").contains("master") && said("master").contains("expert"));
         assert!(said("a=0.7,b=0.7,theta=0.2,phi=0.2").contains("V="), "one is missing");
-        assert!(said("a=1,a=1,theta=0.2,phi=0.2,V=0.1").contains("a=1,a=1"));
+        assert!(said("a=1,a=1,theta=0.2,phi=0.2,V=0.1").contains("has a twice"));
         let twice = said("a=1,b=1,theta=0.2,phi=0.2,V=0.1,growth=0.5,growth=0.1");
-        assert!(twice.contains("growth=0.5,growth=0.1"), "{twice}");
+        assert!(twice.contains("has growth twice"), "{twice}");
         for bad in ["-0.1", "46", "NaN", "inf"] {
             let said = said(&format!("a=0.7,b=0.7,theta=0.2,phi={bad},V=0.1"));
             assert!(said.contains(&format!("phi = {bad}")) && said.contains("0 to 45 degrees"), "{said}");

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::of_kind;
-use crate::program::{SAVE, carom, command, drill, folder, run_with_input};
+use crate::program::{SAVE, carom, command, drill, folder, run_with_input, session_files};
 
 #[test]
 fn logged_results_are_scored_correctly() {
@@ -105,6 +105,8 @@ fn a_run_reads_strokes_and_coach_and_skips_invalid_lines() {
     let refused: Vec<u64> = of_kind(&lines, "refused").iter().map(|line| line["line"].as_u64().unwrap()).collect();
     assert_eq!((run.code, refused), (Some(2), vec![3, 4, 5]));
     let attempts = of_kind(&lines, "attempt");
+    let numbers: Vec<_> = of_kind(&lines, "position").iter().map(|line| line["number"].as_u64().unwrap()).collect();
+    assert_eq!(numbers, [1, 2, 3], "one before every stroke, though the balls do not change");
     let results: Vec<_> =
         attempts.iter().map(|attempt| (attempt["made"].as_bool(), attempt["helped"].as_bool())).collect();
     let [no, yes] = [false, true].map(Some);
@@ -112,6 +114,39 @@ fn a_run_reads_strokes_and_coach_and_skips_invalid_lines() {
     assert_eq!(attempts[0]["verdict"], "No point: no ball was hit");
     let result = lines.last().unwrap();
     assert_eq!([&result["kind"], &result["over"], &result["high_run"]], [&json!("result"), &json!(true), &json!(2)]);
+}
+
+#[test]
+fn the_same_seed_and_simulations_give_the_same_strokes() {
+    let folder = folder();
+    let args = ["--coach", "--simulations", "300", "--seed", "3", "--skill", "club", "--json"];
+    for command in [&["drill", "run", "mine", "--goal", "2", "--strokes", "3"][..], &["play", "--innings", "1"][..]] {
+        let strokes = || {
+            let lines = carom(folder.path(), &[command, &args[..]].concat()).json();
+            of_kind(&lines, "attempt").into_iter().cloned().collect::<Vec<_>>()
+        };
+        let once = strokes();
+        assert!(!once.is_empty() && once == strokes(), "{once:?}");
+    }
+    drill(folder.path(), &["try", "mine", "--shot", "coach", "--simulations", "0"]).fails(2, &["whole number from 1"]);
+}
+
+#[test]
+fn a_session_without_attempts_is_not_named_because_it_is_not_saved() {
+    let folder = folder();
+    let args = ["drill", "run", "mine", "--goal", "2", "--json"];
+    let result = |lines: &str| run_with_input(command(folder.path(), &args), lines).json().last().unwrap().clone();
+    let none = result("quit\n");
+    assert_eq!([&none["kind"], &none["session"], &none["tried"]], [&json!("result"), &Value::Null, &json!(0)]);
+    assert_eq!(session_files(folder.path()).len(), 0);
+    let name = result("0,0,0,90,1\n")["session"].as_str().unwrap().to_owned();
+    assert!(session_files(folder.path())[0].to_string_lossy().contains(&name));
+}
+
+#[test]
+fn exams_offer_no_table() {
+    let folder = folder();
+    assert!(!drill(folder.path(), &["exam", "--help"]).out.contains("--table"));
 }
 
 #[test]
@@ -131,7 +166,7 @@ fn a_game_continues_from_end_positions_until_its_last_inning() {
     let lines = carom(folder.path(), &[&args[..], &["--seed", "5", "--json", "--budget-ms", "300"]].concat()).json();
     let mut lie = &Value::Null;
     for line in &lines {
-        // After a miscue the balls stay where they are, and no position is printed.
+        // After a miscue the balls stay where they are.
         match line["kind"].as_str() {
             Some("attempt") => lie = &line["end"],
             Some("position") => assert!(lie.is_null() || *lie == line["layout"], "{lie} {line}"),
@@ -222,7 +257,7 @@ fn exercises_accept_a_users_table_of_the_same_size() {
     assert_ne!(own[1]["end"], bundled[1]["end"], "the cloth has another friction");
     drill(folder.path(), &["try", "mine", "--shot", "coach", "--table", "thesis"])
         .fails(2, &["2.84 by 1.42 m", "\"thesis\" is another"]);
-    drill(folder.path(), &["exam", "--table", file]).fails(2, &["leave out --table"]);
+    drill(folder.path(), &["exam", "--table", file]).fails(2, &["--table"]);
     let game =
         run_with_input(command(folder.path(), &["play", "--table", file, "--innings", "1", "--json"]), "0,0,0,0,1\n")
             .json();

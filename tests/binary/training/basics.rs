@@ -69,6 +69,9 @@ fn a_run_trains_a_policy_that_can_be_evaluated() {
     carom(here, &format!("{SHORT} --run one")).fails(1, &["--resume"]);
     let finished = run_ok(here, "train --resume one");
     assert!(finished.err.contains("is finished") && finished.out.contains("640 shots"), "{}", finished.err);
+    let lines = run_ok(here, &format!("{SHORT} --run one --continue --json")).json();
+    let result = read_json(here.join("one/result.json"));
+    assert_eq!((lines.len(), &lines[0]["eval/mean_reward"]), (1, &result["held_out_reward"]), "{lines:?}");
 }
 
 #[test]

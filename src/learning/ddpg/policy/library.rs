@@ -9,7 +9,7 @@ use super::{Policy, file::PolicyError};
 use crate::storage::{NAME_RULE, is_name, write_atomic};
 
 /// Extension of the files.
-const EXTENSION: &str = "safetensors";
+pub const EXTENSION: &str = "safetensors";
 
 /// The reserved name that selects the bundled policies.
 pub const BUNDLED: &str = "bundled";
