@@ -154,11 +154,14 @@ impl DrillsPage {
         }
     }
 
-    /// Asks whether to discard the exam that is under way.
+    /// Asks whether to discard the exam that is under way. One without attempts is left without a question.
     fn ask_to_discard(&mut self) {
         let Some(exam) = &mut self.turn else { return };
         exam.finish_watching();
-        self.question = Some(Question::Discard(exam.latest_session().attempts.len(), exam.session.exercises.len()));
+        match exam.latest_session().attempts.len() {
+            0 => self.leave_page(),
+            made => self.question = Some(Question::Discard(made, exam.session.exercises.len())),
+        }
     }
 
     fn open_marked(&mut self) -> Option<Effect> {
@@ -174,9 +177,8 @@ impl DrillsPage {
         let exercise = self.catalogue.library.get(&drawn.name).unwrap_or(drawn).clone();
         self.close_exercise();
         let effect = self.open_exercise(exercise);
-        if self.page() == DrillContext::Exercise {
-            self.pages = vec![DrillContext::Library, DrillContext::Result, DrillContext::Exercise];
-        }
+        let opened = Some(self.page()).filter(|page| *page == DrillContext::Exercise);
+        self.pages = [DrillContext::Library, DrillContext::Result].into_iter().chain(opened).collect();
         Some(effect)
     }
 

@@ -315,7 +315,12 @@ impl DrillsPage {
 
     /// The skill in the open exercise, or in the next one if none is open. A session keeps the skill with which it was begun.
     pub fn skill(&self) -> Skill {
-        self.turn.as_ref().map_or(self.player.skill, |turn| turn.session.skill)
+        let session = match self.page() {
+            DrillContext::Match => None,
+            DrillContext::Result => self.exam_result.as_ref().map(|result| &result.session),
+            _ => self.turn.as_ref().map(|turn| &turn.session),
+        };
+        session.map_or(self.player.skill, |session| session.skill)
     }
 
     /// Opens the list of filmed shots.

@@ -101,6 +101,8 @@ fn an_exam_is_discarded_after_a_question() {
     let gone = resumed.press("Delete y F2");
     assert!(gone.app.saved_session().is_none_or(|last| last.into_sessions().iter().all(|one| one.practice.is_none())));
     gone.press("c").says("no unfinished exam or earlier session");
+    let unplayed = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter x");
+    assert_eq!(unplayed.app.key_context(), LIBRARY, "nothing was played: nothing is asked");
     Player::practising(TRUE_COLOUR).press("Delete").warns("no exam is under way");
 }
 
