@@ -31,11 +31,11 @@ impl DrillsPage {
         let left = left.map(|place| self.unfinished_sessions.remove(place));
         if let Some(left) = left {
             self.close_exercise();
-            return self.keeping_options(|page| Effect::Drill(page.practise(left)));
+            return Some(self.keeping_options(|page| Effect::Drill(page.practise(left))));
         }
         if let Some(left) = earlier() {
             self.close_exercise();
-            return self.keeping_options(|page| page.resume(left, page.player.coach_page_skill));
+            return Some(self.keeping_options(|page| page.resume(left, page.player.coach_page_skill)));
         }
         self.set_up_match();
         None
@@ -66,19 +66,19 @@ impl DrillsPage {
         };
         self.close_exercise();
         self.unfinished_sessions.retain(|left| !left.is_against_coach());
-        self.keeping_options(|page| {
+        Some(self.keeping_options(|page| {
             page.options.shifted = false;
             let mut session = page.new_session(page.match_setup.goal(), vec![opening]);
             session.coach_skill = page.match_setup.level;
             Effect::Drill(page.practise(session))
-        })
+        }))
     }
 
     /// Opens a match by `open`, which does not change the options of the exercises.
-    fn keeping_options(&mut self, open: impl FnOnce(&mut Self) -> Effect) -> Option<Effect> {
+    fn keeping_options(&mut self, open: impl FnOnce(&mut Self) -> Effect) -> Effect {
         let options = self.options.clone();
         let effect = open(self);
         self.options = options;
-        Some(effect)
+        effect
     }
 }

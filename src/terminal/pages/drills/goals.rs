@@ -38,10 +38,12 @@ impl Lengths {
                 self.game_innings = innings;
                 Goal::Match { innings: self.match_innings, points: 0, against_coach: false }
             }
-            Goal::Match { against_coach: true, .. } => Goal::Free,
-            Goal::Match { innings, .. } => {
-                self.match_innings = innings;
-                Goal::Match { innings, points: 0, against_coach: true }
+            Goal::Match { innings, points, against_coach } => {
+                if points == 0 {
+                    self.match_innings = innings;
+                }
+                let next = Goal::Match { innings: self.match_innings, points: 0, against_coach: true };
+                if against_coach { Goal::Free } else { next }
             }
             Goal::Exam => Goal::Free,
         }

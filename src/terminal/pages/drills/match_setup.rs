@@ -96,7 +96,7 @@ mod tests {
     fn every_distance_limit_and_level_can_be_chosen() {
         let mut setup = MatchSetup::default();
         let mut chosen = Vec::new();
-        for _ in 0..Skill::NAMED.len() + 1 {
+        for _ in 0..=Skill::NAMED.len() {
             setup.field = MatchField::Level;
             setup.choose(1);
             chosen.push(setup.level);
