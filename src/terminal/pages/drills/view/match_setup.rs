@@ -18,7 +18,7 @@ use crate::{
 };
 
 /// Widths of the names of the lines and of their values, columns.
-const NAME: u16 = 15;
+const NAME: u16 = 18;
 const VALUE: u16 = 18;
 
 /// Draws the screen. Returns the default text of the status line.
