@@ -4,8 +4,10 @@ use super::{
     Failure,
     drill::{MAX_STROKES, PlayOptions, Workspace, play, size_words, strokes},
     input::{table_by_name, whole_number},
+    lookup::skill_by_name,
 };
 use crate::{
+    coach::Skill,
     drills::{Exercise, Goal},
     game::Rule,
     table::{CueBall, Layout, PRESETS, Side, Table},
@@ -13,6 +15,9 @@ use crate::{
 
 /// Name of a game in the list of exercises.
 const GAME: &str = "game";
+
+/// Number of innings if neither innings nor points are given.
+const DEFAULT_INNINGS: u32 = 10;
 
 /// Play innings from the opening position.
 ///
@@ -24,9 +29,13 @@ pub struct Args {
     /// What counts as a point: straight, one-cushion or three-cushion.
     #[arg(long, default_value_t = Rule::StraightRail)]
     rule: Rule,
-    /// Number of innings.
-    #[arg(long, default_value_t = 10, value_parser = whole_number(1..=10_000_u32))]
-    innings: u32,
+    /// Number of innings. Default: 10, or no limit with --points
+    #[arg(long, value_parser = whole_number(1..=10_000_u32))]
+    innings: Option<u32>,
+    /// Number of points that wins a match. If the side that began reaches it, the other one has the equalising inning, from the first
+    /// position.
+    #[arg(long, value_parser = whole_number(1..=10_000_u32))]
+    points: Option<u32>,
     /// Maximum number of strokes; if innings are left then, a note says so.
     #[arg(long, default_value_t = 1000, value_parser = whole_number(1..=MAX_STROKES))]
     strokes: u32,
@@ -46,6 +55,9 @@ pub struct Args {
     /// Like --both, and the coach plays the other side.
     #[arg(long, conflicts_with = "coach")]
     against_coach: bool,
+    /// The coach's skill in a match against it, like --skill. Default: that of --skill
+    #[arg(long, requires = "against_coach", value_parser = skill_by_name)]
+    coach_skill: Option<Skill>,
     /// Let the coach play.
     #[arg(long)]
     coach: bool,
@@ -65,12 +77,24 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     };
     layout.validate(&table).map_err(Failure::wrong_input)?;
     let game = Exercise::new_own(GAME, args.rule, bundled, layout);
-    let &Args { innings, against_coach, .. } = args;
-    let goal = if args.both || against_coach { Goal::Match { innings, against_coach } } else { Goal::Game { innings } };
-    let mut session = args.options.session(goal, vec![game], Some(&args.table))?;
+    let mut session = args.options.session(goal(args)?, vec![game], Some(&args.table))?;
+    session.coach_skill = args.coach_skill;
     session.cue_ball = args.ball;
     let workspace = Workspace::open();
     play(&workspace.store, session, &args.options, strokes(args.coach), args.strokes as usize)
+}
+
+/// Returns the end of the game or match.
+fn goal(args: &Args) -> Result<Goal, Failure> {
+    let &Args { points, against_coach, .. } = args;
+    let innings = args.innings.unwrap_or(if points.is_some() { 0 } else { DEFAULT_INNINGS });
+    match (points, args.both || against_coach) {
+        (points, true) => Ok(Goal::Match { innings, points: points.unwrap_or(0), against_coach }),
+        (None, false) => Ok(Goal::Game { innings }),
+        (Some(points), false) => Err(Failure::wrong_input(format_args!(
+            "--points {points} is the distance of a match; add --both or --against-coach"
+        ))),
+    }
 }
 
 /// Returns the opening position with the cue ball on this side.

@@ -6,8 +6,11 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use super::{Category, Exercise, Par, Session};
 use crate::coach::Doubt;
 
-/// Number of exercises in an exam.
+/// Number of exercises in an exam; an exam of a single category has fewer if the category has.
 pub const LENGTH: usize = 20;
+
+/// Fewest exercises in an exam of a single category.
+const MIN_OF_CATEGORY: usize = 3;
 
 /// Attempts for each expected share of an exercise; over an exam their standard error is at most 0.1 points.
 const PAR_ATTEMPTS: usize = 1000;
@@ -25,10 +28,17 @@ pub enum ExamError {
     #[error("there is no exam of level {0}; accepted is 1 to {HIGHEST_LEVEL}")]
     Level(u8),
     /// There are too few exercises.
-    #[error("an exam of level {level} needs {LENGTH} exercises of grade {} to {}; there are {found}", grades.start(), grades.end())]
+    #[error(
+        "an exam of level {level}{} needs {needed} exercises of grade {} to {}; there are {found}",
+        category.map_or(String::new(), |category| format!(" in \"{}\"", category.title())), grades.start(), grades.end()
+    )]
     TooFew {
         /// The level.
         level: u8,
+        /// The category; `None` for all.
+        category: Option<Category>,
+        /// Minimum number of exercises.
+        needed: usize,
         /// The grades of the level.
         grades: std::ops::RangeInclusive<u8>,
         /// Number of suitable exercises.
@@ -41,28 +51,40 @@ pub fn grades(level: u8) -> Option<std::ops::RangeInclusive<u8>> {
     GRADES.get(usize::from(level).wrapping_sub(1)).cloned()
 }
 
-/// Draws the exercises of an exam of `level` 1 to [`HIGHEST_LEVEL`] from `library`, easy ones first. They are spread
-/// over the categories and grades as evenly as the library allows.
-/// The player's own positions are excluded because they have no measured par, and jumps and massés because most clubs
-/// forbid them. The same seed draws the same exam. The pars of the result are those of strokes in the program, which are made more often
+/// Returns the category of an exam's exercises; `None` if there are several.
+pub fn category(exercises: &[Exercise]) -> Option<Category> {
+    let first = exercises.first()?.category;
+    exercises.iter().all(|exercise| exercise.category == first).then_some(first)
+}
+
+/// Draws the exercises of an exam of `level` 1 to [`HIGHEST_LEVEL`] from `library`, easy ones first: of one `category`,
+/// or of all. They are spread over the categories and grades as evenly as the library allows.
+/// The player's own positions are excluded because they have no measured par, and jumps and massés, which most clubs
+/// forbid, unless they are the category. The same seed draws the same exam. The pars of the result are those of strokes in the program, which are made more often
 /// than at a real table: table and positions are exact.
 ///
 /// # Errors
 /// [`ExamError`].
-pub fn draw(library: &[Exercise], level: u8, seed: u64) -> Result<Vec<Exercise>, ExamError> {
+pub fn draw(
+    library: &[Exercise],
+    level: u8,
+    category: Option<Category>,
+    seed: u64,
+) -> Result<Vec<Exercise>, ExamError> {
     let grades = grades(level).ok_or(ExamError::Level(level))?;
     let fits = |exercise: &&Exercise| {
-        !matches!(exercise.category, Category::Own | Category::JumpAndMasse)
-            && exercise.par.is_some()
-            && grades.contains(&exercise.grade)
+        let is_wanted = category.map_or(exercise.category != Category::JumpAndMasse, |only| exercise.category == only);
+        is_wanted && exercise.category != Category::Own && exercise.par.is_some() && grades.contains(&exercise.grade)
     };
     let mut left: Vec<&Exercise> = library.iter().filter(fits).collect();
-    if left.len() < LENGTH {
-        return Err(ExamError::TooFew { level, grades, found: left.len() });
+    let needed = category.map_or(LENGTH, |_| MIN_OF_CATEGORY);
+    if left.len() < needed {
+        return Err(ExamError::TooFew { level, category, needed, grades, found: left.len() });
     }
+    let length = left.len().min(LENGTH);
     left.shuffle(&mut Xoshiro256PlusPlus::seed_from_u64(seed));
-    let mut drawn: Vec<&Exercise> = Vec::with_capacity(LENGTH);
-    while drawn.len() < LENGTH {
+    let mut drawn: Vec<&Exercise> = Vec::with_capacity(length);
+    while drawn.len() < length {
         // Take the category with the fewest exercises so far, then the grade; ties are resolved by the shuffled order.
         let taken = |same: &dyn Fn(&&&Exercise) -> bool| drawn.iter().filter(same).count();
         let counts = |exercise: &&Exercise| {
@@ -139,10 +161,10 @@ mod tests {
     fn exam_covers_categories_and_grades_and_is_reproducible() {
         let library = library();
         for level in 1..=3 {
-            let exam = draw(&library, level, 5).unwrap();
+            let exam = draw(&library, level, None, 5).unwrap();
             assert_eq!(exam.len(), LENGTH);
-            assert_eq!(exam, draw(&library, level, 5).unwrap());
-            assert_ne!(exam, draw(&library, level, 6).unwrap());
+            assert_eq!(exam, draw(&library, level, None, 5).unwrap());
+            assert_ne!(exam, draw(&library, level, None, 6).unwrap());
             assert!(exam.iter().all(|exercise| exercise.category != Category::Own));
             for category in &Category::ALL[..8] {
                 let count = exam.iter().filter(|exercise| exercise.category == *category).count();
@@ -158,7 +180,7 @@ mod tests {
     #[test]
     fn expected_scores_are_those_of_strokes_in_the_program() {
         let library = Library::bundled();
-        let drawn = draw(library.exercises(), 2, 1).unwrap();
+        let drawn = draw(library.exercises(), 2, None, 1).unwrap();
         let sum = |pars: &mut dyn Iterator<Item = Par>| pars.map(|par| par.club).sum::<f64>();
         let here = sum(&mut drawn.iter().filter_map(|exercise| exercise.par));
         let at_a_table = sum(&mut drawn.iter().filter_map(|exercise| library.get(&exercise.name).unwrap().par));
@@ -166,16 +188,34 @@ mod tests {
     }
 
     #[test]
+    fn exam_of_one_category_has_all_its_exercises_of_the_level() {
+        let library = library();
+        for only in [Category::Draw, Category::JumpAndMasse] {
+            let exam = draw(&library, 2, Some(only), 5).unwrap();
+            assert_eq!((exam.len(), category(&exam)), (6, Some(only)), "two of each grade");
+            assert!(
+                exam.is_sorted_by_key(|exercise| exercise.grade)
+                    && exam.iter().all(|each| (2..=4).contains(&each.grade))
+            );
+        }
+        assert_eq!(category(&draw(&library, 2, None, 5).unwrap()), None);
+        let many: Vec<Exercise> = (0..9).flat_map(|_| library.clone()).collect();
+        assert_eq!(draw(&many, 2, Some(Category::Draw), 5).unwrap().len(), LENGTH);
+        let said = draw(&library, 1, Some(Category::Own), 5).unwrap_err().to_string();
+        assert_eq!(said, "an exam of level 1 in \"My positions\" needs 3 exercises of grade 1 to 3; there are 0");
+    }
+
+    #[test]
     fn impossible_exams_are_refused_with_a_reason() {
-        assert!(draw(&library(), 0, 1).unwrap_err().to_string().contains("level 0"));
-        assert_eq!(draw(&library(), 4, 1), Err(ExamError::Level(4)));
-        let said = draw(&library()[..10], 2, 1).unwrap_err().to_string();
+        assert!(draw(&library(), 0, None, 1).unwrap_err().to_string().contains("level 0"));
+        assert_eq!(draw(&library(), 4, None, 1), Err(ExamError::Level(4)));
+        let said = draw(&library()[..10], 2, None, 1).unwrap_err().to_string();
         assert!(said.contains("grade 2 to 4") && said.contains("there are 6"), "{said}");
     }
 
     #[test]
     fn exam_score_names_the_nearest_skill() {
-        let exam = draw(&library(), 2, 1).unwrap();
+        let exam = draw(&library(), 2, None, 1).unwrap();
         // The expected points in 20 exercises are 4, 10 and 18.
         for (made, nearest) in
             [(0, "beginner"), (6, "beginner"), (8, "club"), (13, "club"), (15, "world-class"), (20, "world-class")]

@@ -14,6 +14,7 @@ mod play;
 mod record;
 mod session;
 mod shift;
+mod sides;
 pub mod store;
 mod validity;
 mod verdict;

@@ -95,12 +95,14 @@ impl Session {
         let Some(exercise) = self.exercise() else { return Ok(None) };
         let table = self.table_of(exercise)?;
         let layout = match self.attempts.last() {
+            Some(_) if self.restarts() => exercise.layout,
             Some(last) if self.is_game() => {
                 let layout = last.layout.unwrap_or(exercise.layout);
                 // The simulation is deterministic. A stroke from a file, which has degrees, may differ in its last bit.
                 let end =
                     last.played.map_or(layout, |stroke| PlayedStroke::of(exercise.rule, &table, &layout, stroke).end);
-                if self.is_match() && !last.made { end.for_the_opponent() } else { end }
+                let is_same_side = self.next_cue_ball() == self.cue_ball_of(self.attempts.len() - 1);
+                if is_same_side { end } else { end.for_the_opponent() }
             }
             _ if self.shifted => shifted(&exercise.layout, &table, self.seed, self.attempts.len() as u32),
             _ => exercise.layout,
@@ -120,7 +122,7 @@ impl Session {
         let exercise = self.exercise().ok_or(PlayError::Over)?;
         let number = self.attempts.len();
         let errors = errors::independent(number + 1, self.seed ^ ERROR_STREAM)[number];
-        let stroke = self.skill.stroke(table.radius, &intended, &errors);
+        let stroke = self.skill_of(number).stroke(table.radius, &intended, &errors);
         let played = PlayedStroke::recorded(exercise.rule, &table, &layout, stroke);
         let attempt = Attempt {
             layout: (layout != exercise.layout).then_some(layout),

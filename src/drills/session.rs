@@ -29,11 +29,15 @@ pub enum Goal {
         innings: u32,
     },
     /// A game between two sides, white and yellow. A miss ends an inning, and the other side continues from the
-    /// resulting layout with its own cue ball. The game ends after this number of innings of each side, 0 for no limit.
+    /// resulting layout with its own cue ball. It ends, always after equally many innings of both sides, when the limit
+    /// of innings is reached or a side has made the points.
     Match {
-        /// Innings of each side.
+        /// Innings of each side, 0 for no limit.
         innings: u32,
-        /// Whether the coach plays the second side, with the same errors.
+        /// The points that win, called the distance; 0 if only the innings count.
+        #[serde(default, skip_serializing_if = "is_default")]
+        points: u32,
+        /// Whether the coach plays the second side.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         against_coach: bool,
     },
@@ -62,19 +66,22 @@ impl Goal {
             Self::Free => "free repetition".to_owned(),
             Self::Run(points) => format!("run of {points}"),
             Self::Exam => "exam".to_owned(),
-            Self::Game { innings } => with_innings("game", innings),
-            Self::Match { innings, against_coach: true } => with_innings("against the coach", innings),
-            Self::Match { innings, against_coach: false } => with_innings("match", innings),
+            Self::Game { innings } => with_lengths("game", 0, innings),
+            Self::Match { innings, points, against_coach } => {
+                with_lengths(if against_coach { "against the coach" } else { "match" }, points, innings)
+            }
         }
     }
 }
 
-fn with_innings(name: &str, innings: u32) -> String {
-    match innings {
-        0 => name.to_owned(),
-        1 => format!("{name}, 1 inning"),
-        _ => format!("{name}, {innings} innings"),
-    }
+/// Appends the points and the innings, unless they are 0.
+fn with_lengths(name: &str, points: u32, innings: u32) -> String {
+    let of = |count: u32, what: &str| match count {
+        0 => String::new(),
+        1 => format!(", 1 {what}"),
+        _ => format!(", {count} {what}s"),
+    };
+    format!("{name}{}{}", of(points, "point"), of(innings, "inning"))
 }
 
 /// Where the strokes are played.
@@ -158,6 +165,9 @@ pub struct Session {
     pub venue: Venue,
     /// The player's skill.
     pub skill: Skill,
+    /// The coach's skill as the other side of a match; `None` if it is the player's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coach_skill: Option<Skill>,
     /// Whether the balls are shifted slightly at every repetition except the first.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub shifted: bool,
@@ -180,9 +190,15 @@ pub struct Session {
 }
 
 impl Session {
-    /// Returns the player for make probabilities, with uncertain tables and ball positions, as for pars.
-    pub const fn shooter(&self) -> Shooter {
-        Shooter { skill: self.skill, doubt: Doubt::FULL }
+    /// Returns whoever plays the next attempt, for make probabilities, with uncertain tables and ball positions, as for
+    /// pars.
+    pub fn shooter(&self) -> Shooter {
+        self.shooter_of(self.attempts.len())
+    }
+
+    /// Like [`shooter`](Self::shooter), for attempt `number`.
+    pub fn shooter_of(&self, number: usize) -> Shooter {
+        Shooter { skill: self.skill_of(number), doubt: Doubt::FULL }
     }
 
     /// Creates a session that begins now. There must be at least one exercise.
@@ -199,6 +215,7 @@ impl Session {
             goal,
             venue,
             skill,
+            coach_skill: None,
             shifted: false,
             unordered: false,
             cue_ball: CueBall::White,
@@ -233,7 +250,7 @@ impl Session {
             Goal::Run(points) => self.record().high_run >= points,
             Goal::Exam => self.attempts.len() >= self.exercises.len(),
             Goal::Game { innings } => innings > 0 && self.misses() >= innings as usize,
-            Goal::Match { innings, .. } => innings > 0 && self.misses() >= 2 * innings as usize,
+            Goal::Match { .. } => self.is_match_over(),
         }
     }
 
@@ -258,84 +275,6 @@ impl Session {
         self.goal.is_game()
     }
 
-    /// Whether two sides take turns.
-    pub const fn is_match(&self) -> bool {
-        matches!(self.goal, Goal::Match { .. })
-    }
-
-    /// Whether the coach plays one side.
-    pub const fn is_against_coach(&self) -> bool {
-        matches!(self.goal, Goal::Match { against_coach: true, .. })
-    }
-
-    /// Returns the cue ball of attempt `number`, which may be the next one. In a match it changes with each miss.
-    pub fn cue_ball_of(&self, number: usize) -> CueBall {
-        self.cue_balls().nth(number).unwrap_or(self.cue_ball)
-    }
-
-    /// Returns the cue balls of all attempts and of the next one.
-    fn cue_balls(&self) -> impl Iterator<Item = CueBall> {
-        let change = |now: &mut CueBall, attempt: &Attempt| {
-            if self.is_match() && !attempt.made {
-                *now = now.other();
-            }
-            Some(*now)
-        };
-        std::iter::once(self.cue_ball).chain(self.attempts.iter().scan(self.cue_ball, change))
-    }
-
-    /// Returns the cue ball of the next attempt.
-    pub fn next_cue_ball(&self) -> CueBall {
-        self.cue_ball_of(self.attempts.len())
-    }
-
-    /// Whether the next stroke is the coach's: the other side's in a match against the coach.
-    pub fn is_coachs_turn(&self) -> bool {
-        self.is_against_coach() && self.next_cue_ball() != self.cue_ball
-    }
-
-    /// Returns the current inning, like `inning 2 of 10`; `None` if the session has no innings.
-    pub fn inning_words(&self) -> Option<String> {
-        let (innings, sides) = match self.goal {
-            Goal::Game { innings } => (innings, 1),
-            Goal::Match { innings, .. } => (innings, 2),
-            _ => return None,
-        };
-        let now = self.misses() as u32 / sides + 1;
-        Some(if innings == 0 { format!("inning {now}") } else { format!("inning {} of {innings}", now.min(innings)) })
-    }
-
-    /// Returns the name of one side of a match.
-    fn side_name(&self, cue_ball: CueBall) -> &'static str {
-        match self.goal {
-            Goal::Match { against_coach: true, .. } if cue_ball == self.cue_ball => "you",
-            Goal::Match { against_coach: true, .. } => "coach",
-            _ => cue_ball.name(),
-        }
-    }
-
-    /// Returns the name with the ball, like `you (white)`.
-    pub fn side_words(&self, cue_ball: CueBall) -> String {
-        let name = self.side_name(cue_ball);
-        if name == cue_ball.name() { name.to_owned() } else { format!("{name} ({cue_ball})") }
-    }
-
-    /// Returns the points of both sides of a match, like `you 3 : 1 coach`; `None` if it is not a match.
-    pub fn score_words(&self) -> Option<String> {
-        if !self.is_match() {
-            return None;
-        }
-        let [one, other] =
-            [self.cue_ball, self.cue_ball.other()].map(|ball| (self.side_name(ball), self.side_record(ball).made));
-        Some(format!("{} {} : {} {}", one.0, one.1, other.1, other.0))
-    }
-
-    /// Returns the score of one side of a match.
-    pub fn side_record(&self, cue_ball: CueBall) -> Record {
-        let balls: Vec<CueBall> = self.cue_balls().collect();
-        Record::of_attempts(self, |number| balls[number] == cue_ball)
-    }
-
     /// Returns the exercise of an attempt, as stored in this session.
     pub fn exercise_of(&self, attempt: &Attempt) -> Option<&Exercise> {
         self.exercises.iter().find(|exercise| exercise.name == attempt.exercise)
@@ -351,7 +290,7 @@ impl Session {
         self.attempts.iter().rev().take_while(|attempt| attempt.made).count() as u32
     }
 
-    fn misses(&self) -> usize {
+    pub(super) fn misses(&self) -> usize {
         self.attempts.iter().filter(|attempt| !attempt.made).count()
     }
 }
@@ -368,7 +307,7 @@ fn since_epoch() -> Duration {
 #[cfg(test)]
 pub mod tests {
     use super::*;
-    use crate::{drills::Category, game::Rule, table::Table};
+    use crate::{drills::Category, game::Rule};
 
     /// An exercise from the opening position.
     pub fn exercise(name: &str) -> Exercise {
@@ -389,26 +328,6 @@ pub mod tests {
     }
 
     #[test]
-    fn match_without_coach_keeps_its_old_format() {
-        let text = r#"{"match":{"innings":10}}"#;
-        let goal: Goal = serde_json::from_str(text).unwrap();
-        assert_eq!(goal, Goal::Match { innings: 10, against_coach: false });
-        assert_eq!(serde_json::to_string(&goal).unwrap(), text);
-    }
-
-    #[test]
-    fn match_describes_its_inning_and_score() {
-        let mut played = session(Goal::Match { innings: 3, against_coach: true }, "xx-x--");
-        assert_eq!(played.inning_words().as_deref(), Some("inning 2 of 3"));
-        assert_eq!(played.score_words().as_deref(), Some("you 2 : 1 coach"));
-        assert!(played.is_coachs_turn() && !session(played.goal, "xx-x-").is_coachs_turn());
-        played.goal = Goal::Match { innings: 0, against_coach: false };
-        assert_eq!(played.score_words().as_deref(), Some("white 2 : 1 yellow"));
-        assert_eq!(played.inning_words().as_deref(), Some("inning 2"));
-        assert!(session(Goal::Free, "x").score_words().is_none() && session(Goal::Free, "x").inning_words().is_none());
-    }
-
-    #[test]
     fn run_and_game_goals_end_the_session() {
         assert!(!session(Goal::Run(3), "xx-xx").is_over());
         let done = session(Goal::Run(3), "xx-xxx");
@@ -416,48 +335,6 @@ pub mod tests {
         let game = Goal::Game { innings: 2 };
         assert!(!session(game, "xxx-x").is_over() && session(game, "xxx-x-").is_over());
         assert!(!session(Goal::Game { innings: 0 }, "-----").is_over());
-    }
-
-    #[test]
-    fn match_cue_ball_alternates_and_sides_score_separately() {
-        // White makes two and misses, yellow misses, white makes one and misses, yellow makes two.
-        let results = "xx--x-xx";
-        let mut played = session(Goal::Match { innings: 3, against_coach: false }, results);
-        let balls: String = (0..8).map(|number| &played.cue_ball_of(number).name()[..1]).collect();
-        assert_eq!(balls, "wwwywwyy");
-        assert_eq!((played.next_cue_ball(), played.is_over()), (CueBall::Yellow, false));
-        let [white, yellow] = [CueBall::White, CueBall::Yellow].map(|ball| played.side_record(ball));
-        assert_eq!((white.made, white.innings, white.high_run), (3, 2, 2));
-        assert_eq!((yellow.made, yellow.innings, yellow.high_run), (2, 2, 2));
-        // With yellow as the first cue ball, the colours are swapped throughout.
-        played.cue_ball = CueBall::Yellow;
-        assert_eq!((played.cue_ball_of(0), played.side_record(CueBall::Yellow)), (CueBall::Yellow, white));
-        assert!(
-            session(Goal::Match { innings: 1, against_coach: false }, "x--").is_over()
-                && !session(Goal::Match { innings: 1, against_coach: false }, "x-").is_over()
-        );
-        // A single player keeps the cue ball.
-        let alone = session(Goal::Game { innings: 3 }, "--x");
-        assert_eq!(alone.next_cue_ball(), CueBall::White);
-    }
-
-    #[test]
-    fn match_continues_from_final_layout_with_other_cue_ball() {
-        let mut session = Session::new(
-            Goal::Match { innings: 5, against_coach: false },
-            Venue::Program,
-            vec![exercise("x")],
-            Skill::CLUB,
-            3,
-        );
-        let miss = CueInputs { a: 0.0, b: 0.2, theta: 0.05, phi: 2.5, speed: 0.4 };
-        let (table, before) = session.position().unwrap().unwrap();
-        let played = session.play(miss, false).unwrap();
-        assert!(!played.made);
-        let (_, after) = session.position().unwrap().unwrap();
-        assert_eq!(after, played.end.for_the_opponent());
-        assert_eq!((before.balls[1], before.balls[2]), (after.balls[0], after.balls[2]), "nobody has touched them");
-        after.validate(&table).unwrap();
     }
 
     #[test]

@@ -2,13 +2,14 @@
 
 use super::{
     PlayOptions, Workspace,
+    listing::parse_category,
     options::StrokeInput,
     strokes::{MAX_STROKES, Strokes, play},
 };
 use crate::{
     commands::{Failure, input::whole_number},
     drills::{
-        Goal,
+        Category, Goal,
         exam::{HIGHEST_LEVEL, LENGTH, draw},
     },
 };
@@ -65,7 +66,7 @@ pub struct RunArgs {
     options: PlayOptions,
 }
 
-/// Take an exam: twenty exercises, one attempt each.
+/// Take an exam: twenty exercises, or those of one category, one attempt each.
 ///
 /// Strokes are read line by line from the standard input: words like "red 1/2 right, 1.5 left, 3 lengths", "a,b,theta,phi,V", or the
 /// words coach and quit.
@@ -74,6 +75,10 @@ pub struct ExamArgs {
     /// Difficulty: 1, 2 or 3.
     #[arg(long, default_value_t = 1, value_parser = whole_number(1..=HIGHEST_LEVEL))]
     level: u8,
+    /// Only this category: first-caroms, draw, follow, side, one-cushion, gather, three-cushion, systems or jump-and-masse. It may have
+    /// fewer than twenty exercises.
+    #[arg(long, value_parser = parse_category)]
+    category: Option<Category>,
     /// Let the coach play.
     #[arg(long)]
     coach: bool,
@@ -103,7 +108,8 @@ pub fn exam(args: &ExamArgs) -> Result<(), Failure> {
     // On the tables of its exercises, for which its averages are known.
     let mut session = args.options.session(Goal::Exam, Vec::new(), None)?;
     // The same seed determines the exam and the errors in it.
-    session.exercises = draw(workspace.library.exercises(), args.level, session.seed).map_err(Failure::failed)?;
+    session.exercises =
+        draw(workspace.library.exercises(), args.level, args.category, session.seed).map_err(Failure::failed)?;
     play(&workspace.store, session, &args.options, strokes(args.coach), LENGTH)
 }
 

@@ -58,7 +58,7 @@ struct Entry<'a> {
     record: Score,
 }
 
-fn parse_category(name: &str) -> Result<Category, String> {
+pub(super) fn parse_category(name: &str) -> Result<Category, String> {
     Category::ALL.into_iter().find(|category| category.name() == name).ok_or_else(|| {
         let names = Category::ALL.map(Category::name).join(", ");
         format!("there is no category \"{name}\"; use one of {names}")

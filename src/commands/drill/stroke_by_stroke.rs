@@ -163,7 +163,7 @@ impl<'a> StrokeByStroke<'a> {
                 exercise: name,
                 title,
                 rule,
-                skill: self.session.skill,
+                skill: self.session.shooter().skill,
                 table: &table.name,
                 cue_ball,
                 layout,
@@ -182,7 +182,7 @@ impl<'a> StrokeByStroke<'a> {
     /// Plays one stroke and saves it before its result is printed. Returns `false` if the coach was asked for a stroke and found no point.
     pub fn stroke(&mut self, table: &Table, layout: &Layout, stroke: StrokeInput) -> Result<bool, Failure> {
         let Some(rule) = self.session.exercise().map(|exercise| exercise.rule) else { return Ok(true) };
-        let cue_ball = self.session.next_cue_ball();
+        let (cue_ball, shooter) = (self.session.next_cue_ball(), self.session.shooter());
         let typed = match stroke {
             StrokeInput::Own(typed) => Some(typed.resolve(table, layout, cue_ball)?),
             StrokeInput::Coach => None,
@@ -192,7 +192,7 @@ impl<'a> StrokeByStroke<'a> {
         let own = if by_coach { None } else { self.model_shot(layout) };
         let advice = match own {
             Some(cue) if self.compares => {
-                Some(Advice { cue, solved: true, chance: chance(self.session.shooter(), rule, table, layout, &cue) })
+                Some(Advice { cue, solved: true, chance: chance(shooter, rule, table, layout, &cue) })
             }
             _ if by_coach || self.compares => self.advice(table, layout)?,
             _ => None,
@@ -202,7 +202,7 @@ impl<'a> StrokeByStroke<'a> {
         let raised = self.session.attempts.last().and_then(|attempt| attempt.intended).unwrap_or(meant);
         let is_raised = raised != meant;
         let meant = raised;
-        let share = chance(self.session.shooter(), rule, table, layout, &meant);
+        let share = chance(shooter, rule, table, layout, &meant);
         if let Some(attempt) = self.session.attempts.last_mut() {
             attempt.by_coach = by_coach;
             attempt.chance = Some(share.rate);
@@ -343,7 +343,7 @@ impl<'a> StrokeByStroke<'a> {
             })?);
         }
         if let Some(score) = session.score_words() {
-            print_line(score)?;
+            print_line(session.winner_words().map_or_else(|| score.clone(), |winner| format!("{score}: {winner}")))?;
             for cue_ball in [session.cue_ball, session.cue_ball.other()] {
                 print_line(format_args!(
                     "{}: {}",

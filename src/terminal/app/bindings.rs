@@ -51,7 +51,7 @@ pub enum Action {
     OpenMessages,
     /// Opens the glossary of players' terms.
     OpenGlossary,
-    /// Starts a match against the coach, or continues an open one.
+    /// Continues an open match against the coach, or lets the user choose another.
     OpenMatch,
     /// An action of the coach's screen.
     Coach(CoachAction),
@@ -189,7 +189,7 @@ const TABS: &[Binding<Action, Condition>] = &[
     bind(Program, Condition::Tabs, &[key(F(5), A::Open(PageId::Settings))], None, "the settings, and keys of your own"),
     bind(Program, Condition::Tabs, &[key(F(7), A::Open(PageId::Calibration))], None, "measure the table that you play on")
         .known_as("calibration calibrate tests"),
-    bind(Program, Condition::Tabs, &[key(F(9), A::OpenMatch)], None, "a match against the coach, at three-cushion from the opening")
+    bind(Program, Condition::Tabs, &[key(F(9), A::OpenMatch)], None, "a match against the coach: go on with it, or choose another")
         .known_as("game opponent play"),
 ];
 

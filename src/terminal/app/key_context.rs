@@ -34,12 +34,13 @@ pub enum KeyContext {
 
 impl KeyContext {
     /// The pages with their names, in the order of the screens.
-    pub const PAGES: [(Self, &'static str); 17] = [
+    pub const PAGES: [(Self, &'static str); 18] = [
         (Self::Coach, "Coach"),
         (Self::OwnStroke, "Coach: your stroke"),
         (Self::Follow, "Following a player"),
         (Self::Drill(DrillContext::Library), "Drills: library"),
         (Self::Drill(DrillContext::Exam), "Drills: an exam begins"),
+        (Self::Drill(DrillContext::Match), "Drills: a match begins"),
         (Self::Drill(DrillContext::Exercise), "Drills: exercise"),
         (Self::Drill(DrillContext::Result), "Drills: result of an exam"),
         (Self::Drill(DrillContext::Record), "Drills: record"),

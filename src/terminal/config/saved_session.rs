@@ -233,7 +233,7 @@ mod tests {
     #[test]
     fn an_unfinished_match_outlives_any_number_of_later_sessions() {
         let half_ball = Exercise::new_own("half-ball", Rule::StraightRail, "match", Layout::opening(&Table::default()));
-        let goal = Goal::Match { innings: 10, against_coach: true };
+        let goal = Goal::Match { innings: 10, points: 0, against_coach: true };
         let open = Session::new(goal, Venue::Program, vec![half_ball], Skill::CLUB, 1);
         let mut last = SavedSession { practice: Some(open.clone()), ..session(Table::default()) };
         for _ in 0..20 {

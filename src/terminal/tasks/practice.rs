@@ -257,7 +257,7 @@ impl PracticeWorker {
         let next = session.position().ok().flatten();
         let outcome = Box::new(AttemptOutcome { session: session.clone(), played, shot, next });
         reply(DrillReport::Played(session.id.clone(), Ok(outcome), saved));
-        let share = chance(session.shooter(), rule, &table, &layout, &intended).rate;
+        let share = chance(session.shooter_of(number), rule, &table, &layout, &intended).rate;
         session.attempts[number].chance = Some(share);
         let was_refused = !self.unsaved.is_empty();
         // A disk error was just reported, and a user who has continued the session may do so without the rate.

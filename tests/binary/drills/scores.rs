@@ -265,6 +265,17 @@ fn exercises_accept_a_users_table_of_the_same_size() {
 }
 
 #[test]
+fn an_exam_of_one_category_has_its_exercises_only() {
+    let folder = folder();
+    let args = ["drill", "exam", "--category", "draw", "--seed", "1", "--json"];
+    let lines = run_with_input(command(folder.path(), &args), &"0,0,0,0,1\n".repeat(20)).json();
+    let result = of_kind(&lines, "result")[0];
+    assert_eq!([&result["tried"], &result["over"]], [&json!(6), &json!(true)], "{lines:?}");
+    drill(folder.path(), &["exam", "--category", "own"]).fails(1, &["in \"My positions\" needs 3 exercises"]);
+    drill(folder.path(), &["exam", "--category", "banks"]).fails(2, &["there is no category \"banks\""]);
+}
+
+#[test]
 fn an_exam_has_twenty_exercises_and_grades_the_score() {
     let folder = folder();
     let args = ["exam", "--level", "2", "--seed", "8", "--skill", "perfect", "--budget-ms", "200", "--json"];

@@ -47,6 +47,30 @@ fn the_coach_plays_the_other_side_against_the_player() {
 }
 
 #[test]
+fn a_match_to_points_has_an_equalising_inning_and_a_winner() {
+    let folder = folder();
+    let common = ["play", "--points", "1", "--skill", "perfect", "--seed", "1"];
+    // White makes the point from the opening position at straight rail; yellow misses from the same position.
+    let input = format!("0.2,0.3,6,-72,2.5\n{MISS}");
+    let lines = run_with_input(command(folder.path(), &[&common[..], &["--both", "--json"]].concat()), &input).json();
+    let positions = of_kind(&lines, "position");
+    let balls: Vec<_> = positions.iter().map(|position| &position["cue_ball"]).collect();
+    assert_eq!(balls, ["white", "yellow"], "{lines:?}");
+    assert_eq!(positions[0]["layout"], positions[1]["layout"]);
+    let result = of_kind(&lines, "result")[0];
+    assert_eq!([&result["over"], &result["sides"]["white"]["made"]], [&serde_json::json!(true), &serde_json::json!(1)]);
+    let text = run_with_input(command(folder.path(), &[&common[..], &["--both"]].concat()), &input).out;
+    assert!(text.contains("\nwhite 1 : 0 yellow: white wins\n"), "{text}");
+    // The coach has a skill of its own.
+    let args = [&common[..], &["--against-coach", "--coach-skill", "beginner", "--innings", "1", "--json"]].concat();
+    let lines = run_with_input(command(folder.path(), &args), MISS).json();
+    let skills: Vec<_> = of_kind(&lines, "position").iter().map(|position| position["skill"].clone()).collect();
+    assert_eq!(skills[..2], ["perfect", "beginner"], "{lines:?}");
+    carom(folder.path(), &["play", "--points", "3"]).fails(2, &["--points 3 is the distance of a match", "--both"]);
+    carom(folder.path(), &["play", "--coach-skill", "club"]).fails(2, &["--against-coach"]);
+}
+
+#[test]
 fn unknown_balls_and_sides_are_refused_with_accepted_values() {
     let folder = folder();
     for (args, says) in

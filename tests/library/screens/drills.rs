@@ -281,7 +281,7 @@ fn an_exam_has_twenty_exercises_and_a_grade() {
     assert!(ends.iter().all(|end| *end == ends[0]), "{ends:?}\n{text}");
     assert_eq!(player.app.key_context(), KeyContext::Drill(DrillContext::Result));
     assert_eq!(player.store().sessions().items[0].attempts.len(), 20);
-    let left = player.press("Enter e Enter Space Space Enter Enter Esc");
+    let left = player.press("Esc e Enter Space Space Enter Enter Esc");
     left.says("leave the exam after 1 of 20 exercises?");
     let stays = left.press("n c");
     assert_eq!(stays.app.key_context(), KeyContext::Drill(DrillContext::Exercise), "the coach would give the answer");

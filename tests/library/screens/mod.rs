@@ -12,6 +12,7 @@ mod film;
 mod follow;
 mod jumps;
 mod keys;
+mod matches;
 mod mouse;
 mod player;
 mod positions;

@@ -97,7 +97,9 @@ fn exercises_exams_and_typed_text_survive_switching_screens() {
 
 #[test]
 fn a_match_against_the_coach_starts_or_resumes_from_anywhere() {
-    let player = Player::new().press("F9");
+    let chosen = Player::new().press("F9");
+    assert_eq!(chosen.app.key_context(), KeyContext::Drill(DrillContext::Match));
+    let player = chosen.press("Enter");
     assert_eq!(player.app.key_context(), KeyContext::Drill(DrillContext::Exercise));
     let session = |player: &Player| player.app.drills.turn.as_ref().unwrap().session.clone();
     let begun = session(&player);

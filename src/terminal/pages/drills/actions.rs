@@ -8,8 +8,10 @@ use crate::{
         pages::{
             Page,
             drills::{
-                DrillsPage, Question, TransferredPosition, Turn, question::MAX_TEXT_LENGTH, turn_actions::tasks_effect,
+                DrillsPage, ExamResult, Question, TransferredPosition, Turn, question::MAX_TEXT_LENGTH,
+                turn_actions::tasks_effect,
             },
+            moved_index,
         },
         ui::{Message, TextField},
         words::player_words,
@@ -55,9 +57,16 @@ impl DrillsPage {
                 self.records.scroll(lines, all);
             }
             Action::MoveMark(lines) if self.page() == DrillContext::Films => self.film.move_mark(lines),
+            Action::MoveMark(lines) if self.page() == DrillContext::Match => self.match_setup.move_mark(lines),
+            Action::MoveMark(lines) if self.page() == DrillContext::Result => {
+                if let Some(result) = &mut self.exam_result {
+                    result.mark = moved_index(result.mark, lines, result.session.attempts.len());
+                }
+            }
             Action::MoveMark(lines) => self.catalogue.move_mark(lines),
             Action::OpenFilms => self.open_films(),
             Action::Open if self.page() == DrillContext::Films => return self.open_film(0),
+            Action::Open if self.page() == DrillContext::Result => return self.open_from_result(),
             Action::CycleFilm(shots) => return self.open_film(shots),
             Action::Playback(key) if self.page() == DrillContext::Film => self.film.apply_playback_key(key),
             Action::CycleCategory(step) => self.catalogue.choose_category(step),
@@ -72,6 +81,10 @@ impl DrillsPage {
             }
             Action::Open => return self.open_marked(),
             Action::DrawExam(level) => return self.begin_exam(level),
+            Action::SetUpMatch => self.set_up_match(),
+            Action::ChooseValue(step) => self.match_setup.choose(step),
+            Action::BeginMatch => return self.ask_to_begin_match(),
+            Action::DiscardExam => self.ask_to_discard(),
             Action::BeginExam => self.pages = vec![DrillContext::Library, DrillContext::Exercise],
             Action::OpenRecord => return Some(self.open_records()),
             Action::ToggleRecordScope => self.records.toggle_scope(),
@@ -109,9 +122,11 @@ impl DrillsPage {
         }
         self.pages.pop();
         self.film.playback.pause();
-        if self.page() == DrillContext::Library {
+        let below = self.page();
+        if matches!(below, DrillContext::Library | DrillContext::Result) {
             let kept = self.turn.as_ref().filter(|turn| turn.is_in_progress()).map(|turn| turn.session.goal);
             self.leave_page();
+            self.pages.extend(Some(below).filter(|below| *below == DrillContext::Result));
             if let Some(goal) = kept {
                 let how = match goal {
                     Goal::Match { against_coach: true, .. } => "F9 goes on with it",
@@ -139,14 +154,42 @@ impl DrillsPage {
         }
     }
 
+    /// Asks whether to discard the exam that is under way. One without attempts is left without a question.
+    fn ask_to_discard(&mut self) {
+        let Some(exam) = &mut self.turn else { return };
+        exam.finish_watching();
+        match exam.latest_session().attempts.len() {
+            0 => self.leave_page(),
+            made => self.question = Some(Question::Discard(made, exam.session.exercises.len())),
+        }
+    }
+
     fn open_marked(&mut self) -> Option<Effect> {
         let exercise = self.catalogue.marked()?.clone();
+        Some(self.open_exercise(exercise))
+    }
+
+    /// Opens the marked exercise of an exam for practice. Leaving it leads back to the result.
+    fn open_from_result(&mut self) -> Option<Effect> {
+        let ExamResult { session, mark } = self.exam_result.as_ref()?;
+        let drawn = session.exercise_of(session.attempts.get(*mark)?)?;
+        // The library's exercise has the chances at a real table, unlike that of an exam.
+        let exercise = self.catalogue.library.get(&drawn.name).unwrap_or(drawn).clone();
+        self.close_exercise();
+        let effect = self.open_exercise(exercise);
+        let opened = Some(self.page()).filter(|page| *page == DrillContext::Exercise);
+        self.pages = [DrillContext::Library, DrillContext::Result].into_iter().chain(opened).collect();
+        Some(effect)
+    }
+
+    /// Opens an exercise, or what was left of its run, game or match.
+    fn open_exercise(&mut self, exercise: Exercise) -> Effect {
         // A free repetition has no end for which its player must stay.
         let goes_on = |left: &Session| left.goal != Goal::Free || left.skill == self.player.skill;
         let is_left = |left: &Session| left.repeats(&exercise) && goes_on(left);
         let Some(place) = self.unfinished_sessions.iter().position(is_left) else {
             let goal = self.options.goals.get(&exercise.name).copied().unwrap_or(Goal::Free);
-            return Some(self.begin(goal, vec![exercise]));
+            return self.begin(goal, vec![exercise]);
         };
         let left = self.unfinished_sessions.remove(place);
         let inning = left.inning_words().map(|inning| format!(", {inning}"));
@@ -154,11 +197,17 @@ impl DrillsPage {
         let what = left.score_words().unwrap_or_else(|| left.goal.words());
         let tasks = self.practise(left);
         self.message = Some(Message::plain(format!("{what}: it goes on here{after}")));
-        Some(Effect::Drill(tasks))
+        Effect::Drill(tasks)
     }
 
     /// Starts a session of these exercises and opens the page of the first one.
-    pub(super) fn begin(&mut self, goal: Goal, exercises: Vec<Exercise>) -> Effect {
+    fn begin(&mut self, goal: Goal, exercises: Vec<Exercise>) -> Effect {
+        let session = self.new_session(goal, exercises);
+        Effect::Drill(self.practise(session))
+    }
+
+    /// Creates a session of these exercises with the present player and options.
+    pub(super) fn new_session(&mut self, goal: Goal, exercises: Vec<Exercise>) -> Session {
         let seed = self.seed();
         let mut session = Session::new(goal, Venue::Program, exercises, self.player.skill, seed);
         // The expected scores of an exam hold only for the tables and positions of its exercises.
@@ -166,7 +215,7 @@ impl DrillsPage {
             session.shifted = self.options.shifted;
             session.table.clone_from(&self.own_table);
         }
-        Effect::Drill(self.practise(session))
+        session
     }
 
     /// Opens the page of the next exercise of a session. Returns the background tasks for it.
@@ -190,7 +239,8 @@ impl DrillsPage {
 
     fn begin_exam(&mut self, level: u8) -> Option<Effect> {
         let seed = self.seed();
-        match exam::draw(self.catalogue.library.exercises(), level, seed) {
+        let category = self.catalogue.filter.category;
+        match exam::draw(self.catalogue.library.exercises(), level, category, seed) {
             Ok(exercises) => {
                 let effect = self.begin(Goal::Exam, exercises);
                 // A page describes the exam before it begins, so that the key that chose it cannot play a stroke.
@@ -297,6 +347,12 @@ impl DrillsPage {
                 self.message = kept.map(Message::plain);
                 return self.retry();
             }
+            Question::Discard(..) => {
+                self.leave_page();
+                self.message = Some(Message::plain("the exam is discarded; what was played of it stays in the record"));
+                return self.retry();
+            }
+            Question::GiveUp(Action::BeginMatch, ..) => return self.begin_match(),
             Question::GiveUp(action, ..) => return self.act(*action),
         };
         answer.unwrap_or_else(|sentence| {

@@ -4,7 +4,7 @@ use crate::drills::Goal;
 
 /// Default length of a run in points, and of a game or match in innings.
 const DEFAULT_RUN_POINTS: u32 = 5;
-pub(super) const DEFAULT_INNINGS: u32 = 10;
+const DEFAULT_INNINGS: u32 = 10;
 /// Maximum length of a run in points, and of a game or match in innings.
 const MAX_GOAL_LENGTH: u32 = 100;
 
@@ -36,11 +36,14 @@ impl Lengths {
             }
             Goal::Game { innings } => {
                 self.game_innings = innings;
-                Goal::Match { innings: self.match_innings, against_coach: false }
+                Goal::Match { innings: self.match_innings, points: 0, against_coach: false }
             }
-            Goal::Match { innings, against_coach } => {
-                self.match_innings = innings;
-                if against_coach { Goal::Free } else { Goal::Match { innings, against_coach: true } }
+            Goal::Match { innings, points, against_coach } => {
+                if points == 0 {
+                    self.match_innings = innings;
+                }
+                let next = Goal::Match { innings: self.match_innings, points: 0, against_coach: true };
+                if against_coach { Goal::Free } else { next }
             }
             Goal::Exam => Goal::Free,
         }
@@ -53,7 +56,12 @@ pub(super) fn with_added_length(goal: Goal, more: i32) -> Goal {
     match goal {
         Goal::Run(points) => Goal::Run(counted(points)),
         Goal::Game { innings } => Goal::Game { innings: counted(innings) },
-        Goal::Match { innings, against_coach } => Goal::Match { innings: counted(innings), against_coach },
+        Goal::Match { innings, points: 0, against_coach } => {
+            Goal::Match { innings: counted(innings), points: 0, against_coach }
+        }
+        Goal::Match { innings, points, against_coach } => {
+            Goal::Match { innings, points: counted(points), against_coach }
+        }
         other => other,
     }
 }

@@ -43,6 +43,14 @@ pub enum DrillAction {
     DrawExam(u8),
     /// Begins the exam.
     BeginExam,
+    /// Asks whether to discard the exam.
+    DiscardExam,
+    /// Opens the page on which a match against the coach is chosen.
+    SetUpMatch,
+    /// Chooses another value in the marked line of that page: the next one if positive, the one before if negative.
+    ChooseValue(isize),
+    /// Begins the match against the coach.
+    BeginMatch,
     /// Opens the record, of the open exercise if there is one.
     OpenRecord,
     /// Shows the exercise's share code, and copies it if the terminal supports that.
@@ -122,6 +130,8 @@ pub enum DrillCondition {
     Playable,
     /// While no stroke is being played, and no exam is under way.
     Free,
+    /// While an exam is under way that is not over, and no stroke is being played.
+    InExam,
     /// As [`Self::Free`], and another session may begin: in free repetition this is after the end of the watched shot.
     Restartable,
     /// As [`Self::Restartable`], and the exercise is repeated. In a game each stroke is played from where the balls have stopped.
@@ -169,6 +179,8 @@ pub enum DrillContext {
     Search,
     /// The description of an exam before it begins.
     Exam,
+    /// The choices for a match before it begins.
+    Match,
     /// An exercise.
     Exercise,
     /// The result of an exam.
@@ -188,6 +200,7 @@ impl DrillContext {
             Self::Library => LIBRARY,
             Self::Search => SEARCH,
             Self::Exam => EXAM,
+            Self::Match => MATCH,
             Self::Exercise => EXERCISE,
             Self::Result => RESULT,
             Self::Record => RECORD,
@@ -213,10 +226,13 @@ pub const LIBRARY: &[Binding<A, W>] = &[
     bind(Library, W::Filtered, &[letter('0', A::ShowAll)], Some(("all", 1)),
         "list everything again; where a search has found nothing in a category, what it finds in the others"),
     bind(Library, W::Always, &[letter('e', A::DrawExam(1)), letter('E', A::DrawExam(2)), letter('X', A::DrawExam(3))], Some(("exam", 1)),
-        "an exam of 20 exercises, one attempt each: of grade 1 to 3, 2 to 4, 3 to 5").each(&[
-        "an exam of grade 1 to 3: 20 exercises, one attempt each", "an exam of grade 2 to 4: 20 exercises, one attempt each",
-        "an exam of grade 3 to 5: 20 exercises, one attempt each",
+        "an exam of 20 exercises, one attempt each: of grade 1 to 3, 2 to 4, 3 to 5; of the listed category alone, if one is listed")
+        .each(&[
+        "an exam of grade 1 to 3: 20 exercises, or those of the listed category", "an exam of grade 2 to 4: 20 exercises, or those of the listed category",
+        "an exam of grade 3 to 5: 20 exercises, or those of the listed category",
         ]),
+    bind(Library, W::Always, &[letter('M', A::SetUpMatch)], Some(("match", 1)), "a match against the coach: choose the distance and the coach's level")
+        .known_as("game opponent points innings"),
     bind(Library, W::Always, &[letter('p', A::NextPlayer)], Some(("player", 1)), "choose the player whose errors are played"),
     bind(Library, W::Always, &[letter('r', A::OpenRecord)], Some(("record", 1)), "the record of all exercises, and the skill that it shows"),
     bind(Library, W::Always, &[
@@ -255,6 +271,19 @@ pub const EXAM: &[Binding<A, W>] = &[
     BACK,
 ];
 
+/// Key bindings of the choices for a match.
+#[rustfmt::skip]
+pub const MATCH: &[Binding<A, W>] = &[
+    bind(Program, W::Always, &[key(Enter, A::BeginMatch)], Some(("begin", 1)), "begin the match"),
+    bind(Program, W::Always, &[key(Down, A::MoveMark(1)), key(Up, A::MoveMark(-1)), letter('j', A::MoveMark(1)), letter('k', A::MoveMark(-1)),
+        key(Tab, A::MoveMark(1)), key(BackTab, A::MoveMark(-1))], Some(("line", 2)), "mark another line")
+        .each(&["mark the next line", "mark the previous line"]),
+    bind(Program, W::Always, &[key(Left, A::ChooseValue(-1)), key(Right, A::ChooseValue(1)), letter('h', A::ChooseValue(-1)),
+        letter('l', A::ChooseValue(1))], Some(("choose", 2)), "choose what counts, the distance, the limit of innings and the coach's level")
+        .each(&["take the previous value", "take the next value"]),
+    BACK,
+];
+
 /// Key bindings of an exercise.
 #[rustfmt::skip]
 pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::ChangeStroke, W::Aiming, [
@@ -287,6 +316,8 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::ChangeStroke, W::Aiming, 
     bind(Score, W::Undoable, &[letter('u', A::Undo)], Some(("undo", 1)), "take the last note from a real table back"),
     bind(Score, W::Restartable, &[letter('o', A::NextGoal)], Some(("goal", 1)),
         "free repetition, a run of points, a game that plays on from where the balls stop, a match of two sides, or one against the coach"),
+    bind(Score, W::InExam, &[letter('x', A::DiscardExam), key(Delete, A::DiscardExam)], Some(("discard", 1)),
+        "discard the exam, so that it cannot be continued; asks first").known_as("abandon cancel end"),
     bind(Position, W::Repeating, &[letter('x', A::ToggleShift)], Some(("shift", 1)),
         "shift the balls by half a ball at each repetition, or not"),
     bind(Score, W::HasGoalLength, &[letter('<', A::ChangeGoalLength(-1)), letter('>', A::ChangeGoalLength(1))], Some(("length", 2)),
@@ -303,6 +334,8 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::ChangeStroke, W::Aiming, 
         "redo the last change of the stroke"),
     bind(Position, W::Free, &[letter('c', A::SendToCoach)], Some(("coach", 1)), "put the balls on the coach's table"),
     bind(Position, W::Restartable, &[letter('p', A::NextPlayer)], None, "choose the player whose errors are played"),
+    bind(Score, W::Restartable, &[letter('M', A::SetUpMatch)], Some(("match", 1)), "another match against the coach: choose the distance and the coach's level")
+        .known_as("game opponent points innings"),
     bind(Score, W::Always, &[letter('r', A::OpenRecord)], Some(("record", 1)), "the record of this exercise"),
     bind(Program, W::ModelShotShown, &[key(Esc, A::HideModelShot)], Some(("hide shot", 1)),
         "take the model shot off the table; your stroke stays as it is set"),
@@ -312,7 +345,9 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::ChangeStroke, W::Aiming, 
 /// Key bindings of an exam's result.
 #[rustfmt::skip]
 pub const RESULT: &[Binding<A, W>] = &[
-    bind(Program, W::Always, &[key(Enter, A::Back), key(Esc, A::Back)], Some(("library", 1)), "back to the library"),
+    bind(Library, W::Always, &[key(Enter, A::Open)], Some(("practise", 1)), "practise the marked exercise; Esc leads back here"),
+    bind(Library, W::Always, lines!(A::MoveMark), Some(("choose", 2)), "mark another exercise").each(marks!("exercise")),
+    bind(Program, W::Always, &[key(Esc, A::Back)], Some(("library", 1)), "back to the library"),
 ];
 
 /// Key bindings of a record.

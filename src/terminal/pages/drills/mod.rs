@@ -11,6 +11,7 @@ mod catalogue;
 pub mod film;
 mod goals;
 pub mod keys;
+mod match_setup;
 mod question;
 mod records;
 mod reports;
@@ -45,6 +46,7 @@ use crate::{
 pub use aim_line::AimLine;
 pub use book::{Book, record_of};
 pub use catalogue::Catalogue;
+pub use match_setup::{MatchField, MatchSetup};
 pub use question::Question;
 pub use records::{Estimate, Records};
 pub use turn::{ModelShotState, Stage, Turn};
@@ -83,6 +85,15 @@ struct RepetitionOptions {
     /// Whether the balls are shifted. Unlike the goal this is kept from exercise to exercise.
     shifted: bool,
     lengths: Lengths,
+}
+
+/// An exam that is over, while its result is shown or an exercise of it is practised.
+#[derive(Debug)]
+pub struct ExamResult {
+    /// The exam.
+    pub session: Session,
+    /// Index of the marked exercise.
+    pub mark: usize,
 }
 
 /// A position that is transferred between this page and the coach page.
@@ -132,6 +143,10 @@ pub struct DrillsPage {
     /// The custom table of the coach page, if it has one. Exercises of its size are played on it.
     own_table: Option<Box<Table>>,
     options: RepetitionOptions,
+    /// The choices for the next match against the coach.
+    pub match_setup: MatchSetup,
+    /// The exam whose result is shown.
+    pub exam_result: Option<ExamResult>,
     /// A position for the coach page, until the app takes it.
     pub position_for_coach: Option<TransferredPosition>,
     /// The coach page's rule when the library was last opened.
@@ -169,6 +184,8 @@ impl DrillsPage {
             settings_table: String::new(),
             own_table: None,
             options: RepetitionOptions::default(),
+            match_setup: MatchSetup::default(),
+            exam_result: None,
             position_for_coach: None,
             opened_for: None,
             exam_level: 0,
@@ -250,6 +267,13 @@ impl DrillsPage {
         self.pages = vec![DrillContext::Library, DrillContext::Exercise];
     }
 
+    /// Shows the result of an exam that is over, with its first missed exercise marked.
+    fn show_result(&mut self, session: Session) {
+        let mark = session.attempts.iter().position(|attempt| !attempt.made).unwrap_or(0);
+        self.exam_result = Some(ExamResult { session, mark });
+        self.pages = vec![DrillContext::Library, DrillContext::Result];
+    }
+
     /// The open game or match, or the last one that was left, if it is not over. Like an exam it can be resumed at the next start of
     /// the program, whatever the user does in between.
     pub fn open_game(&self) -> Option<&Session> {
@@ -302,7 +326,12 @@ impl DrillsPage {
 
     /// The skill in the open exercise, or in the next one if none is open. A session keeps the skill with which it was begun.
     pub fn skill(&self) -> Skill {
-        self.turn.as_ref().map_or(self.player.skill, |turn| turn.session.skill)
+        let session = match self.page() {
+            DrillContext::Match => None,
+            DrillContext::Result => self.exam_result.as_ref().map(|result| &result.session),
+            _ => self.turn.as_ref().map(|turn| &turn.session),
+        };
+        session.map_or(self.player.skill, |session| session.skill)
     }
 
     /// Opens the list of filmed shots.

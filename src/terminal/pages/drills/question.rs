@@ -30,6 +30,8 @@ pub enum Question {
     Remove(String),
     /// Whether to leave an unfinished exam: attempts so far, and number of exercises.
     Leave(usize, usize),
+    /// Whether to discard an unfinished exam: attempts so far, and number of exercises.
+    Discard(usize, usize),
     /// Whether to perform an action that starts another session although a run, game or match is unfinished: the action, the name of
     /// the goal, and the number of attempts so far.
     GiveUp(DrillAction, &'static str, usize),
@@ -48,6 +50,11 @@ impl Question {
             Self::Remove(name) => format!("remove your position {name}? Its results stay."),
             Self::Leave(made, all) => {
                 format!("leave the exam after {made} of {all} exercises? c on the coach's page goes on with it.")
+            }
+            Self::Discard(made, all) => {
+                format!(
+                    "discard the exam after {made} of {all} exercises? It cannot be continued; its results stay in the record."
+                )
             }
             Self::GiveUp(_, what, made) => {
                 let attempts = if *made == 1 { "1 attempt? It stays" } else { &format!("{made} attempts? They stay") };

@@ -62,6 +62,10 @@ impl DrillsPage {
                 if let Some(turn) = &mut self.turn {
                     turn.on_judged(&id, number, chance);
                 }
+                let result = self.exam_result.as_mut().filter(|result| result.session.id == id);
+                if let Some(attempt) = result.and_then(|result| result.session.attempts.get_mut(number)) {
+                    attempt.chance = Some(chance);
+                }
             }
             DrillReport::StrokeRated(id, made) => {
                 if let Some(what_if) = self.turn.as_mut().and_then(|turn| turn.what_if.as_mut()) {
@@ -149,7 +153,9 @@ impl DrillsPage {
     fn replace_session(&mut self, stored: Session) -> Vec<DrillTask> {
         let Some(turn) = self.turn.as_mut().filter(|turn| turn.session.id == stored.id) else { return Vec::new() };
         if stored.is_exam() && stored.is_over() {
-            self.pages = vec![DrillContext::Library, DrillContext::Result];
+            let tasks = turn.replace_session(stored.clone());
+            self.show_result(stored);
+            return tasks;
         }
         turn.replace_session(stored)
     }

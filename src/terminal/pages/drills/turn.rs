@@ -279,7 +279,8 @@ impl Turn {
             text += " (the coach)";
         }
         if let Some(score) = self.session.score_words().filter(|_| self.session.is_over()) {
-            text = format!("{text}; the match is over: {score}");
+            let winner = self.session.winner_words().unwrap_or_default();
+            text = format!("{text}; the match is over: {score}, {winner}");
         }
         Some(if played.made { Message::good(text) } else { Message::warning(text) })
     }
@@ -424,7 +425,9 @@ impl Turn {
     pub(super) fn place_balls(&mut self, table: Table, layout: Layout) -> bool {
         let exercise = self.session.exercise().cloned().unwrap_or_else(|| self.exercise.clone());
         let is_other = exercise.name != self.exercise.name;
-        let is_moved = is_other || layout != self.layout || table != self.table;
+        // The equalising inning may begin from the balls of the stroke before.
+        let is_turned = self.session.next_cue_ball() != self.cue_ball;
+        let is_moved = is_other || is_turned || layout != self.layout || table != self.table;
         if is_other || is_moved && self.session.is_game() {
             let point = Point::of(exercise.rule, &table, &layout);
             self.stroke = OwnStroke::new(aiming::first_stroke(point, &layout));

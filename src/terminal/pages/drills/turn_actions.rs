@@ -4,7 +4,7 @@ use crate::{
     coach::Skill,
     drills::{Attempt, Goal, Session, Venue},
     terminal::{
-        DrillAction as Action, DrillCondition as Condition, DrillContext, DrillTask, Effect, ModelShot,
+        DrillAction as Action, DrillCondition as Condition, DrillTask, Effect, ModelShot,
         pages::drills::{DrillsPage, ModelShotState, Question, Stage, Turn, goals::with_added_length},
         shot::{OwnStroke, PlaybackKey, stroke},
         ui::{Message, TextField},
@@ -36,6 +36,7 @@ impl Turn {
                 | Condition::Repeating
                 | Condition::Recordable
                 | Condition::HasGoalLength
+                | Condition::InExam
                 | Condition::ModelShotCopyable,
             ) => Some("the stroke is being played"),
             (
@@ -75,8 +76,10 @@ impl Turn {
                 Some(watched) if watched.is_end_shown => refuse(when == Condition::Running, "the shot is at its end"),
                 Some(_) => refuse(when == Condition::Ended, IS_RUNNING),
             },
+            (_, Condition::InExam) => refuse(!self.session.is_exam(), "no exam is under way")
+                .or(refuse(self.session.is_over(), "the exam is over; Enter shows its result")),
             (_, Condition::Free | Condition::Restartable | Condition::HasGoalLength) if self.session.is_exam() => {
-                Some("an exam is under way; Esc leaves it")
+                Some("an exam is under way; Esc leaves it, x discards it")
             }
             // Another session would remove the stroke before its result is shown. A run asks for confirmation, which shows the result.
             (_, Condition::Restartable | Condition::HasGoalLength)
@@ -130,6 +133,7 @@ impl Turn {
         let exercises = self.session.exercises.clone();
         let mut session = Session::new(goal, venue, exercises, skill, seed);
         session.shifted = shifted;
+        session.coach_skill = self.session.coach_skill.filter(|_| session.is_against_coach());
         session
     }
 }
@@ -275,7 +279,8 @@ impl DrillsPage {
         match next {
             Some((table, layout)) => turn.place_balls(table, layout).then(|| Effect::Drill(turn.request_model_shot())),
             None if turn.session.is_exam() => {
-                self.pages = vec![DrillContext::Library, DrillContext::Result];
+                let session = turn.session.clone();
+                self.show_result(session);
                 None
             }
             None => tasks_effect(self.restart(None)),

@@ -1,6 +1,9 @@
 //! Exams: they are announced before the first stroke, and an exam that was left can be resumed.
 
-use carom::terminal::{DrillContext, KeyContext};
+use carom::{
+    drills::{Category, Goal, Library},
+    terminal::{DrillContext, KeyContext},
+};
 
 use crate::screens::player::{Player, TRUE_COLOUR, check};
 
@@ -35,7 +38,72 @@ fn a_left_exam_is_resumed_from_the_coach() {
     let over = (2..=20).fold(on, |player, _| player.press("Space Space Enter Enter"));
     over.says("Grade: ");
     assert_eq!((over.attempt_count(), over.store().sessions().items.len()), (20, 1), "one exam");
-    over.press("Enter F2 c").says("no unfinished exam or earlier session");
+    over.press("Esc F2 c").says("no unfinished exam or earlier session");
+}
+
+#[test]
+fn an_exam_may_have_a_single_category() {
+    let player = Player::at_library(TRUE_COLOUR, &[], &[]).press("Right Right e");
+    player.says("An exam of level 1").says("6 exercises of grade 1 to 3 of the listed category, \"Draw\"");
+    let mut player = player.press("Enter");
+    let session = player.app.drills.turn.as_ref().unwrap().session.clone();
+    assert!(session.exercises.iter().all(|exercise| exercise.category == Category::Draw), "{:?}", session.exercises);
+    for n in 1..=6 {
+        player.says(&format!("exercise {n} of 6"));
+        player = player.press("Space Space Enter Enter");
+    }
+    player.says("of 6 made").says("Grade: ");
+    let none = Player::at_library(TRUE_COLOUR, &[], &[]).press("Left e");
+    none.warns("an exam of level 1 in \"My positions\" needs 3 exercises of grade 1 to 3; there are 0");
+}
+
+#[test]
+fn missed_exercises_are_practised_from_the_result() {
+    let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("Right Right e Enter");
+    let over = (0..6).fold(exam, |player, _| player.press("Space Space Enter Enter"));
+    let result = over.app.drills.exam_result.as_ref().unwrap();
+    let missed = result.session.attempts.iter().position(|attempt| !attempt.made).unwrap();
+    assert_eq!(result.mark, missed, "the first miss is marked");
+    let titles: Vec<String> = result.session.exercises.iter().map(|exercise| exercise.title.clone()).collect();
+    let practice = over.press("Enter");
+    let session = |player: &Player| player.app.drills.turn.as_ref().unwrap().session.clone();
+    assert_eq!((session(&practice).goal, &session(&practice).exercises[0].title), (Goal::Free, &titles[missed]));
+    let par = session(&practice).exercises[0].par;
+    assert_eq!(par, Library::bundled().get(&session(&practice).exercises[0].name).unwrap().par, "as in the library");
+    practice.says("free repetition").says("no attempt yet");
+    // Leaving it leads back to the result, where another exercise can be chosen.
+    let back = practice.press("v Space Space Enter Esc");
+    assert_eq!(back.app.key_context(), KeyContext::Drill(DrillContext::Result));
+    back.says("Grade: ");
+    let last = back.press("End Enter");
+    assert_eq!(session(&last).exercises[0].title, titles[5]);
+    let library = last.press("Esc Esc");
+    assert_eq!(library.app.key_context(), LIBRARY);
+    assert_eq!(library.store().sessions().items.len(), 2, "the exam and the repetition that was played");
+}
+
+#[test]
+fn an_exam_is_discarded_after_a_question() {
+    let exam = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter x");
+    exam.says("discard the exam after 1 of 20 exercises?").says("its results stay in the record");
+    let stays = exam.press("n");
+    assert_eq!(stays.app.key_context(), EXERCISE);
+    stays.says("exercise 2 of 20");
+    let discarded = stays.press("x y");
+    discarded.says("the exam is discarded");
+    assert_eq!((discarded.app.key_context(), discarded.attempt_count()), (LIBRARY, 1));
+    assert!(discarded.app.saved_session().is_none_or(|last| last.practice.is_none()));
+    discarded.press("F2 c").says("no unfinished exam or earlier session");
+    // One of an earlier session of the program is not offered again either.
+    let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter Space Space Enter Enter");
+    let resumed = Player::new().after(&left).press("c");
+    resumed.says("exercise 2 of 20");
+    let gone = resumed.press("Delete y F2");
+    assert!(gone.app.saved_session().is_none_or(|last| last.into_sessions().iter().all(|one| one.practice.is_none())));
+    gone.press("c").says("no unfinished exam or earlier session");
+    let unplayed = Player::at_library(TRUE_COLOUR, &[], &[]).press("e Enter x");
+    assert_eq!(unplayed.app.key_context(), LIBRARY, "nothing was played: nothing is asked");
+    Player::practising(TRUE_COLOUR).press("Delete").warns("no exam is under way");
 }
 
 #[test]

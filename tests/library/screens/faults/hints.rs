@@ -49,7 +49,7 @@ fn shifts_and_notes_are_unavailable_in_a_match() {
 
 #[test]
 fn changing_the_player_keeps_the_match() {
-    Player::new().press("F9 p").says("Score: against the coach");
+    Player::new().press("F9 Enter p").says("Score: against the coach");
 }
 
 #[test]

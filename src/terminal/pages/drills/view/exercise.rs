@@ -16,6 +16,7 @@ use crate::{
             Message, Spot, TableView, Theme, Ui, cue_sign, draw_hit_panel, draw_profile, draw_spin_or_hit, draw_table,
             draw_tip, draw_titled_tip, draw_what_if, separator,
         },
+        words::others_skill_word,
     },
 };
 
@@ -95,13 +96,14 @@ fn draw_precision(drills: &DrillsPage, turn: &Turn, aim_line: Option<&AimLine>, 
     draw_spin_or_hit(spin, meeting, panes.hit, ui);
 }
 
-/// Grade of the exercise, and whether its repetitions are shifted.
+/// Grade of the exercise, whether its repetitions are shifted, and the coach's level if it was chosen.
 fn subtitle(turn: &Turn, caps: Capabilities) -> String {
     let grade = turn.exercise.grade;
     let mut parts = if grade > 0 { vec![format!("grade {grade}")] } else { Vec::new() };
     if turn.session.shifted {
         parts.push("shifted".to_owned());
     }
+    parts.extend(turn.session.coach_skill.map(|level| format!("coach: {}", others_skill_word(level))));
     parts.join(separator(caps))
 }
 
@@ -136,6 +138,12 @@ fn status_line(turn: &Turn, unit: LengthUnit) -> Message {
     }
     if let Some(verdict) = turn.verdict(unit) {
         return verdict;
+    }
+    if let Some(level) = turn.session.coach_skill.filter(|_| turn.is_coachs_turn() && turn.model_shot().is_some()) {
+        return Message::plain(format!(
+            "the coach's stroke, with the errors of {}; Space plays it",
+            others_skill_word(level)
+        ));
     }
     Message::plain(match (turn.watched().is_some(), &turn.model_shot) {
         (true, _) => IS_RUNNING,

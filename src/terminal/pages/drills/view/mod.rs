@@ -5,6 +5,7 @@ mod exercise;
 mod film;
 mod films;
 mod library;
+mod match_setup;
 mod panels;
 mod panes;
 mod record;
@@ -42,7 +43,8 @@ impl PageView for DrillsPage {
         let status_line = match (self.page(), &self.turn) {
             (DrillContext::Exam, Some(turn)) => exam::draw(self, turn, header, body, ui),
             (DrillContext::Exercise, Some(turn)) => exercise::draw(self, turn, header, body, ui),
-            (DrillContext::Result, Some(turn)) => result::draw(self, turn, header, body, ui),
+            (DrillContext::Match, _) => match_setup::draw(self, header, body, ui),
+            (DrillContext::Result, _) => result::draw(self, header, body, ui),
             (DrillContext::Record, _) => record::draw(self, header, body, ui),
             (DrillContext::Films, _) => films::draw(self, header, body, ui),
             (DrillContext::Film, _) => film::draw(self, header, body, ui),
@@ -60,6 +62,7 @@ impl PageView for DrillsPage {
     fn target(&self, area: &PageArea, at: Position) -> Option<Target> {
         match self.key_context() {
             DrillContext::Library | DrillContext::Search => library::target(self, area.body, at),
+            DrillContext::Result => result::target(self, area.body, at),
             DrillContext::Films => films::target(self, area.body, at),
             // The mouse wheel scrolls the list, but it has no entries to mark.
             DrillContext::Record => area.body.contains(at).then_some(Target::List(None)),

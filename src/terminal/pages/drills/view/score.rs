@@ -79,7 +79,7 @@ fn lines(session: &Session, exercise: &str) -> Vec<String> {
         return lines;
     }
     if session.is_match() {
-        lines.extend(session.inning_words());
+        lines.extend(session.winner_words().or_else(|| session.inning_words()));
     }
     if tried == 0 {
         lines.push("no attempt yet".to_owned());
@@ -92,6 +92,9 @@ fn lines(session: &Session, exercise: &str) -> Vec<String> {
             let Record { made, high_run, .. } = session.side_record(cue_ball);
             lines.push(format!("{}: {made}, best {high_run}", session.side_words(cue_ball)));
         }
+        let averages = [session.cue_ball, session.cue_ball.other()]
+            .map(|ball| session.side_record(ball).average.map_or("-".to_owned(), |average| format!("{average:.2}")));
+        lines.push(format!("averages {}", averages.join(" : ")));
     } else if session.is_game() {
         lines.push(format!("{} in {}{average}", plural(made, "point"), plural(record.innings, "inning")));
         lines.push(format!("run {}, best {}", session.current_run(), record.high_run));
