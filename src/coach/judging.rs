@@ -56,8 +56,8 @@ pub fn robust_answer(
     pool.truncate(1 + MAX_ALTERNATIVES);
     let plan = request.plan;
     // Each piece is drawn by the first thread that needs it, so that no time is spent on pieces that are never used.
-    let all = ATTEMPTS_PER_ALTERNATIVE + 2 * ATTEMPTS;
-    let attempts: Vec<OnceLock<Draws>> = (0..all).step_by(CHUNK_SIZE).map(|_| OnceLock::new()).collect();
+    let most = ATTEMPTS_PER_ALTERNATIVE + 2 * ATTEMPTS;
+    let attempts: Vec<OnceLock<Draws>> = (0..most).step_by(CHUNK_SIZE).map(|_| OnceLock::new()).collect();
     let draws = |piece: usize| attempts[piece].get_or_init(|| judging_draws(task.worlds, request.seed, piece));
     let pieces_of = |candidates: &[usize], attempts: Range<usize>| -> Vec<(usize, usize)> {
         let pieces = attempts.step_by(CHUNK_SIZE).map(|attempt| attempt / CHUNK_SIZE);
@@ -66,11 +66,11 @@ pub fn robust_answer(
     let judged = |pieces: &[(usize, usize)]| {
         team.map(pieces, |&(index, piece)| (index, piece, task.attempts(&pool[index].shot.cue, draws(piece))))
     };
-    let others: Vec<usize> = (1..pool.len()).collect();
-    let compared = if others.is_empty() { 0 } else { ATTEMPTS_PER_ALTERNATIVE };
+    let all: Vec<usize> = (0..pool.len()).collect();
+    let compared = if pool.len() > 1 { ATTEMPTS_PER_ALTERNATIVE } else { 0 };
     let (mut best, mut fresh) = (0, compared..compared + ATTEMPTS);
-    let first = pieces_of(&[best], 0..fresh.end).into_iter();
-    let mut made = judged(&first.chain(pieces_of(&others, 0..compared)).collect::<Vec<_>>());
+    // If time runs out, the comparison is made first.
+    let mut made = judged(&[pieces_of(&all, 0..compared), pieces_of(&[best], fresh.clone())].concat());
     let better = made_more_often(&pool, &complete_rates(&made, pool.len(), compared), plan);
     if !better.is_empty() {
         made.extend(judged(&pieces_of(&better, compared..ATTEMPTS)));

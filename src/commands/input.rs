@@ -23,7 +23,7 @@ use crate::{
     learning::{Policy, policy::file::Origin},
     printing,
     storage::{self, DataPaths, MAX_LINE_BYTES, NextLine, next_line},
-    table::{CueBall, Layout, PRESETS, Table, TableError},
+    table::{BALLS, CueBall, Layout, PRESETS, Table, TableError},
 };
 
 /// Returns the bundled table, the table in the TOML file at the path `name`, or the user's own table whose file or which itself has that
@@ -95,7 +95,7 @@ pub struct PositionArgs {
     table: String,
     /// The balls, cue ball first: "x,y x,y x,y" in metres from the centre. Default: the opening position
     ///
-    /// Diamonds from the lower left corner are accepted, too: "2d,2d 6d,2d 2d,2.5d". In the output, white is the cue ball, yellow the
+    /// Diamonds from the lower left corner are accepted, too, "2d,2d 6d,2d 2d,2.5d", and mm, cm, in and ft. In the output, white is the cue ball, yellow the
     /// opponent's ball, and red the third ball. In JSON they are 0, 1 and 2.
     #[arg(long, allow_hyphen_values = true, conflicts_with = "batch")]
     layout: Option<String>,
@@ -112,8 +112,8 @@ impl PositionArgs {
         };
         let layout = Layout::parse(text, &table).map_err(Failure::wrong_input)?;
         if layout.validate(&table).is_err() {
-            // Errors in diamonds are reported in diamonds. Numbers without a unit are metres here, and diamonds where positions are typed.
-            if text.contains('d') {
+            // If all numbers are in diamonds, so is the error. Numbers without a unit would be diamonds there, and are metres here.
+            if text.matches('d').count() == 2 * BALLS {
                 opening.with_positions(text, &table, CueBall::White, 0).map_err(Failure::wrong_input)?;
             }
             layout.validate(&table).map_err(Failure::wrong_input)?;
@@ -270,7 +270,8 @@ mod tests {
         assert!(said("9d,1d 7d,1d 1d,1d").contains("accepted are 0.09d to 7.91d"));
         assert!(said("2,0 0,0 0.5,0").contains("accepted are |x| <= 1.3892"));
         let [metres, diamonds] = ["2d,2d 3,0.2 6d,2d", "2d,2d 0.1,0.2 9d,2d"].map(said);
-        assert!(metres.contains("yellow at (3.0000, 0.2000) m") && diamonds.contains("red at 9.00d,2.00d"), "{metres}");
+        assert!(metres.contains("yellow at (3.0000, 0.2000) m"), "{metres}");
+        assert!(diamonds.contains("red at (1.7750, 0.0000) m"), "{diamonds}");
         assert!(said("2,3 5,1 6,3").ends_with("in metres from the middle, or diamonds like 2d,0.5d"));
         assert!(said("0,0 0.5,0").contains("0,0 0.5,0"), "one place is missing");
     }

@@ -434,8 +434,7 @@ fn describe(out: &mut impl Write, args: &Args, (recording, stepped): &Played, ve
     let (in_a_metre, per_second) = length.speed();
     writeln!(out, "{}", impulse_words(recording.impulse(), length))?;
     writeln!(out, "{:>12}  {:<18}  {:<13}  {:<6}  white, the cue ball", "t, s", "event", "balls", "rail")?;
-    let is_shown = |event: &&Event| args.rolls || recording.is_reported(event);
-    for event in recording.events().iter().filter(is_shown) {
+    for event in recording.listed_events(args.rolls) {
         let (first, second) = event.kind.balls();
         let first = BALL_NAMES[first];
         let balls = second.map_or_else(|| first.to_owned(), |second| format!("{first} {}", BALL_NAMES[second]));

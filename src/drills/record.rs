@@ -48,12 +48,15 @@ impl Record {
         let (mut tried, mut made, mut helped, mut last, mut has_unordered) = (0, 0, 0, None, false);
         let (mut innings, mut points, mut high_run) = (0, 0_usize, 0);
         for session in sessions {
-            let mut run = 0;
-            for (number, attempt) in session.attempts.iter().enumerate() {
-                if !counts(session, number) {
-                    // An attempt by the other player, or at another exercise, ends a run.
+            let (mut run, mut side) = (0, 0);
+            for (number, (attempt, own)) in session.attempts.iter().zip(session.sides()).enumerate() {
+                let is_counted = counts(session, number);
+                // An attempt by the other side, or at another exercise, ends a run.
+                if !is_counted || own != side {
                     innings += usize::from(run > 0);
-                    run = 0;
+                    (run, side) = (0, own);
+                }
+                if !is_counted {
                     continue;
                 }
                 tried += 1;

@@ -285,9 +285,11 @@ impl Session {
         Record::of_attempts(self, |_| true)
     }
 
-    /// Returns the current number of points in a row.
+    /// Returns the number of points in a row at the end, of the side that played last.
     pub fn current_run(&self) -> u32 {
-        self.attempts.iter().rev().take_while(|attempt| attempt.made).count() as u32
+        let sides: Vec<usize> = self.sides().take(self.attempts.len()).collect();
+        let played = self.attempts.iter().zip(&sides).rev();
+        played.take_while(|(attempt, side)| attempt.made && Some(*side) == sides.last()).count() as u32
     }
 
     pub(super) fn misses(&self) -> usize {

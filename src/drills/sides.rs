@@ -71,6 +71,11 @@ impl Session {
         std::iter::once(Standing::default()).chain(after)
     }
 
+    /// Returns the side that plays each attempt, and the next one.
+    pub(super) fn sides(&self) -> impl Iterator<Item = usize> {
+        self.standings().map(|standing| standing.side)
+    }
+
     fn standing(&self) -> Standing {
         self.standings().last().unwrap_or_default()
     }
@@ -189,7 +194,7 @@ impl Session {
 
     /// Returns the score of one side of a match.
     pub fn side_record(&self, cue_ball: CueBall) -> Record {
-        let sides: Vec<usize> = self.standings().map(|standing| standing.side).collect();
+        let sides: Vec<usize> = self.sides().collect();
         Record::of_attempts(self, |number| self.ball_of_side(sides[number]) == cue_ball)
     }
 }
@@ -247,6 +252,15 @@ mod tests {
             assert_eq!(over.inning_words().as_deref(), Some("inning 2, to 2 points"));
             assert_eq!([CueBall::White, CueBall::Yellow].map(|ball| over.side_record(ball).innings), [2, 2]);
         }
+    }
+
+    /// Regression test: the points of both sides seemed to be one run.
+    #[test]
+    fn a_run_does_not_continue_with_the_other_side() {
+        let drawn = to(2, 0, "xxxx");
+        let record = drawn.record();
+        assert_eq!((record.innings, record.high_run, record.average), (2, 2, Some(2.0)));
+        assert_eq!((to(2, 0, "xxx").current_run(), drawn.current_run(), to(2, 0, "xx").current_run()), (1, 2, 2));
     }
 
     #[test]

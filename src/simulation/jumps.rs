@@ -111,19 +111,20 @@ impl Recording {
         Some(self.jump(ball, self.events()[from].time, &self.events()[from..]))
     }
 
-    /// Whether an event is reported by default: contacts and flights that are large enough to be seen, and balls that leave the table.
-    pub fn is_reported(&self, event: &Event) -> bool {
-        match event.kind {
-            EventKind::LeavesTable(_) => true,
-            EventKind::Jumps(_) | EventKind::Lands(_) => self.jump_of(event).is_some_and(|jump| jump.is_reported()),
-            EventKind::BallRail(ball, _) => {
-                let mut contacts = CushionContacts::default();
-                let before = self.events().iter().take_while(|other| *other != event);
-                before.for_each(|other| _ = contacts.follow(ball, other));
-                contacts.follow(ball, event).is_some()
+    /// Returns `all` events, or those that are listed by default: contacts and flights that are large enough to be seen, and balls that leave
+    /// the table.
+    pub fn listed_events(&self, all: bool) -> impl Iterator<Item = &Event> {
+        let mut cushion_contacts = [CushionContacts::default(); BALLS];
+        self.events().iter().filter(move |event| {
+            let contacts = cushion_contacts.iter_mut().enumerate();
+            let is_new_cushion = contacts.fold(false, |new, (ball, own)| own.follow(ball, event).is_some() || new);
+            all || match event.kind {
+                EventKind::LeavesTable(_) => true,
+                EventKind::Jumps(_) | EventKind::Lands(_) => self.jump_of(event).is_some_and(|jump| jump.is_reported()),
+                EventKind::BallRail(..) => is_new_cushion,
+                kind => kind.is_contact(),
             }
-            kind => kind.is_contact(),
-        }
+        })
     }
 }
 
@@ -159,10 +160,9 @@ mod tests {
     fn low_hops_are_not_reported_but_jumps_and_landings_are() {
         let low = play("-1,0 0.9,-0.5 0.9,0.5", "0,0,3,0,2");
         assert!(low.events().iter().any(|event| event.kind == EventKind::Jumps(0)));
-        assert!(low.events().iter().filter(|event| low.is_reported(event)).all(|event| event.kind.is_contact()));
+        assert!(low.listed_events(false).all(|event| event.kind.is_contact()));
         let high = play("-0.5,0 0.3,0.4 0.9,0.5", "0,0,45,0,3");
-        let reported: Vec<_> =
-            high.events().iter().filter(|event| high.is_reported(event)).map(|event| event.kind).collect();
+        let reported: Vec<_> = high.listed_events(false).map(|event| event.kind).collect();
         assert_eq!(reported[0], EventKind::Jumps(0));
         assert!(reported.contains(&EventKind::Lands(0)), "{reported:?}");
     }

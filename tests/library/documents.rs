@@ -3,11 +3,9 @@
 #[test]
 fn the_keys_page_matches_the_program() {
     let written = include_str!("../../docs/keys.md");
-    assert_eq!(
-        written,
-        carom::terminal::keys_document(),
-        "cargo run --release --example picture -- docs/ writes it again"
-    );
+    // Without the pages, which are long.
+    let is_current = written == carom::terminal::keys_document();
+    assert!(is_current, "cargo run --release --example picture -- docs/ writes it again");
     for part in ["## Coach", "## Drills: exercise", "| `F2` |", "| `←↓↑→ hjkl` | move the selected ball"] {
         assert!(written.contains(part), "{part}");
     }

@@ -93,8 +93,8 @@ impl Why {
     }
 
     /// Returns short forms, for a display that already contains the make probability, and for a player with `cue_ball`. The
-    /// difference from the second-best shot comes first, and the plan if it decides. The first text is complete; each
-    /// further one has one fact fewer, and the last one fewer words.
+    /// difference from the second-best shot comes first, and the plan if it decides. The first text is complete; the
+    /// second one does not call shot 2 the next best, and so on with one fact fewer.
     pub fn brief(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
         let names = cue_ball.names();
         let alone = if self.is_the_first { "no other was looked for" } else { "no other was found" };
@@ -109,8 +109,8 @@ impl Why {
         let mut facts: Vec<String> = with_but(self.reasons(cue_ball, "shot 2")).collect();
         let first = if self.is_by_plan() { format!("{second}; {}", facts.remove(0)) } else { second };
         let role = if self.second.is_some() { "the next best is " } else { "" };
-        let shortest = std::iter::once(format!("{first}."));
-        shortened_texts(std::iter::once(format!("{role}{first}")).chain(facts).collect()).chain(shortest)
+        let texts = |first: &str| shortened_texts([&[first.to_owned()], &facts[..]].concat());
+        texts(&format!("{role}{first}")).zip(texts(&first)).flat_map(|(long, short)| [long, short])
     }
 
     /// Returns short forms without what a list of the shots with their probabilities contains, each with one fact

@@ -85,6 +85,9 @@ impl PlayOptions {
                 "For a player of skill \"{skill}\"; --skill chooses another. The screen's skill is not used."
             )),
         }
+        if let Some(level) = session.coach_skill {
+            print_note(format_args!("The coach plays with the skill \"{level}\"."));
+        }
     }
 }
 

@@ -34,10 +34,10 @@ pub struct StrokeByStroke<'a> {
     compares: bool,
     /// The coach for the most recent table.
     coach: Option<Coach>,
-    /// The coach's shot for a layout: for the same layout it is searched only once.
-    advice: Option<(Layout, Advice)>,
-    /// What was printed last: the exercise, the layout and, in JSON, the number of the stroke.
-    shown: Option<(String, Layout, Option<usize>)>,
+    /// The coach's shot for a layout and a cue ball: for the same ones it is searched only once.
+    advice: Option<((Layout, CueBall), Advice)>,
+    /// What was printed last: the exercise, the layout, the cue ball and, in JSON, the number of the stroke.
+    shown: Option<(String, Layout, CueBall, Option<usize>)>,
 }
 
 /// The position of the balls before a stroke.
@@ -151,11 +151,11 @@ impl<'a> StrokeByStroke<'a> {
     pub fn show(&mut self, table: &Table, layout: &Layout) -> Result<(), Failure> {
         let Some(Exercise { name, title, rule, .. }) = self.session.exercise() else { return Ok(()) };
         let number = self.session.attempts.len() + 1;
-        let shown = Some((name.clone(), *layout, self.options.json.then_some(number)));
+        let cue_ball = self.session.next_cue_ball();
+        let shown = Some((name.clone(), *layout, cue_ball, self.options.json.then_some(number)));
         if shown == self.shown {
             return Ok(());
         }
-        let cue_ball = self.session.next_cue_ball();
         if self.options.json {
             let rule = rule.name();
             json_line(&Position {
@@ -279,14 +279,14 @@ impl<'a> StrokeByStroke<'a> {
     /// Explains why the coach did not play.
     pub fn no_point(&self) -> Failure {
         let (budget, simulations) = self.options.limits();
-        Failure::failed(match self.options.simulations {
-            Some(_) => {
-                format!("the coach found no point in {simulations} simulations; a larger --simulations may help")
+        let (within, option) = match (self.options.simulations, self.options.budget_ms) {
+            (None, _) => (format!("{} ms", budget.as_millis()), "--budget-ms"),
+            (Some(_), None) => (format!("{simulations} simulations"), "--simulations"),
+            (Some(_), Some(time)) => {
+                (format!("{simulations} simulations or {time} ms"), "--simulations or --budget-ms")
             }
-            None => {
-                format!("the coach found no point in {} ms; a larger --budget-ms may help", budget.as_millis())
-            }
-        })
+        };
+        Failure::failed(format_args!("the coach found no point in {within}; a larger {option} may help"))
     }
 
     /// Returns the model shot, if the balls are in its position.
@@ -296,8 +296,10 @@ impl<'a> StrokeByStroke<'a> {
     }
 
     fn advice(&mut self, table: &Table, layout: &Layout) -> Result<Option<Advice>, Failure> {
+        // The two sides of a match may differ in skill.
+        let position = (*layout, self.session.next_cue_ball());
         if let Some((known, advice)) = &self.advice
-            && known == layout
+            && *known == position
         {
             return Ok(Some(*advice));
         }
@@ -311,7 +313,7 @@ impl<'a> StrokeByStroke<'a> {
         let known = self.coach.take().filter(|coach| coach.table() == table);
         let coach = self.coach.insert(known.map_or_else(|| coach_for(table.clone(), "bundled"), Ok)?);
         let advice = advise(coach, layout, &request, self.session.is_coachs_turn()).map_err(Failure::wrong_input)?;
-        self.advice = advice.map(|advice| (*layout, advice));
+        self.advice = advice.map(|advice| (position, advice));
         Ok(advice)
     }
 

@@ -9,7 +9,7 @@ use super::{Workspace, workspace::print_notes};
 use crate::{
     commands::{
         Failure,
-        input::{BYTE_ORDER_MARK, open_input},
+        input::BYTE_ORDER_MARK,
         output::{check_folder_exists, json_line, plural, print_line, print_note},
     },
     drills::{
@@ -81,10 +81,13 @@ pub fn export(args: &ExportArgs) -> Result<(), Failure> {
     Err(Failure::failed(format_args!("{} could not be read; the export lacks this data", plural(notes.len(), "file"))))
 }
 
-/// Reads a text of at most [`storage::MAX_PRACTICE_FILE`] bytes from a file or a pipe.
+/// Reads a text of at most [`storage::MAX_PRACTICE_FILE`] bytes from a file, or from the standard input for `-`.
 fn read(file: &Path) -> io::Result<String> {
     let (mut text, most) = (String::new(), storage::MAX_PRACTICE_FILE);
-    if open_input(file)?.take(most + 1).read_to_string(&mut text)? as u64 > most {
+    if file != Path::new("-") {
+        return storage::read_text(file, most);
+    }
+    if io::stdin().take(most + 1).read_to_string(&mut text)? as u64 > most {
         return Err(io::Error::other(format!("it is longer than {most} bytes, the most that is accepted")));
     }
     Ok(text)

@@ -96,9 +96,6 @@ fn train_one(group: &Group, seed: u64, limit: Option<Duration>, options: &TrainO
     }
     let mut progress = Progress::new(&run, options.json, Some(seed));
     progress.repeat_result(&run)?;
-    if run.result().is_some() {
-        return Ok(true);
-    }
     let ending = run.train(&options.limits(limit), &mut |report| progress.report(report))?;
     if let Err(error) = progress.close() {
         print_note(format_args!("warning: seed {seed}: the output cannot be written: {error}"));

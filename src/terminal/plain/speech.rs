@@ -221,8 +221,7 @@ pub fn events(recording: &Recording, all: bool, cue_ball: CueBall, unit: LengthU
         jump.map_or_else(String::new, |jump| format!(", {}", jump_words(&jump, unit)))
     };
     let line = |event: &Event| format!("{} seconds: {}{}.", fixed(event.time, 2), words(event.kind), jump(event));
-    let listed = recording.events().iter().filter(|event| all || recording.is_reported(event));
-    let mut lines: Vec<String> = listed.map(line).collect();
+    let mut lines: Vec<String> = recording.listed_events(all).map(line).collect();
     lines.push(format!("{} seconds: all balls lie still.", fixed(recording.duration(), 2)));
     lines.join("\n")
 }

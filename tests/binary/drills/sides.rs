@@ -51,7 +51,7 @@ fn a_match_to_points_has_an_equalising_inning_and_a_winner() {
     let folder = folder();
     let common = ["play", "--points", "1", "--skill", "perfect", "--seed", "1"];
     // White makes the point from the opening position at straight rail; yellow misses from the same position.
-    let input = format!("0.2,0.3,6,-72,2.5\n{MISS}");
+    let input = format!("0.2,0.3,6,-8.8,2.5\n{MISS}");
     let lines = run_with_input(command(folder.path(), &[&common[..], &["--both", "--json"]].concat()), &input).json();
     let positions = of_kind(&lines, "position");
     let balls: Vec<_> = positions.iter().map(|position| &position["cue_ball"]).collect();

@@ -172,7 +172,7 @@ fn invalid_input_is_named_in_one_sentence_and_writes_nothing() {
         (
             "train --run new --from nowhere",
             1,
-            "accepted are a run (its folder or its name), a checkpoint file and a policy (its file, the name of one that was kept",
+            "accepted are a run (its folder, its name or latest), a checkpoint file and a policy (its file, the name of one that was kept",
         ),
         ("train --run wrong.toml", 1, "wrong.toml is a file, and a run needs a folder"),
         ("train --run wrong.toml/below --seeds 2", 1, "wrong.toml is a file, and a run needs a folder"),

@@ -97,9 +97,9 @@ fn a_stroke_is_set_with_keys() {
     let in_mm = Player::with_settings(TRUE_COLOUR, "tip_unit = \"mm\"\n").press("F3 Enter h");
     in_mm.says("left   0.5 mm").does_not_show("= 3 mm");
     let full = set.press("Tab 0");
-    full.says("270.00°").says("side   middle");
+    full.says("352.68°").says("side   middle");
     let plain = Player::practising(NO_COLOUR).press("Left Left Left");
-    plain.is_plain().shows(&["red 76 % full, left side, 137 cm", "no attempt yet"]);
+    plain.is_plain().shows(&["red 75 % full, left side, 137 cm", "no attempt yet"]);
     let plain = Player::practising(ASCII).press("S-Right S-Right");
     check_at(&[(80, 24)], "aiming_ascii", &plain);
     plain.is_plain();

@@ -64,7 +64,7 @@ fn the_first_to_the_distance_wins() {
     let mut made = to(1, "Down Down Down Right").press("v w Space Enter");
     made.model_shot = Some(OTHER_SHOTS[0]);
     let over = made.press("Enter");
-    over.says("the coach's stroke, with the errors of beginner; Space plays it");
+    over.says("the coach's stroke (it plays as beginner); Space plays it");
     assert_eq!(*over.app.drills.turn.as_ref().unwrap().stroke(), cue(OTHER_SHOTS[0]), "its own, not the player's");
     assert_eq!(session(&over).coach_skill, Some(Skill::BEGINNER));
     // A stroke at which the tip slips has no playback.

@@ -146,7 +146,7 @@ pub const COACH: &[Binding<A, W>] = &[
     bind(Shot, W::Thinking, &[key(Esc, A::Cancel)], Some(("cancel", 1)), "stop the coach's thinking"),
     bind(Shot, W::Idle, &[key(Enter, A::Recommend)], Some(("ask", 1)), "ask the coach for a shot"),
     bind(Shot, W::CustomPolicy, &[letter('b', A::UseBundledPolicies)], Some(("bundled", 1)),
-        "ask the bundled networks again, as at the start"),
+        "ask the bundled networks again, with the table and rule of before"),
     bind(Shot, W::Shot, &[letter(' ', P(Toggle))], Some(("play", 1)), "play and pause the shot"),
     bind(Shot, W::SeveralShots, &[letter('[', A::CycleShot(-1)), letter(']', A::CycleShot(1))], Some(("shots", 2)),
         "step through the shots that the coach lists")
@@ -215,7 +215,7 @@ pub const COACH: &[Binding<A, W>] = &[
     bind(Shot, W::Shot, &[letter('n', A::Continue)], Some(("go on from the end", 1)),
         "go on with the balls as the shot leaves them, with the next shot of the plan"),
     bind(Balls, W::Idle, &[letter('p', A::TypePositions)], Some(("type", 1)),
-        "type where the balls lie, in diamonds or metres, or a share code; pasting does it too")
+        "type where the balls lie, in diamonds or a unit of length, or a share code; pasting does it too")
         .known_as("position coordinates enter paste load import code diamonds"),
     bind(Shot, W::Idle, &[letter('R', A::NextRule), letter('S', A::NextSkill), letter('P', A::TogglePlan)],
         Some(("rule, player, plan", 3)), "choose what counts, who plays, and whether the next point counts too").each(&[

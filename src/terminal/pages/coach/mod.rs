@@ -299,7 +299,7 @@ impl CoachPage {
         self.message = Some(Message::good(news));
     }
 
-    /// The table and the rule without the user's own policy: those before it was taken, but a rule that was chosen since.
+    /// The table and the rule from before the user's own policy was taken; a rule that was chosen since stays.
     fn table_and_rule_without_policy(&self) -> (Arc<Table>, Rule) {
         match self.before_policy.as_ref().filter(|_| self.query.policy.is_some()) {
             Some((table, [before, own])) => {
@@ -401,8 +401,7 @@ impl CoachPage {
 
     /// The events of `shot` that the event list displays.
     pub fn events(&self, shot: &Shot) -> Vec<Event> {
-        let all = shot.recording.events().iter();
-        all.filter(|event| self.has_all_events || shot.recording.is_reported(event)).copied().collect()
+        shot.recording.listed_events(self.has_all_events).copied().collect()
     }
 
     /// The result of the watched shot; `None` until the balls have stopped.

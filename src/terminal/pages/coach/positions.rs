@@ -1,4 +1,4 @@
-//! Typed and pasted ball positions: one ball or all three, in diamonds or metres, or a share code.
+//! Typed and pasted ball positions: one ball or all three, in diamonds or a unit of length, or a share code.
 
 use crate::{
     drills::{decode, is_code},

@@ -195,9 +195,9 @@ impl DrillsPage {
         let inning = left.inning_words().map(|inning| format!(", {inning}"));
         let after = inning.unwrap_or_else(|| format!(" after {} played", left.attempts.len()));
         let what = left.score_words().unwrap_or_else(|| left.goal.words());
-        let tasks = self.practise(left);
+        let effect = self.keeping_options(|page| Effect::Drill(page.practise(left)));
         self.message = Some(Message::plain(format!("{what}: it goes on here{after}")));
-        Effect::Drill(tasks)
+        effect
     }
 
     /// Starts a session of these exercises and opens the page of the first one.

@@ -74,8 +74,8 @@ impl DrillsPage {
         }))
     }
 
-    /// Opens a match by `open`, which does not change the options of the exercises.
-    fn keeping_options(&mut self, open: impl FnOnce(&mut Self) -> Effect) -> Effect {
+    /// Opens a session by `open`, which does not change the options of the exercises.
+    pub(super) fn keeping_options(&mut self, open: impl FnOnce(&mut Self) -> Effect) -> Effect {
         let options = self.options.clone();
         let effect = open(self);
         self.options = options;

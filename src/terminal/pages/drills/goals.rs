@@ -50,9 +50,12 @@ impl Lengths {
     }
 }
 
-/// Returns the goal with `more` points or innings added.
+/// Returns the goal with `more` points or innings added; without a limit of either, it stays.
 pub(super) fn with_added_length(goal: Goal, more: i32) -> Goal {
-    let counted = |count: u32| count.saturating_add_signed(more).clamp(1, MAX_GOAL_LENGTH);
+    let counted = |count: u32| match count {
+        0 => 0,
+        _ => count.saturating_add_signed(more).clamp(1, MAX_GOAL_LENGTH),
+    };
     match goal {
         Goal::Run(points) => Goal::Run(counted(points)),
         Goal::Game { innings } => Goal::Game { innings: counted(innings) },

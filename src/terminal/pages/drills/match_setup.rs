@@ -2,7 +2,7 @@
 
 use crate::{
     coach::Skill,
-    drills::{Category, Exercise, Goal},
+    drills::{Exercise, Goal},
     game::Rule,
     terminal::pages::neighbour,
 };
@@ -83,8 +83,9 @@ impl MatchSetup {
         }
         // The lesson, the model shot and the grade are for three cushions.
         let Exercise { name, title, table, layout, .. } = opening;
-        let own = Exercise::new_own(&name, self.rule, &table, layout);
-        Exercise { title, category: Category::Own, ..own }
+        // Under its own name, so that nothing of it counts as the opening at three-cushion.
+        let name = format!("{name}-{}", self.rule.name());
+        Exercise { title, ..Exercise::new_own(&name, self.rule, &table, layout) }
     }
 }
 

@@ -254,10 +254,12 @@ impl DrillsPage {
         Effect::Drill(tasks)
     }
 
-    /// The open session, or the last one that was left, if it is not over. An exam counts only after its first stroke.
+    /// The open session, or the last one with an end that was left, if it is not over. An exam counts from its first stroke on.
     pub fn unfinished(&self) -> Option<&Session> {
-        let Some(turn) = &self.turn else { return self.unfinished_sessions.last() };
-        let has_begun = !turn.session.is_exam() || !turn.session.attempts.is_empty();
+        let Some(turn) = &self.turn else {
+            return self.unfinished_sessions.iter().rfind(|left| left.goal != Goal::Free);
+        };
+        let has_begun = !turn.session.is_exam() || !turn.session.attempts.is_empty() || turn.is_waiting();
         Some(&turn.session).filter(|session| has_begun && !session.is_over())
     }
 

@@ -96,10 +96,10 @@ fn draw_precision(drills: &DrillsPage, turn: &Turn, aim_line: Option<&AimLine>, 
     draw_spin_or_hit(spin, meeting, panes.hit, ui);
 }
 
-/// Grade of the exercise, whether its repetitions are shifted, and the coach's level if it was chosen.
+/// Grade of an exercise that is not played as a game, whether its repetitions are shifted, and the coach's level if it was chosen.
 fn subtitle(turn: &Turn, caps: Capabilities) -> String {
     let grade = turn.exercise.grade;
-    let mut parts = if grade > 0 { vec![format!("grade {grade}")] } else { Vec::new() };
+    let mut parts = if grade > 0 && !turn.session.is_game() { vec![format!("grade {grade}")] } else { Vec::new() };
     if turn.session.shifted {
         parts.push("shifted".to_owned());
     }
@@ -141,7 +141,7 @@ fn status_line(turn: &Turn, unit: LengthUnit) -> Message {
     }
     if let Some(level) = turn.session.coach_skill.filter(|_| turn.is_coachs_turn() && turn.model_shot().is_some()) {
         return Message::plain(format!(
-            "the coach's stroke, with the errors of {}; Space plays it",
+            "the coach's stroke (it plays as {}); Space plays it",
             others_skill_word(level)
         ));
     }

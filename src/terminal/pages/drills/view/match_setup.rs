@@ -69,7 +69,8 @@ fn words(setup: &MatchSetup, field: MatchField, player: Skill) -> (&'static str,
     match field {
         MatchField::Rule => ("what counts", setup.rule.to_string(), String::new()),
         MatchField::Distance => {
-            let note = if setup.points == 0 { "only the innings count" } else { "whoever makes them first wins" };
+            let note =
+                if setup.points == 0 { "only the innings count" } else { "both sides have equally many innings" };
             ("distance", count(setup.points, "points"), note.to_owned())
         }
         MatchField::Innings => {
