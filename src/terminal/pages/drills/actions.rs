@@ -2,6 +2,7 @@
 
 use crate::{
     drills::{Category, Exercise, Goal, Session, Venue, decode, encode, exam},
+    game::Rule,
     table::CueBall,
     terminal::{
         DrillAction as Action, DrillCondition, DrillContext, DrillTask, Effect,
@@ -13,6 +14,7 @@ use crate::{
             },
             moved_index,
         },
+        shot::film,
         ui::{Message, TextField},
         words::player_words,
     },
@@ -305,7 +307,14 @@ impl DrillsPage {
             let found = table.map(|table| TransferredPosition { table, layout, rule, cue_ball: CueBall::White });
             Some(found.map_err(|error| error.to_string()))
         };
-        match turn.map(Ok).or_else(marked) {
+        let is_film = matches!(self.page(), DrillContext::Films | DrillContext::Film);
+        let filmed = self.film.marked().filter(|_| is_film).map(|listed| TransferredPosition {
+            table: film::table().clone(),
+            layout: listed.layout,
+            rule: Rule::ThreeCushion,
+            cue_ball: CueBall::White,
+        });
+        match filmed.or(turn).map(Ok).or_else(marked) {
             Some(Ok(found)) => self.position_for_coach = Some(found),
             Some(Err(sentence)) => self.message = Some(Message::warning(sentence)),
             None => {}

@@ -213,6 +213,10 @@ impl DrillContext {
 const BACK: Binding<A, W> =
     bind(Program, W::Always, &[key(Esc, A::Back)], Some(("back", 1)), "back to the previous page");
 
+/// Sends the marked filmed shot to the coach.
+const FILM_TO_COACH: Binding<A, W> =
+    bind(Film, W::Always, &[letter('c', A::SendToCoach)], Some(("coach", 1)), "put the balls on the coach's table");
+
 /// Key bindings of the library.
 #[rustfmt::skip]
 pub const LIBRARY: &[Binding<A, W>] = &[
@@ -366,6 +370,7 @@ pub const RECORD: &[Binding<A, W>] = &[
 pub const FILMS: &[Binding<A, W>] = &[
     bind(Film, W::Always, &[key(Enter, A::Open)], Some(("watch", 1)), "watch the marked shot"),
     bind(Film, W::Always, lines!(A::MoveMark), Some(("choose", 2)), "mark another shot").each(marks!("shot")),
+    FILM_TO_COACH,
     BACK,
 ];
 
@@ -381,5 +386,6 @@ pub const FILM: &[Binding<A, W>] = &[
         .each(&["play slower", "play faster"]),
     bind(Film, W::Always, &[letter('[', A::CycleFilm(-1)), letter(']', A::CycleFilm(1))], Some(("other shot", 2)),
         "watch the previous shot, the next shot").each(&["watch the previous shot", "watch the next shot"]),
+    FILM_TO_COACH,
     BACK,
 ];

@@ -41,7 +41,8 @@ pub fn draw(drills: &DrillsPage, header: Rect, area: Rect, ui: &mut Ui) -> Messa
             ui.buffer.set_stringn(x, y, line, room, ui.theme.faint());
         }
     }
-    let top = inner.y + 2 * MatchField::ALL.len() as u16 + 1;
+    // One free row below the second row of the last note.
+    let top = inner.y + 2 * MatchField::ALL.len() as u16 + 2;
     let text = Rect {
         x: inner.x + 3,
         y: top,
