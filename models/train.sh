@@ -59,7 +59,7 @@ train match-three-cushion-ninth --from "$folder/match-three-cushion-eighth" --se
 train thesis-r3 --from "$folder/thesis-r3-first" --seed 5 --steps 3000000 $lowest
 train thesis-three-cushion-second --from "$folder/thesis-three-cushion-first" --seed 92 --steps 30000000 $thesis
 train thesis-three-cushion-third --from "$folder/thesis-three-cushion-second" --seed 94 --steps 5500000 $lower
-train thesis-three-cushion --from "$folder/thesis-three-cushion-third" --seed 96 --steps 4000000 $lowest
+train thesis-three-cushion-fourth --from "$folder/thesis-three-cushion-third" --seed 96 --steps 4000000 $lowest
 # Networks that take the table's constants and the player's errors as inputs. They start from the critics above, with new actors.
 context() {
     name=$1
@@ -89,7 +89,14 @@ perfect match-three-cushion-thirteenth --from "$folder/match-three-cushion-twelf
 # Then only the critic learns.
 critic_only="--set ranking=0.7 --set actor_learning_rate=0.000000001 --set actor_batch_size=1"
 perfect match-three-cushion-fourteenth --from "$folder/match-three-cushion-thirteenth" --seed 505 --steps 14000000 $critic_only --set critic_learning_rate=0.0013
-perfect match-three-cushion --from "$folder/match-three-cushion-fourteenth" --seed 506 --steps 6000000 $critic_only --set critic_learning_rate=0.0003
+perfect match-three-cushion-fifteenth --from "$folder/match-three-cushion-fourteenth" --seed 506 --steps 6000000 $critic_only --set critic_learning_rate=0.0003
+# With paths to the first ball by a cushion. From here on, bounces too small to see do not count as cushions.
+rails="--set rails_first=true"
+strong="--set critic_learning_rate=0.0013 --set actor_learning_rate=0.0005"
+train thesis-three-cushion-fifth --from "$folder/thesis-three-cushion-fourth" --seed 783 --steps 12000000 $match $strong $rails
+train thesis-three-cushion --from "$folder/thesis-three-cushion-fifth" --seed 785 --steps 10000000 --set critic_learning_rate=0.0011 --set actor_learning_rate=0.0004
+perfect match-three-cushion-sixteenth --from "$folder/match-three-cushion-fifteenth" --seed 784 --steps 14000000 $slower --set actor_batch_size=96 $rails
+perfect match-three-cushion --from "$folder/match-three-cushion-sixteenth" --seed 786 --steps 6000000 $critic_only --set critic_learning_rate=0.0008
 # First heads with separate speed ranges. Then expert iteration: a search finds the strokes that players with errors make most often. Then stages
 # without a search, in which the critic learns to choose; at three cushions only the critic learns, because there the actor went back to harder
 # strokes. Up to the 26th stage at three cushions, the searches compared 96 strokes of their own and the proposals, as in versions before
@@ -140,7 +147,6 @@ context context-three-cushion-fourteenth --from "$folder/context-three-cushion-t
 context context-three-cushion-fifteenth --from "$folder/context-three-cushion-fourteenth" --seed 391 --steps 6000000 $heads $choice $fine --set "$speeds"
 # With paths to the first ball by a cushion. The sixteenth stage was played with a version that considered all four cushions, and stopped by hand
 # after 760,320 shots.
-rails="--set rails_first=true"
 context context-three-cushion-sixteenth --from "$folder/context-three-cushion-fifteenth" --seed 601 --steps 3600000 $heads $frozen_actor $keep_actor --set "$speeds" $rails
 context context-three-cushion-seventeenth --from "$folder/context-three-cushion-sixteenth" --seed 611 --steps 3200000 $heads $frozen_actor $keep_actor --set "$speeds" $rails
 context context-three-cushion-eighteenth --from "$folder/context-three-cushion-seventeenth" --seed 621 --steps 9000000 $heads $choice $critic --set "$speeds" $rails

@@ -174,21 +174,28 @@ impl Session {
         Some(format!("{one} {points} : {others} {other}"))
     }
 
+    /// Returns the ball of the side with more points; `None` if both have as many.
+    fn leading_ball(&self) -> Option<CueBall> {
+        let [points, others] = self.standing().points;
+        match points.cmp(&others) {
+            Ordering::Greater => Some(self.ball_of_side(0)),
+            Ordering::Less => Some(self.ball_of_side(1)),
+            Ordering::Equal => None,
+        }
+    }
+
+    /// Returns the name of the ball that has won, or `draw`; `None` if it is not a match that is over.
+    pub fn winner(&self) -> Option<&'static str> {
+        self.is_match_over().then(|| self.leading_ball().map_or("draw", CueBall::name))
+    }
+
     /// Returns who has won, like `you win`; `None` if it is not a match that is over.
     pub fn winner_words(&self) -> Option<String> {
-        if !self.is_match_over() {
-            return None;
-        }
-        let [points, others] = self.standing().points;
-        let winner = match points.cmp(&others) {
-            Ordering::Greater => self.side_name(self.ball_of_side(0)),
-            Ordering::Less => self.side_name(self.ball_of_side(1)),
-            Ordering::Equal => return Some("a draw".to_owned()),
-        };
-        Some(match winner {
-            "you" => "you win".to_owned(),
-            "coach" => "the coach wins".to_owned(),
-            ball => format!("{ball} wins"),
+        self.is_match_over().then(|| match self.leading_ball().map(|ball| self.side_name(ball)) {
+            None => "a draw".to_owned(),
+            Some("you") => "you win".to_owned(),
+            Some("coach") => "the coach wins".to_owned(),
+            Some(ball) => format!("{ball} wins"),
         })
     }
 

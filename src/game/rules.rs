@@ -65,6 +65,7 @@ impl FromStr for Rule {
 
     fn from_str(text: &str) -> Result<Self, UnknownRule> {
         let name = match text {
+            "straight rail" | "straight-rail" => Self::StraightRail.name(),
             "1" | "1c" | "one" => Self::OneCushion.name(),
             "3" | "3c" | "three" => Self::ThreeCushion.name(),
             name => name,

@@ -15,7 +15,7 @@ pub enum PositionsError {
     )]
     Word(String),
     /// A ball is named, but no position follows.
-    #[error("where is {0}? write {0} and x,y after it, like \"{0} 2d,0.5d\"")]
+    #[error("where is {0}? write x,y after it, each number with its unit, like \"{0} 2d,0.5d\" or \"{0} 20cm,-5cm\"")]
     Missing(&'static str),
     /// Nothing was typed.
     #[error(
@@ -77,7 +77,8 @@ impl Layout {
         selected: usize,
     ) -> Result<Self, PositionsError> {
         let names = cue_ball.names();
-        let words: Vec<&str> = text.split([' ', '\t', '\n', '\r', ';']).filter(|word| !word.is_empty()).collect();
+        let words: Vec<&str> =
+            text.split([' ', '\t', '\n', '\r', ';']).filter(|word| !matches!(*word, "" | ",")).collect();
         let unknown = |word: &str| PositionsError::Word(word.to_owned());
         // The numbers of each ball; the first entry has those without a colour.
         let mut typed: Vec<(Option<usize>, Vec<Coordinate>)> = vec![(None, Vec::new())];
@@ -177,6 +178,7 @@ mod tests {
             "2d 0.5d 6d 2d 4d 3.5d",
             "2d, 0,5d; 6d, 2d; 4d, 3,5d",
             "2d,0,5d 6d,2d 4d,3,5d",
+            "2d , 0.5d 6d , 2d 4d , 3.5d",
             "2,0.5 6,2 4,3.5",
             "2 0.5 6 2 4 3.5",
         ] {

@@ -70,7 +70,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     if left_out > 0 {
         print_note(format_args!(
-            "note: {} not used, because the shot is unknown or the cue has no room for it",
+            "note: {} not used, because the shot is unknown, as with shifted balls, or the cue has no room for it",
             plural(left_out, "attempt")
         ));
     }

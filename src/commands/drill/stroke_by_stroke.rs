@@ -113,6 +113,9 @@ struct Outcome {
     over: bool,
     #[serde(flatten)]
     score: Score,
+    /// For a match that is over: the ball that has won, or a draw.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    winner: Option<&'static str>,
     /// For an exam: expected scores.
     #[serde(skip_serializing_if = "Option::is_none")]
     expected: Option<Par>,
@@ -172,7 +175,10 @@ impl<'a> StrokeByStroke<'a> {
             let title = if title == name { String::new() } else { format!("{title}; ") };
             // A cue ball that is always white is not mentioned.
             let is_mentioned = self.session.is_match() || cue_ball != CueBall::White;
-            let turn = if is_mentioned { format!("; the cue ball is {cue_ball}") } else { String::new() };
+            let mut turn = if is_mentioned { format!("; the cue ball is {cue_ball}") } else { String::new() };
+            if self.session.is_equalising() {
+                turn += "; the equalising inning";
+            }
             print_line(format_args!("{name} ({rule}): {title}{}{turn}", positions_text(table, layout, cue_ball)))?;
         }
         self.shown = shown;
@@ -258,8 +264,9 @@ impl<'a> StrokeByStroke<'a> {
         }
         let side =
             if self.session.is_match() { format!(", {}", self.session.side_words(cue_ball)) } else { String::new() };
+        let standing = self.session.score_words().map_or_else(String::new, |standing| format!("; {standing}"));
         print_line(format_args!(
-            "{number}{side}: {verdict}; run {run}; this shot is made {} of the time",
+            "{number}{side}: {verdict}; run {run}{standing}; this shot is made {} of the time",
             percent(&share)
         ))?;
         if by_coach {
@@ -339,13 +346,15 @@ impl<'a> StrokeByStroke<'a> {
                     white: session.side_record(CueBall::White).into(),
                     yellow: session.side_record(CueBall::Yellow).into(),
                 }),
+                winner: session.winner(),
                 expected: score.map(|score| score.expected),
                 spread: score.map(|score| score.spread),
                 nearest: score.map(|score| score.nearest),
             })?);
         }
         if let Some(score) = session.score_words() {
-            print_line(session.winner_words().map_or_else(|| score.clone(), |winner| format!("{score}: {winner}")))?;
+            let winner = session.winner_words().unwrap_or_else(|| "not over".to_owned());
+            print_line(format_args!("{score}: {winner}"))?;
             for cue_ball in [session.cue_ball, session.cue_ball.other()] {
                 print_line(format_args!(
                     "{}: {}",

@@ -59,8 +59,10 @@ fn a_match_to_points_has_an_equalising_inning_and_a_winner() {
     assert_eq!(positions[0]["layout"], positions[1]["layout"]);
     let result = of_kind(&lines, "result")[0];
     assert_eq!([&result["over"], &result["sides"]["white"]["made"]], [&serde_json::json!(true), &serde_json::json!(1)]);
+    assert_eq!(result["winner"], "white");
     let text = run_with_input(command(folder.path(), &[&common[..], &["--both"]].concat()), &input).out;
     assert!(text.contains("\nwhite 1 : 0 yellow: white wins\n"), "{text}");
+    assert!(text.contains("; run 1; white 1 : 0 yellow; ") && text.contains("; the equalising inning\n"), "{text}");
     // The coach has a skill of its own.
     let args = [&common[..], &["--against-coach", "--coach-skill", "beginner", "--innings", "1", "--json"]].concat();
     let lines = run_with_input(command(folder.path(), &args), MISS).json();

@@ -214,7 +214,7 @@ fn results_from_a_real_table_are_noted_and_undone() {
     back.says("2 of 2 made").says("undone: missed, 2 of 2 now");
     assert_eq!(back.store().sessions().items[0].attempts.len(), 2);
     let none = back.press("u u u");
-    none.says("no attempt yet").says("there is no note from a real table to undo");
+    none.says("no attempt yet").says("there is no note from a real table since");
     // Earlier, nothing could be undone after the exercise was left.
     let opened = none.press("m n Esc Enter");
     opened.says("free repetition: it goes on here after 2 played");

@@ -80,7 +80,7 @@ fn filmed_shots_keep_their_colours_during_a_match() {
 fn exercise_balls_keep_their_colours_at_the_coach() {
     let listed = Player::at_library(NO_COLOUR, &[exercise("opening", "x")], &[]).press("F2 x F3 Left c");
     assert_eq!(listed.app.coach.cue_ball().name(), "white", "as in the list");
-    listed.says("the balls of the exercise");
+    listed.says("the balls are taken over; Enter asks the coach");
     assert_eq!(listed.press("u").app.coach.cue_ball().name(), "yellow");
     let turn = Player::practising(NO_COLOUR).press("o o o").miss().press("Enter");
     let layout = turn.app.drills.turn.as_ref().unwrap().layout;

@@ -47,7 +47,7 @@ fn undo_restores_balls_and_rule_together() {
     let rule = |player: &Player| player.app.coach.query.rule;
     let taken = Player::at_library(TRUE_COLOUR, &[exercise], &[]).press("Left c");
     assert_eq!(rule(&taken), Rule::OneCushion);
-    taken.says("the balls of the exercise and its rule, one-cushion");
+    taken.says("the balls are taken over, with their rule, one-cushion");
     let back = taken.press("u");
     assert_eq!(rule(&back), Rule::StraightRail);
     back.says("what counts: straight");

@@ -51,7 +51,7 @@ impl CoachPage {
             CoachCondition::Undoable => refuse(!self.history.can_undo(), "there is nothing to undo"),
             CoachCondition::Resumable => refuse(
                 self.earlier_sessions.is_empty() && self.unfinished_exams.is_empty(),
-                "no unfinished exam or earlier session; F3 shows what you practise",
+                "no unfinished exam or earlier session; F3 shows the drills, F9 a match",
             ),
             CoachCondition::CustomPolicy => {
                 refuse(self.query.policy.is_none(), "the bundled networks are asked already")

@@ -319,9 +319,9 @@ impl CoachPage {
     /// Takes over a position from another page, with its rule. The policy is kept if the table is the same.
     pub fn set_position(&mut self, table: &Table, layout: Layout, rule: Rule, cue_ball: CueBall) {
         let policy = self.policy_on(table);
-        let its_rule = if rule == self.query.rule { String::new() } else { format!(" and its rule, {rule}") };
+        let its_rule = if rule == self.query.rule { String::new() } else { format!(", with their rule, {rule}") };
         self.replace_position(table, layout, cue_ball, CoachQuery { policy, rule, ..self.query.clone() });
-        self.message = Some(Message::plain(format!("the balls of the exercise{its_rule}; Enter asks the coach")));
+        self.message = Some(Message::plain(format!("the balls are taken over{its_rule}; Enter asks the coach")));
     }
 
     /// Returns the current policy if `table` is the current table, for which the policy was trained.

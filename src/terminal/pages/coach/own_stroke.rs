@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use crate::{
+    coach::layout_number,
     game::Point,
     table::{Layout, Table},
     terminal::{
@@ -158,8 +159,8 @@ impl CoachPage {
     }
 
     /// Requests the success rate of the player's current stroke. The simulated errors are those with which the coach's shot was
-    /// judged (common random numbers), so that two strokes differ by themselves and not by luck. A player without errors needs no
-    /// request.
+    /// judged (common random numbers), or those of the layout if there is none, so that two strokes differ by themselves and not by luck. A
+    /// player without errors needs no request.
     fn request_success_rate(&mut self) -> Option<Effect> {
         if self.query.skill.is_perfect() {
             return None;
@@ -169,7 +170,7 @@ impl CoachPage {
         let attempts = judged.map_or(DEFAULT_TRIALS, |made| made.trials.max(MIN_TRIALS));
         let advised = self.current_advice().map(|advised| (advised.seed, advised.judged_from()));
         let job = self.new_job(None);
-        let (seed, from) = advised.unwrap_or((job.seed, 0));
+        let (seed, from) = advised.unwrap_or_else(|| (layout_number(&job.layout).into(), 0));
         let cancel = self.own_stroke.as_mut()?.what_if.request_rate(job.id);
         Some(Effect::AskCoach(Box::new(CoachJob { stroke: Some((cue, from..from + attempts)), seed, cancel, ..job })))
     }
@@ -250,6 +251,15 @@ mod tests {
         let Some(Effect::AskCoach(study)) = page.update(Action::LeaveStroke) else { panic!("the study goes on") };
         assert_eq!((study.shot, study.stroke), (Some(coach.cue), None));
         assert!(page.what_if().is_none() && Arc::ptr_eq(page.shot().unwrap(), &coach));
+    }
+
+    /// Regression test: without the coach's shot, the errors differed from request to request, and so did the rate of the same stroke.
+    #[test]
+    fn strokes_without_a_coachs_shot_are_rated_by_the_same_errors() {
+        let table = Table::default();
+        let mut page = CoachPage::new(table.clone(), Layout::opening(&table), 1).unwrap();
+        let jobs = [Action::WhatIf, HARDER, Action::UndoStroke].map(|action| own_stroke_job(&mut page, action));
+        assert!(jobs.iter().all(|job| job.seed == jobs[0].seed) && jobs[0].stroke == jobs[2].stroke);
     }
 
     #[test]

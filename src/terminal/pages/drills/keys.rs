@@ -146,6 +146,8 @@ pub enum DrillCondition {
     Running,
     /// While a shot is watched whose end has been shown.
     Ended,
+    /// As [`Self::Ended`], and the run, game or match is over.
+    GoalReached,
     /// If the model shot is known.
     HasModelShot,
     /// If the model shot is known, while the player sets the stroke and no comparison is shown.
@@ -292,6 +294,7 @@ pub const MATCH: &[Binding<A, W>] = &[
 #[rustfmt::skip]
 pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::ChangeStroke, W::Aiming, [
     bind(Stroke, W::Running, &[key(Enter, A::Next)], Some(("to the end", 1)), "to the end of the shot"),
+    bind(Stroke, W::GoalReached, &[key(Enter, A::Next)], Some(("begin again", 1)), "begin another run, game or match like it"),
     bind(Stroke, W::Ended, &[key(Enter, A::Next)], Some(("next", 1)), "the next repetition, or the next exercise of an exam"),
     bind(Stroke, W::Watching, &[letter(' ', P(Toggle))], Some(("replay", 1)), "play and pause the shot"),
     bind(Stroke, W::Watching, &[letter('-', P(Pace(-1))), letter('+', P(Pace(1))), letter('=', P(Pace(1))),

@@ -56,9 +56,15 @@ impl Question {
                     "discard the exam after {made} of {all} exercises? It cannot be continued; its results stay in the record."
                 )
             }
-            Self::GiveUp(_, what, made) => {
+            Self::GiveUp(action, what, made) => {
                 let attempts = if *made == 1 { "1 attempt? It stays" } else { &format!("{made} attempts? They stay") };
-                format!("give up the {what} after {attempts} in the record.")
+                let reason = match action {
+                    DrillAction::ChangeGoalLength(_) => "for another length, ",
+                    DrillAction::NextGoal => "for another goal, ",
+                    DrillAction::NextPlayer => "for another player, ",
+                    _ => "",
+                };
+                format!("{reason}give up the {what} after {attempts} in the record.")
             }
         }
     }

@@ -76,6 +76,9 @@ impl Turn {
                 Some(watched) if watched.is_end_shown => refuse(when == Condition::Running, "the shot is at its end"),
                 Some(_) => refuse(when == Condition::Ended, IS_RUNNING),
             },
+            (_, Condition::GoalReached) => self
+                .disabled_reason(Condition::Ended)
+                .or(refuse(self.session.is_exam() || !self.session.is_over(), "the goal is not reached yet")),
             (_, Condition::InExam) => refuse(!self.session.is_exam(), "no exam is under way")
                 .or(refuse(self.session.is_over(), "the exam is over; Enter shows its result")),
             (_, Condition::Free | Condition::Restartable | Condition::HasGoalLength) if self.session.is_exam() => {
@@ -111,9 +114,10 @@ impl Turn {
             (_, Condition::StrokeUndoable | Condition::StrokeSet | Condition::StrokeRedoable) => {
                 self.disabled_reason(Condition::Aiming)
             }
-            (_, Condition::Undoable) => {
-                refuse(!self.can_undo(), "there is no note from a real table to undo; z undoes the stroke")
-            }
+            (_, Condition::Undoable) => refuse(
+                !self.can_undo(),
+                "there is no note from a real table since the last stroke here; z undoes the stroke",
+            ),
             _ => None,
         }
     }

@@ -96,14 +96,13 @@ fn draw_precision(drills: &DrillsPage, turn: &Turn, aim_line: Option<&AimLine>, 
     draw_spin_or_hit(spin, meeting, panes.hit, ui);
 }
 
-/// Grade of an exercise that is not played as a game, whether its repetitions are shifted, and the coach's level if it was chosen.
+/// Whether the repetitions are shifted, the coach's level if it was chosen, and the grade of an exercise that is not played as a game.
 fn subtitle(turn: &Turn, caps: Capabilities) -> String {
     let grade = turn.exercise.grade;
-    let mut parts = if grade > 0 && !turn.session.is_game() { vec![format!("grade {grade}")] } else { Vec::new() };
-    if turn.session.shifted {
-        parts.push("shifted".to_owned());
-    }
+    // The last parts are left out where there is no room.
+    let mut parts = if turn.session.shifted { vec!["shifted".to_owned()] } else { Vec::new() };
     parts.extend(turn.session.coach_skill.map(|level| format!("coach: {}", others_skill_word(level))));
+    parts.extend((grade > 0 && !turn.session.is_game()).then(|| format!("grade {grade}")));
     parts.join(separator(caps))
 }
 

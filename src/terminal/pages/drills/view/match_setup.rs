@@ -70,13 +70,15 @@ fn words(setup: &MatchSetup, field: MatchField, player: Skill) -> (&'static str,
     match field {
         MatchField::Rule => ("what counts", setup.rule.to_string(), String::new()),
         MatchField::Distance => {
-            let note =
-                if setup.points == 0 { "only the innings count" } else { "both sides have equally many innings" };
+            let note = match (setup.points, setup.innings) {
+                (0, 0) => "without an end and a winner",
+                (0, _) => "only the innings count",
+                _ => "both sides have equally many innings",
+            };
             ("distance", count(setup.points, "points"), note.to_owned())
         }
         MatchField::Innings => {
             let note = match (setup.innings, setup.points) {
-                (0, 0) => "the match ends when you leave it",
                 (0, _) => "",
                 (_, 0) => "whoever has more points then wins",
                 _ => "the match also ends after these; more points win",

@@ -74,7 +74,7 @@ fn lines(session: &Session, exercise: &str) -> Vec<String> {
         if let Some(score) = exam::score(session) {
             let [beginner, club, best] = [score.expected.beginner, score.expected.club, score.expected.world_class]
                 .map(|points| format!("{points:.1}"));
-            lines.push(format!("so far a beginner makes {beginner}, club {club}, world class {best}"));
+            lines.push(format!("so far a beginner makes {beginner}, club {club}, world-class {best}"));
         }
         return lines;
     }
