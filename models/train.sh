@@ -89,14 +89,12 @@ perfect match-three-cushion-thirteenth --from "$folder/match-three-cushion-twelf
 # Then only the critic learns.
 critic_only="--set ranking=0.7 --set actor_learning_rate=0.000000001 --set actor_batch_size=1"
 perfect match-three-cushion-fourteenth --from "$folder/match-three-cushion-thirteenth" --seed 505 --steps 14000000 $critic_only --set critic_learning_rate=0.0013
-perfect match-three-cushion-fifteenth --from "$folder/match-three-cushion-fourteenth" --seed 506 --steps 6000000 $critic_only --set critic_learning_rate=0.0003
-# With paths to the first ball by a cushion. From here on, bounces too small to see do not count as cushions.
+perfect match-three-cushion --from "$folder/match-three-cushion-fourteenth" --seed 506 --steps 6000000 $critic_only --set critic_learning_rate=0.0003
+# With paths to the first ball by a cushion. In these stages, bounces too small to see do not count as cushions.
 rails="--set rails_first=true"
 strong="--set critic_learning_rate=0.0013 --set actor_learning_rate=0.0005"
 train thesis-three-cushion-fifth --from "$folder/thesis-three-cushion-fourth" --seed 783 --steps 12000000 $match $strong $rails
 train thesis-three-cushion --from "$folder/thesis-three-cushion-fifth" --seed 785 --steps 10000000 --set critic_learning_rate=0.0011 --set actor_learning_rate=0.0004
-perfect match-three-cushion-sixteenth --from "$folder/match-three-cushion-fifteenth" --seed 784 --steps 14000000 $slower --set actor_batch_size=96 $rails
-perfect match-three-cushion --from "$folder/match-three-cushion-sixteenth" --seed 786 --steps 6000000 $critic_only --set critic_learning_rate=0.0008
 # First heads with separate speed ranges. Then expert iteration: a search finds the strokes that players with errors make most often. Then stages
 # without a search, in which the critic learns to choose; at three cushions only the critic learns, because there the actor went back to harder
 # strokes. Up to the 26th stage at three cushions, the searches compared 96 strokes of their own and the proposals, as in versions before

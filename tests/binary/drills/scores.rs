@@ -187,7 +187,7 @@ fn a_game_continues_from_end_positions_until_its_last_inning() {
 fn a_line_is_refused_when_the_coach_finds_no_point() {
     let folder = tempfile::tempdir().unwrap();
     let args = ["play", "--table", "thesis", "--rule", "three-cushion", "--budget-ms", "0", "--innings", "1", "--json"];
-    let layout = ["--layout", "-0.9,0.1 0.3,0.3 0.6,-0.5"];
+    let layout = ["--layout", "0.58,-0.02 -0.72,-0.21 0.52,-0.4"];
     let lines = run_with_input(command(folder.path(), &[&args[..], &layout].concat()), "coach\n0,0,0,0,2\n").json();
     assert_eq!([of_kind(&lines, "refused").len(), of_kind(&lines, "attempt").len()], [1, 1], "{lines:?}");
 }

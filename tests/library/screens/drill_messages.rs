@@ -49,6 +49,15 @@ fn a_left_match_can_be_resumed_at_the_next_start() {
     assert!(kept.practice.is_some_and(|practice| practice.is_match()));
 }
 
+/// Regression test: notes at another exercise replaced the run.
+#[test]
+fn a_left_run_is_saved_despite_later_notes() {
+    let positions = [exercise("first", "The first"), exercise("second", "The second")];
+    let run = Player::at_library(TRUE_COLOUR, &positions, &[]).press("Left Home Enter o m Esc");
+    let left = run.press("Down Enter m Esc").app.saved_session().unwrap();
+    assert!(matches!(left.practice.map(|practice| practice.goal), Some(Goal::Run(_))));
+}
+
 #[test]
 fn a_game_of_an_earlier_start_goes_on_when_its_exercise_is_opened() {
     let left = Player::at_library(TRUE_COLOUR, &[], &[]).press("Home Enter o o Left Enter Enter F2");

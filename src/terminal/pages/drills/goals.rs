@@ -68,3 +68,17 @@ pub(super) fn with_added_length(goal: Goal, more: i32) -> Goal {
         other => other,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_goal_without_a_limit_stays_without_one() {
+        let goal = |innings, points| Goal::Match { innings, points, against_coach: true };
+        assert_eq!(with_added_length(goal(0, 0), 1), goal(0, 0));
+        assert_eq!(with_added_length(goal(0, 15), -1), goal(0, 14));
+        assert_eq!(with_added_length(goal(1, 0), -1), goal(1, 0), "one inning at least");
+        assert_eq!(with_added_length(Goal::Free, 1), Goal::Free);
+    }
+}

@@ -92,6 +92,7 @@ impl MatchSetup {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::table::{Layout, Table};
 
     #[test]
     fn every_distance_limit_and_level_can_be_chosen() {
@@ -110,5 +111,16 @@ mod tests {
         setup.move_mark(-1);
         setup.choose(3);
         assert_eq!(setup.goal(), Goal::Match { innings: 50, points: 30, against_coach: true });
+    }
+
+    /// Regression test: attempts under another rule counted for the exercise at three-cushion.
+    #[test]
+    fn the_opening_under_another_rule_is_another_exercise() {
+        let opening = Exercise::new_own("opening", Rule::ThreeCushion, "match", Layout::opening(&Table::default()));
+        let mut setup = MatchSetup::default();
+        assert_eq!(setup.exercise(opening.clone()), opening);
+        setup.rule = Rule::StraightRail;
+        let other = setup.exercise(opening.clone());
+        assert_eq!((other.name.as_str(), other.rule, other.layout), ("opening-straight", setup.rule, opening.layout));
     }
 }
