@@ -125,9 +125,11 @@ fn film_playback_has_event_steps_and_esc_leads_back() {
 #[test]
 fn the_balls_of_a_filmed_shot_are_put_on_the_coachs_table() {
     let filmed = &carom::study::filmed::bundled()[1];
-    for player in [list(TRUE_COLOUR).press("Down"), watching(TRUE_COLOUR)] {
+    let is_sent = |player: Player| {
         let sent = player.press("c");
         sent.shows(&["three-cushion", "placing balls"]);
         assert_eq!(*sent.app.coach.layout(), filmed.layout(&carom::table::Table::default()));
-    }
+    };
+    is_sent(list(TRUE_COLOUR).press("Down"));
+    is_sent(watching(TRUE_COLOUR));
 }

@@ -4,7 +4,7 @@ use crate::{
     coach::Skill,
     drills::{Attempt, Exercise, Library, Session, store::OwnSkill},
     terminal::{
-        DrillContext, DrillReport, DrillTask, LoadedRecords,
+        AttemptOutcome, DrillContext, DrillReport, DrillTask, LoadedRecords,
         pages::{
             Page,
             drills::{Book, DrillsPage, Estimate, Question, Stage},
@@ -34,30 +34,7 @@ impl DrillsPage {
             }
             // The player has left those balls in the meantime.
             DrillReport::ModelShot(..) => {}
-            DrillReport::Played(id, played, saved) => {
-                match (played, &mut self.turn) {
-                    (Ok(outcome), turn) => {
-                        self.book.insert(&outcome.session);
-                        // The player may have left the session while the stroke was being played.
-                        let mut left = self.unfinished_sessions.iter();
-                        if let Some(place) = left.position(|left| left.id == outcome.session.id) {
-                            self.unfinished_sessions[place] = outcome.session.clone();
-                        }
-                        self.unfinished_sessions.retain(|left| !left.is_over());
-                        if let Some(turn) = turn {
-                            turn.on_played(*outcome);
-                        }
-                    }
-                    (Err(sentence), Some(turn)) if turn.session.id == id && matches!(turn.stage, Stage::Waiting) => {
-                        turn.stage = Stage::Aiming;
-                        self.message = Some(Message::warning(sentence));
-                    }
-                    // The user has left the session in the meantime.
-                    (Err(_), _) => {}
-                }
-                self.note_refusal(&saved);
-                self.warn_unsaved(saved, "the attempt counts here, but it is not saved");
-            }
+            DrillReport::Played(id, played, saved) => self.on_played(&id, played, saved),
             DrillReport::AttemptRated(id, number, chance) => {
                 if let Some(turn) = &mut self.turn {
                     turn.on_judged(&id, number, chance);
@@ -123,6 +100,32 @@ impl DrillsPage {
             }
         }
         Vec::new()
+    }
+
+    /// Handles the result of playing a stroke in the session `id`, and of saving it.
+    fn on_played(&mut self, id: &str, played: Result<Box<AttemptOutcome>, String>, saved: Result<(), String>) {
+        match (played, &mut self.turn) {
+            (Ok(outcome), turn) => {
+                self.book.insert(&outcome.session);
+                // The player may have left the session while the stroke was being played.
+                let mut left = self.unfinished_sessions.iter();
+                if let Some(place) = left.position(|left| left.id == outcome.session.id) {
+                    self.unfinished_sessions[place] = outcome.session.clone();
+                }
+                self.unfinished_sessions.retain(|left| !left.is_over());
+                if let Some(turn) = turn {
+                    turn.on_played(*outcome);
+                }
+            }
+            (Err(sentence), Some(turn)) if turn.session.id == id && matches!(turn.stage, Stage::Waiting) => {
+                turn.stage = Stage::Aiming;
+                self.message = Some(Message::warning(sentence));
+            }
+            // The user has left the session in the meantime.
+            (Err(_), _) => {}
+        }
+        self.note_refusal(&saved);
+        self.warn_unsaved(saved, "the attempt counts here, but it is not saved");
     }
 
     fn on_loaded(&mut self, loaded: LoadedRecords) {
