@@ -95,8 +95,8 @@ pub struct PositionArgs {
     table: String,
     /// The balls, cue ball first: "x,y x,y x,y" in metres from the centre. Default: the opening position
     ///
-    /// Diamonds from the lower left corner are accepted, too, "2d,2d 6d,2d 2d,2.5d", and mm, cm, in and ft. In the output, white is the cue ball, yellow the
-    /// opponent's ball, and red the third ball. In JSON they are 0, 1 and 2.
+    /// Diamonds from the lower left corner, "2d,2d 6d,2d 2d,2.5d", and lengths in mm, cm, in and ft are accepted, too. In the output, white is
+    /// the cue ball, yellow the opponent's ball, and red the third ball. In JSON they are 0, 1 and 2.
     #[arg(long, allow_hyphen_values = true, conflicts_with = "batch")]
     layout: Option<String>,
 }
@@ -179,22 +179,18 @@ const MAX_MINUTES: f64 = 5e8;
 /// The mark with which some editors begin a file.
 pub const BYTE_ORDER_MARK: &str = "\u{feff}";
 
-/// Opens a file, pipe or device for reading; `-` is the standard input.
-pub fn open_input(file: &Path) -> io::Result<Box<dyn BufRead>> {
-    if file == Path::new("-") {
-        return Ok(Box::new(io::stdin().lock()));
-    }
-    Ok(Box::new(BufReader::new(storage::open_stream(file)?)))
-}
-
 /// Answers every line of the JSON Lines in `file` (`-` is the standard input) on the standard output, in the same order. A refused line is
 /// answered with `error`, and the following lines are still processed; the command then ends with exit code 2.
 pub fn answer_lines<Q: DeserializeOwned + Keys, A: Serialize>(
     file: &str,
     mut answer: impl FnMut(Q) -> Result<A, Failure>,
 ) -> Result<(), Failure> {
-    let unreadable = |error| Failure::failed(format_args!("{file} cannot be read: {error}"));
-    let mut reader = open_input(Path::new(file)).map_err(unreadable)?;
+    let mut reader: Box<dyn BufRead> = if file == "-" {
+        Box::new(io::stdin().lock())
+    } else {
+        let unreadable = |error| Failure::failed(format_args!("{file} cannot be read: {error}"));
+        Box::new(BufReader::new(storage::open_stream(Path::new(file)).map_err(unreadable)?))
+    };
     let is_stream = file == "-" || !Path::new(file).is_file();
     let mut out = io::BufWriter::new(printing::stdout().exact(true));
     let (mut lines, mut refused) = (0_usize, 0_usize);

@@ -79,8 +79,8 @@ pub enum LayoutError {
     },
     /// The text is not three positions.
     #[error(
-        "\"{0}\" is not a layout; write three positions like \"-0.71,0.1825 -0.71,0 0.71,0\" in metres, like \"-71cm,18cm …\" \
-         with another unit (mm, cm, in, ft), or in diamonds from the lower left corner like \"2d,2d 6d,2d 2d,2.5d\""
+        "\"{0}\" is not a layout; write three positions like \"-0.71,0.1825 -0.71,0 0.71,0\" in metres, in another \
+         unit after each number (mm, cm, in, ft), or in diamonds from the lower left corner like \"2d,2d 6d,2d 2d,2.5d\""
     )]
     Text(String),
 }

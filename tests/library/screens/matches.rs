@@ -53,7 +53,9 @@ fn the_coach_equalises_from_the_opening() {
     let over = coach.press("Space Enter");
     over.says("the match is over: you 1 : 1 coach, a draw")
         .says("averages 1.00 : 1.00")
-        .says("coach (yellow): 1, best 1");
+        .says("coach (yellow): 1, best 1")
+        .says("Enter begin again")
+        .does_not_show("Enter next");
     assert!(session(&over).is_over());
     let again = over.press("Enter");
     again.says("inning 1, to 1 point").says("no attempt yet");

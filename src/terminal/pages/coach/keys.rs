@@ -146,7 +146,7 @@ pub const COACH: &[Binding<A, W>] = &[
     bind(Shot, W::Thinking, &[key(Esc, A::Cancel)], Some(("cancel", 1)), "stop the coach's thinking"),
     bind(Shot, W::Idle, &[key(Enter, A::Recommend)], Some(("ask", 1)), "ask the coach for a shot"),
     bind(Shot, W::CustomPolicy, &[letter('b', A::UseBundledPolicies)], Some(("bundled", 1)),
-        "ask the bundled networks again, with the table and rule of before"),
+        "ask the bundled networks again, with the earlier table and rule"),
     bind(Shot, W::Shot, &[letter(' ', P(Toggle))], Some(("play", 1)), "play and pause the shot"),
     bind(Shot, W::SeveralShots, &[letter('[', A::CycleShot(-1)), letter(']', A::CycleShot(1))], Some(("shots", 2)),
         "step through the shots that the coach lists")

@@ -144,9 +144,9 @@ pub enum DrillCondition {
     Watching,
     /// While a shot is watched whose end has not been shown yet.
     Running,
-    /// While a shot is watched whose end has been shown.
+    /// While a shot is watched whose end has been shown, and the session goes on or is an exam.
     Ended,
-    /// As [`Self::Ended`], and the run, game or match is over.
+    /// While a shot is watched whose end has been shown, and the run, game or match is over.
     GoalReached,
     /// If the model shot is known.
     HasModelShot,

@@ -31,6 +31,7 @@ impl Turn {
                 | Condition::Watching
                 | Condition::Running
                 | Condition::Ended
+                | Condition::GoalReached
                 | Condition::Free
                 | Condition::Restartable
                 | Condition::Repeating
@@ -71,14 +72,16 @@ impl Turn {
                     .or_else(|| self.disabled_reason(Condition::Restartable))
             }
             (_, Condition::Watching) => refuse(self.watched().is_none(), "no shot is being watched"),
-            (_, Condition::Running | Condition::Ended) => match self.watched() {
+            (_, Condition::Running | Condition::Ended | Condition::GoalReached) => match self.watched() {
                 None => Some("no shot is being watched"),
-                Some(watched) if watched.is_end_shown => refuse(when == Condition::Running, "the shot is at its end"),
-                Some(_) => refuse(when == Condition::Ended, IS_RUNNING),
+                Some(watched) if !watched.is_end_shown => refuse(when != Condition::Running, IS_RUNNING),
+                Some(_) => match (when, self.session.is_over() && !self.session.is_exam()) {
+                    (Condition::Running, _) => Some("the shot is at its end"),
+                    (Condition::Ended, true) => Some("the goal is reached"),
+                    (Condition::GoalReached, false) => Some("the goal is not reached yet"),
+                    _ => None,
+                },
             },
-            (_, Condition::GoalReached) => self
-                .disabled_reason(Condition::Ended)
-                .or(refuse(self.session.is_exam() || !self.session.is_over(), "the goal is not reached yet")),
             (_, Condition::InExam) => refuse(!self.session.is_exam(), "no exam is under way")
                 .or(refuse(self.session.is_over(), "the exam is over; Enter shows its result")),
             (_, Condition::Free | Condition::Restartable | Condition::HasGoalLength) if self.session.is_exam() => {

@@ -71,7 +71,7 @@ fn words(setup: &MatchSetup, field: MatchField, player: Skill) -> (&'static str,
         MatchField::Rule => ("what counts", setup.rule.to_string(), String::new()),
         MatchField::Distance => {
             let note = match (setup.points, setup.innings) {
-                (0, 0) => "without an end and a winner",
+                (0, 0) => "no end and no winner",
                 (0, _) => "only the innings count",
                 _ => "both sides have equally many innings",
             };
