@@ -1,5 +1,5 @@
-//! Monkey test at the terminal: random keys, pastes, mouse reports, cut sequences and resizes, and finally Ctrl-C, which must end the
-//! program and restore the terminal.
+//! Monkey test at the terminal: random keys, pastes, mouse reports, cut sequences, resizes and suspensions, and finally Ctrl-C, which
+//! must end the program and restore the terminal.
 //!
 //! `CAROM_MONKEY=3600 cargo test --profile quick --test binary fuzz::monkey -- --nocapture` plays for an hour.
 
@@ -60,7 +60,7 @@ const KEYS: [&str; 60] = [
     ":",
     "!",
     "\x12",
-    "\x1a!",
+    "\x1a",
     "y",
     "a",
     "b",
@@ -117,17 +117,20 @@ fn random_input_leaves_the_terminal_restored() {
                 3 => {
                     session.count_bytes(Duration::from_millis(20));
                 }
-                // Ctrl-Z would stop the program, and nothing would continue it.
-                _ => session.send(KEYS.choose(&mut rng).unwrap().trim_start_matches('\x1a')),
+                _ => session.send(KEYS.choose(&mut rng).unwrap()),
             }
             if session.child.try_wait().unwrap().is_some() {
                 break;
             }
             session.count_bytes(Duration::from_millis(1));
+            continue_if_suspended(&session);
         }
         most = most.max(memory(&session));
         // A paste without an end may block for a second.
         session.count_bytes(Duration::from_millis(1200));
+        while continue_if_suspended(&session) {
+            session.count_bytes(Duration::from_millis(100));
+        }
         if session.child.try_wait().unwrap().is_none() {
             session.send("\x03");
         }
@@ -142,6 +145,15 @@ fn random_input_leaves_the_terminal_restored() {
         }
     }
     println!("{sessions} sessions, {events} events, at most {most} kB");
+}
+
+/// Continues the program if Ctrl-Z, or the command for it, has suspended it. Returns whether it was suspended.
+fn continue_if_suspended(session: &Session) -> bool {
+    let is_suspended = status_of(session, "State").starts_with('T');
+    if is_suspended {
+        session.signal("CONT");
+    }
+    is_suspended
 }
 
 /// Abandons the runs that the keys have started: they outlive the screen.
@@ -159,8 +171,13 @@ fn abandon(runs: &Path) {
 
 /// Returns the resident memory, kB.
 fn memory(session: &Session) -> u64 {
+    status_of(session, "VmRSS").split_whitespace().next().and_then(|size| size.parse().ok()).unwrap_or(0)
+}
+
+/// Returns a field of the system's report on the process; empty where there is none.
+fn status_of(session: &Session, field: &str) -> String {
     let id = session.child.process_id().unwrap_or_default();
-    let status = std::fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();
-    let line = status.lines().find(|line| line.starts_with("VmRSS")).unwrap_or_default();
-    line.split_whitespace().nth(1).and_then(|size| size.parse().ok()).unwrap_or(0)
+    let status = fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix(field)?.strip_prefix(':'));
+    line.unwrap_or_default().trim().to_owned()
 }
