@@ -54,6 +54,10 @@ pub struct Alternative {
     pub kind: Kind,
     /// How often the player makes it; `None` if time ran out before the first attempt.
     pub make_probability: Option<SuccessRate>,
+    /// Index of the first attempt behind `make_probability`, as in [`Recommendation`].
+    pub judged_from: usize,
+    /// As in [`Recommendation`].
+    pub effort_penalty: f64,
     /// Probability of the point after this one, if the request asked for it.
     pub next_probability: Option<f64>,
 }
@@ -80,19 +84,18 @@ pub struct Recommendation {
     /// The kind of the shot, if it makes the point.
     pub kind: Option<Kind>,
     /// How often the player makes it, from independent attempts that took no part in the choice, unless time ran out before the fresh
-    /// ones were complete. `None` if there is no such shot, or time ran out before the first attempt. A perfect player makes every shot that makes the point.
+    /// ones were complete, or they showed that another shot is better. `None` if there is no such shot, or time ran out before the first attempt. A perfect player makes every shot that makes the point.
     pub make_probability: Option<SuccessRate>,
     /// Index of the first attempt behind `make_probability`, as [`judge`](super::judge) counts them: above 0 if earlier
     /// attempts took part in the choice.
     pub judged_from: usize,
+    /// What the search takes off the make probability of a stroke that is hard to play or that hits the first ball twice.
+    pub effort_penalty: f64,
     /// How often each cause alone would miss the shot, if anything is in doubt and time did not run out.
     pub risk: Option<Risk>,
     /// Estimated probability of the point after this one, if the request asked for it and the table is the one that the
     /// estimate was fitted on.
     pub next_probability: Option<f64>,
-    /// Whether the shots are ranked by this point and the next. The first one may then have a lower make probability
-    /// than another.
-    pub is_planned: bool,
     /// Other strokes that make the point: the best of each kind, best first, each made at least half as often as the
     /// recommended one.
     pub alternatives: Vec<Alternative>,

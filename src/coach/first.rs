@@ -111,9 +111,9 @@ impl FirstShots {
             kind: first.map(|(_, kind)| kind),
             make_probability: first.map(|_| certain),
             judged_from: 0,
+            effort_penalty: 0.0,
             risk: None,
             next_probability: None,
-            is_planned: false,
             alternatives: shots
                 .take(MAX_ALTERNATIVES)
                 .map(|(shot, kind)| Alternative {
@@ -121,6 +121,8 @@ impl FirstShots {
                     source: shot.source,
                     kind,
                     make_probability: Some(certain),
+                    judged_from: 0,
+                    effort_penalty: 0.0,
                     next_probability: None,
                 })
                 .collect(),

@@ -43,8 +43,8 @@ const MIN_LISTED_SHARE: f64 = 0.5;
 /// Returns the answer for a player who makes errors. Judges the first shot of the (non-empty) pool and the first shots of the
 /// other kinds by errors that took no part in the search.
 /// A search with few attempts may choose wrongly: if another shot seems to be made more often, both are judged by as
-/// many attempts, and the better one is the answer. If there is time, its rate and the next point come from attempts that
-/// took no part in this choice either, because those that chose a shot flatter it.
+/// many attempts, and the better one is the answer. If there is time, the rates of both and the next point come from attempts
+/// that took no part in this choice either, because those that chose a shot flatter it.
 pub fn robust_answer(
     found: &FirstShots,
     pool: Vec<Candidate>,
@@ -71,19 +71,27 @@ pub fn robust_answer(
     let (mut best, mut fresh) = (0, compared..compared + ATTEMPTS);
     // If time runs out, the comparison is made first.
     let mut made = judged(&[pieces_of(&all, 0..compared), pieces_of(&[best], fresh.clone())].concat());
-    let better = made_more_often(&pool, &complete_rates(&made, pool.len(), compared), plan);
-    if !better.is_empty() {
-        made.extend(judged(&pieces_of(&better, compared..ATTEMPTS)));
+    let mut contestants = made_more_often(&pool, &complete_rates(&made, pool.len(), compared), plan);
+    if !contestants.is_empty() {
+        made.extend(judged(&pieces_of(&contestants, compared..ATTEMPTS)));
         let complete = complete_rates(&made, pool.len(), ATTEMPTS);
         best = made_more_often(&pool, &complete, plan).first().copied().unwrap_or_default();
         fresh = fresh.end..fresh.end + ATTEMPTS;
-        made.extend(judged(&pieces_of(&[best], fresh.clone())));
+        // The best one first, if time runs out.
+        contestants.retain(|index| *index != best);
+        contestants.splice(..0, if best == 0 { vec![0] } else { vec![best, 0] });
+        made.extend(judged(&pieces_of(&contestants, fresh.clone())));
     }
-    let mut rates = (0..pool.len()).map(|candidate| rate_within(&made, candidate, 0..ATTEMPTS)).collect::<Vec<_>>();
-    let unbiased = rate_within(&made, best, fresh.clone()).filter(|rate| rate.trials == ATTEMPTS);
-    rates[best] = unbiased.or(rates[best]);
-    rates[..=best].rotate_right(1);
-    pool[..=best].rotate_right(1);
+    let rate_of = |index: usize| {
+        let unbiased = rate_within(&made, index, fresh.clone()).filter(|rate| rate.trials == ATTEMPTS);
+        unbiased.map_or_else(|| (rate_within(&made, index, 0..ATTEMPTS), 0), |rate| (Some(rate), fresh.start))
+    };
+    let mut rated: Vec<_> = pool.iter().copied().enumerate().map(|(index, shot)| (shot, rate_of(index))).collect();
+    rated[..=best].rotate_right(1);
+    if let Some(best) = clearly_better(&rated, plan) {
+        rated[..=best].rotate_right(1);
+    }
+    let (pool, rates): (Vec<Candidate>, Vec<_>) = rated.into_iter().unzip();
     let risk = risk(&pool[0].shot.cue, task, request, team);
     let next = team.map(&pool, |candidate| {
         let known = candidate.next.known().filter(|_| plan && LayoutDifficulty::is_known_on(task.table))?;
@@ -91,7 +99,7 @@ pub fn robust_answer(
         let unused = (fresh.start / CHUNK_SIZE..attempts.len()).flat_map(|piece| draws(piece).iter());
         Some(next_value(task, &candidate.shot.cue, unused, MAX_POINTS).unwrap_or(known))
     });
-    let best_rate = rates[0].map_or(0.0, |rate| rate.rate);
+    let best_rate = rates[0].0.map_or(0.0, |rate| rate.rate);
     let is_worth =
         |shot: &Alternative| shot.make_probability.is_none_or(|rate| rate.rate >= MIN_LISTED_SHARE * best_rate);
     let mut alternatives: Vec<_> = (1..pool.len())
@@ -99,7 +107,9 @@ pub fn robust_answer(
             cue: pool[index].shot.cue,
             source: pool[index].shot.source,
             kind: pool[index].kind,
-            make_probability: rates[index],
+            make_probability: rates[index].0,
+            judged_from: rates[index].1,
+            effort_penalty: pool[index].effort_penalty,
             next_probability: next[index],
         })
         .filter(is_worth)
@@ -114,11 +124,11 @@ pub fn robust_answer(
         solved: true,
         source: pool[0].shot.source,
         kind: Some(pool[0].kind),
-        make_probability: rates[0],
-        judged_from: if unbiased.is_some() { fresh.start } else { 0 },
+        make_probability: rates[0].0,
+        judged_from: rates[0].1,
+        effort_penalty: pool[0].effort_penalty,
         risk,
         next_probability: next[0],
-        is_planned: plan,
         alternatives,
         ..found.answer()
     }
@@ -142,17 +152,33 @@ fn complete_rates(judged: &[JudgedPiece], candidates: usize, count: usize) -> Ve
 
 /// Returns the indices of the shots that are made more often than the first one, less their effort penalties, best
 /// first. If the first one is a former answer, another shot must be better by [`MIN_IMPROVEMENT`]. In a `plan`, it must also leave a next
-/// shot that is known to be at least as easy.
+/// shot that is known to be at least as easy, unless nothing is known of either.
 fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>], plan: bool) -> Vec<usize> {
     let worth = |index: usize| rates[index].map(|rate| rate.rate - pool[index].effort_penalty);
     let was_advised = pool.first().is_some_and(|first| first.shot.source == Source::Former);
     let least = if was_advised { MIN_IMPROVEMENT } else { 0.0 };
     let is_better = |index: &usize| worth(0).zip(worth(*index)).is_some_and(|(bar, own)| own > bar + least * own.abs());
     let next = |index: usize| pool[index].next.known();
-    let leaves_enough = |index: &usize| !plan || next(0).zip(next(*index)).is_some_and(|(bar, own)| own >= bar);
+    let leaves_enough = |index: &usize| match (next(0), next(*index)) {
+        _ if !plan => true,
+        (Some(bar), Some(own)) => own >= bar,
+        // If neither is known, this point decides alone.
+        (bar, own) => bar.is_none() && own.is_none(),
+    };
     let mut better: Vec<usize> = (1..pool.len()).filter(is_better).filter(leaves_enough).collect();
     better.sort_by(|one, other| f64::total_cmp(&worth(*other).unwrap_or_default(), &worth(*one).unwrap_or_default()));
     better
+}
+
+/// Returns the index of the best shot whose rate contradicts the choice of the first one, also if chance is allowed for; `None` if there is
+/// none. The rates may be from other attempts than those that chose it.
+fn clearly_better(rated: &[(Candidate, (Option<SuccessRate>, usize))], plan: bool) -> Option<usize> {
+    let (pool, rates): (Vec<_>, Vec<_>) = rated.iter().map(|(shot, (rate, _))| (*shot, *rate)).unzip();
+    let is_significant = |index: &usize| {
+        let both = rates[*index].zip(rates[0]);
+        both.is_some_and(|(own, first)| own.is_significantly_above(&first))
+    };
+    made_more_often(&pool, &rates, plan).into_iter().find(is_significant)
 }
 
 /// Estimates how often each cause alone misses a shot; `None` if nothing is in doubt, or time runs out.
@@ -199,7 +225,7 @@ fn one_of_each_kind(pool: Vec<Candidate>, skill: Skill, radius: f64) -> Vec<Cand
 /// Estimates how often a stroke is made in these `attempts` (widened to whole pieces of 25), with the errors by which
 /// the answer to a request with `seed` is judged.
 /// The result equals the make probability in the answer, if there was time for all of its attempts, for the range that
-/// the answer used: from [`Recommendation::judged_from`] for the recommended stroke, and from 0 for an alternative.
+/// the answer used: from [`Recommendation::judged_from`] or [`Alternative::judged_from`].
 pub fn judge(
     shooter: Shooter,
     rule: Rule,
@@ -314,6 +340,8 @@ mod tests {
         let pool = next.map(|next| Candidate { next, ..candidate(cue, Route::Direct, 0.0) });
         let rates = [200, 300, 300, 300].map(|made| Some(SuccessRate::new(made, 1000)));
         assert_eq!(made_more_often(&pool, &rates, true), [1], "the next shot is more difficult, or not known");
+        let unknown = [pool[3], pool[2], pool[3]];
+        assert_eq!(made_more_often(&unknown, &rates[..3], true), [2], "of neither is the next shot known");
     }
 
     #[test]

@@ -16,7 +16,7 @@ use crate::{game::Tally, physics::CueInputs, player::errors::Errors};
 const LARGER_ERROR_WEIGHT: f64 = 0.3;
 
 /// Maximum speed of usual strokes, m/s. The ball leaves such a stroke at 5.6 m/s; one of 91 filmed shots is faster.
-const MAX_USUAL_SPEED: f64 = 4.0;
+pub const MAX_USUAL_SPEED: f64 = 4.0;
 
 /// Effort of every m/s beyond [`MAX_USUAL_SPEED`]. A harder stroke is not worth one or two percent: effects that are not
 /// simulated, such as how high a ball rises from a cushion nose that pressed it down, make it less certain than it
@@ -28,7 +28,7 @@ const EXTRA_SPEED_EFFORT: f64 = 2.0;
 /// Penalty for a shot that hits the first ball twice before the second: nobody intends this, and the model is least
 /// reliable after a kiss. A club player makes as many points with it: 33.8 instead of 33.9 % at three cushions and 60.2
 /// instead of 60.2 % at straight rail (300 layouts each).
-const DOUBLE_HIT_PENALTY: f64 = 0.05;
+pub const DOUBLE_HIT_PENALTY: f64 = 0.05;
 
 /// Attempts in a block; the last one has larger errors.
 pub const ATTEMPTS_PER_BLOCK: usize = 4;

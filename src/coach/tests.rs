@@ -57,7 +57,7 @@ fn judge_agrees_with_the_coachs_own_estimate() {
     let shooter = Shooter { skill: Skill::CLUB, doubt: Doubt::FULL };
     let asked = Request { skill: Skill::CLUB, doubt: Doubt::FULL, seed: 7, ..request(Rule::ThreeCushion, 3_000) };
     let advice = coach.recommend(&layout, &asked).unwrap();
-    let others = advice.alternatives.iter().map(|other| (other.cue, other.make_probability, 0));
+    let others = advice.alternatives.iter().map(|other| (other.cue, other.make_probability, other.judged_from));
     for (cue, said, from) in others.chain([(advice.cue, advice.make_probability, advice.judged_from)]) {
         let said = said.unwrap();
         let attempts = from..from + said.trials;

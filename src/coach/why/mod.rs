@@ -11,6 +11,7 @@ use serde::Serialize;
 use super::{
     Alternative, Input, Pattern, Recommendation, Sensitivity, Shooter, Skill, Technique,
     draws::Draws,
+    pool::{DOUBLE_HIT_PENALTY, MAX_USUAL_SPEED},
     trial::{CONTACT_STEPS, Task, with_unlimited_task},
     words::table_lengths,
 };
@@ -46,6 +47,32 @@ pub struct Kiss {
     pub place: DVec2,
 }
 
+/// Why a shot that is made more often than another may be ranked lower.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Drawback {
+    /// It is struck harder than usual, and what happens then is less certain.
+    HardStroke,
+    /// It hits the first ball twice, and what happens then is less certain.
+    HitsTwice,
+}
+
+impl Drawback {
+    /// The drawback of `other` that explains why a shot made less often leads; `None` if it is not made more often, or nothing explains it.
+    fn of(other: &Alternative, leader: &Recommendation) -> Option<Self> {
+        let (its, own) = other.make_probability.zip(leader.make_probability)?;
+        let penalty = other.effort_penalty - leader.effort_penalty;
+        let is_explained = its.rate > own.rate && its.rate - penalty <= own.rate;
+        let drawback = if other.cue.speed > MAX_USUAL_SPEED {
+            Some(Self::HardStroke)
+        } else {
+            // Without a second hit, the strokes differ by a percent at most.
+            (penalty > 0.5 * DOUBLE_HIT_PENALTY).then_some(Self::HitsTwice)
+        };
+        drawback.filter(|_| is_explained)
+    }
+}
+
 /// How the second-best shot differs from the best.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Difference {
@@ -62,6 +89,9 @@ pub struct Difference {
     pub harder: f64,
     /// Its make probability.
     pub make_probability: Option<f64>,
+    /// What ranks it lower although it is made more often.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drawback: Option<Drawback>,
     /// Total width by which its direction may be off, degrees. `None` if there is no limit, or the width does not
     /// explain the make probability.
     pub aim_deg: Option<f64>,
@@ -84,13 +114,10 @@ pub struct Why {
     pub next_probability: Option<f64>,
     /// The second-best shot.
     pub second: Option<Difference>,
-    /// Numbers, from 2, of the shots with a higher estimated make probability than the first one that may be due to
-    /// chance: their intervals overlap.
+    /// Numbers, from 2, of the shots with a higher estimated make probability than the first one that has no explanation but chance: the
+    /// attempts that chose the first shot say otherwise.
     #[serde(skip)]
     unsure: Vec<usize>,
-    /// Whether the shots are ranked by this point and the next.
-    #[serde(skip)]
-    is_planned: bool,
     /// Whether the search stopped at the first shot that makes the point.
     #[serde(skip)]
     is_the_first: bool,
@@ -125,13 +152,14 @@ pub fn why(
             fuller: if its_ball == ball { its.fullness() - technique.fullness() } else { 0.0 },
             harder: lengths(&other.cue) - lengths(&advice.cue),
             make_probability: other.make_probability.map(|rate| rate.rate),
+            drawback: Drawback::of(other, advice),
             aim_deg: aim_width(&sensitivity, &other.cue, shooter.skill, other.make_probability),
             next_probability: other.next_probability,
         })
     });
     let is_unsure = |other: &Alternative| {
         let rates = other.make_probability.zip(advice.make_probability);
-        rates.is_some_and(|(its, own)| its.rate > own.rate && !its.is_significantly_above(&own))
+        rates.is_some_and(|(its, own)| its.rate > own.rate) && Drawback::of(other, advice).is_none()
     };
     let numbered = (2..).zip(&advice.alternatives);
     Ok(Why {
@@ -141,7 +169,6 @@ pub fn why(
         next_probability: advice.next_probability,
         second: second.transpose()?,
         unsure: numbered.filter(|(_, other)| is_unsure(other)).map(|(number, _)| number).collect(),
-        is_planned: advice.is_planned,
         is_the_first: shooter.skill.is_perfect(),
         scale: (table.diamond(), 0.5 * DVec2::new(table.length, table.width)),
     })

@@ -1,6 +1,6 @@
 //! The reasons for a shot, in sentences.
 
-use super::{Difference, Kiss, Why};
+use super::{Difference, Drawback, Kiss, Why};
 use crate::{
     coach::{
         Units,
@@ -59,16 +59,15 @@ impl Why {
         parts.iter().map(|part| format!("{}.", capitalize(part))).collect::<Vec<_>>().join(" ")
     }
 
-    /// Whether the second-best shot has the higher make probability, and this one leads because the next point counts
-    /// too. As far as the next points are known, this shot has the higher probability of both.
+    /// Whether the second-best shot has the higher make probability, and this one leads because it leaves a clearly easier next point, so
+    /// that it has the higher probability of both.
     fn is_by_plan(&self) -> bool {
         let second = self.second.as_ref();
         let made = self.make_probability.zip(second.and_then(|second| second.make_probability));
         let next = self.next_probability.zip(second.and_then(|second| second.next_probability));
-        self.is_planned
-            && made.is_some_and(|(own, other)| {
-                own < other && next.is_none_or(|(after, after_other)| own * after > other * after_other)
-            })
+        made.zip(next).is_some_and(|((own, other), (after, after_other))| {
+            own < other && own * after > other * after_other && after - after_other >= NOTABLE_DIFFERENCE
+        })
     }
 
     /// Whether the second-best shot seems to be made more often, possibly by chance, and no plan decides.
@@ -81,15 +80,11 @@ impl Why {
         let there = self.second.as_ref().and_then(|second| second.next_probability);
         let left = self.next_probability.map(|next| {
             let is_alike = there.is_some_and(|there| (next - there).abs() < NOTABLE_DIFFERENCE);
-            let as_easy = if is_alike && !self.is_by_plan() { "about as easy, " } else { "" };
+            let as_easy = if is_alike { "about as easy, " } else { "" };
             let there = there.map_or_else(String::new, |there| format!(" (after {other}: {})", percent(there)));
             format!("it leaves the next point {as_easy}at {}{there}", percent(next))
         });
-        match left {
-            Some(left) if self.is_by_plan() => Some(format!("the plan decides: {left}")),
-            None if self.is_by_plan() => Some("the plan decides: the next point counts too".to_owned()),
-            left => left,
-        }
+        left.map(|left| if self.is_by_plan() { format!("the plan decides: {left}") } else { left })
     }
 
     /// Returns short forms, for a display that already contains the make probability, and for a player with `cue_ball`. The
@@ -130,7 +125,13 @@ impl Why {
         let lead = || {
             // Nothing but the make probability speaks for it.
             reasons.first().filter(|reason| !reason.is_for)?;
-            Some(if self.second.is_some() { "it is made most often" } else { "no other was found" }.to_owned())
+            let Some(second) = &self.second else { return Some("no other was found".to_owned()) };
+            let (own, its) = self.make_probability.zip(second.make_probability)?;
+            match own - its {
+                more if more > NOTABLE_DIFFERENCE => Some("it is made more often than shot 2".to_owned()),
+                alike if alike >= -NOTABLE_DIFFERENCE => Some("it is made about as often as shot 2".to_owned()),
+                _ => None,
+            }
         };
         let lead = luck.or_else(lead);
         shortened_texts(lead.into_iter().chain(with_but(reasons)).collect()).map(|sentence| capitalize(&sentence))
@@ -157,6 +158,13 @@ impl Why {
         reasons.extend(self.kiss.map(|Kiss { share, balls: [one, other], .. }| {
             let words = format!("{} and {} kiss in {}", names[one], names[other], percent(share));
             Reason { is_kiss: true, ..Reason::new(false, words) }
+        }));
+        reasons.extend(second.and_then(|second| second.drawback).map(|drawback| {
+            let words = match drawback {
+                Drawback::HardStroke => format!("{other} needs a very hard stroke"),
+                Drawback::HitsTwice => format!("{other} hits the first ball twice"),
+            };
+            Reason::new(true, format!("{words}, so it is less certain than its rate"))
         }));
         if let Some(plan) = self.plan_words(other) {
             let next = self.next_probability.zip(second.and_then(|second| second.next_probability));
@@ -261,7 +269,6 @@ mod tests {
             make_probability: Some(0.8),
             next_probability: Some(0.62),
             second,
-            is_planned: true,
             unsure: vec![2, 3],
             ..why.clone()
         };
@@ -272,12 +279,15 @@ mod tests {
             assert!(sentence.contains(&format!("{reason} (after shot 2: 31 %)")), "{sentence}");
         }
         assert!(planned.facts_beyond_list(CueBall::White).all(|sentence| sentence.starts_with("The plan decides")));
-        let unknown = Why { next_probability: None, ..planned }.words(CueBall::White, Units::default());
-        assert!(unknown.contains("The plan decides: the next point counts too."), "{unknown}");
+        // Without a clearly easier next point, the plan decides nothing.
+        for next in [None, Some(0.33)] {
+            let said = Why { next_probability: next, ..planned.clone() }.words(CueBall::White, Units::default());
+            assert!(!said.contains("plan") && said.contains("the second shot 90 %, maybe by chance."), "{said}");
+        }
         // If the second shot seems to be made more often only by chance, that is no reason against the first.
         let second = |unsure: &[usize]| {
             let second = why.second.clone().map(|second| Difference { make_probability: Some(0.54), ..second });
-            Why { make_probability: Some(0.48), second, is_planned: false, unsure: unsure.to_vec(), ..why.clone() }
+            Why { make_probability: Some(0.48), second, unsure: unsure.to_vec(), ..why.clone() }
         };
         let said = second(&[2]).words(CueBall::White, Units::default());
         assert!(said.contains("made 48 % of the time, the second shot 54 %, maybe by chance. "), "{said}");
@@ -309,7 +319,7 @@ mod tests {
         let [first, ..] = &both.facts_beyond_list(CueBall::White).collect::<Vec<_>>()[..] else { panic!("no facts") };
         assert_eq!(
             first,
-            "It leaves the next point at 60 % (after shot 2: 30 %); but the aim tolerance is narrower, 1\u{b0} (shot 2: 2\u{b0})."
+            "The plan decides: it leaves the next point at 60 % (after shot 2: 30 %); but the aim tolerance is narrower, 1\u{b0} (shot 2: 2\u{b0})."
         );
         // A difference that nobody notices is none.
         for (width, is_like) in [(0.97, true), (1.03, true), (0.9, false), (1.1, false)] {
@@ -322,9 +332,17 @@ mod tests {
             assert_eq!(said.contains("the second shot 54 %. It leaves the next point"), is_for, "{said}");
         }
         let against = Why { next_probability: None, ..both };
-        let [first, ..] = &against.facts_beyond_list(CueBall::White).collect::<Vec<_>>()[..] else {
-            panic!("no facts")
-        };
-        assert!(first.starts_with("It is made most often; but the aim tolerance is narrower"), "{first}");
+        let rates =
+            [(0.7, "It is made more often than shot 2; but"), (0.55, "It is made about as often as shot 2; but")];
+        for (rate, words) in rates.into_iter().chain([(0.4, "But the aim tolerance is narrower")]) {
+            let first =
+                Why { make_probability: Some(rate), ..against.clone() }.facts_beyond_list(CueBall::White).next();
+            assert!(first.as_ref().is_some_and(|first| first.starts_with(words)), "{first:?}");
+        }
+        let harder = against.second.clone().map(|second| Difference { drawback: Some(Drawback::HardStroke), ..second });
+        let said = Why { second: harder, ..against }.words(CueBall::White, Units::default());
+        let reason =
+            "The second shot needs a very hard stroke, so it is less certain than its rate. But the aim tolerance";
+        assert!(said.contains(reason), "{said}");
     }
 }

@@ -129,6 +129,7 @@ fn long_cue_ball_courses_are_complete_at_80_columns() {
 #[test]
 fn reasons_are_shown_and_the_likely_kiss_is_marked() {
     let second = Difference {
+        drawback: None,
         next_probability: None,
         pattern: Some("one cushion, reverse"),
         has_same_pattern: false,

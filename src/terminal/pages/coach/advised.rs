@@ -53,7 +53,11 @@ impl AdviceState {
 
     /// Index of the first simulated attempt with which the displayed shot was judged.
     pub fn judged_from(&self) -> usize {
-        self.found.as_ref().filter(|_| self.chosen == 0).map_or(0, |found| found.judged_from)
+        let Some(found) = &self.found else { return 0 };
+        match self.chosen.checked_sub(1) {
+            None => found.judged_from,
+            Some(other) => found.alternatives.get(other).map_or(0, |other| other.judged_from),
+        }
     }
 
     /// The displayed shot.
