@@ -251,6 +251,8 @@ mod tests {
         let on_table = |third| Applied { table_third: Some(third), ..applied.clone() }.correction();
         assert_eq!(on_table(35.4), "the same on this table");
         assert_eq!(on_table(41.0), "on this table it comes to 41 instead of 35");
+        let unusual = Applied { numbers: Numbers { start: 84.0, first: 66.0, third: 18.0 }, ..applied.clone() };
+        assert!(unusual.to_string().ends_with("aim at 66 on the wood; outside the usual range of the system"));
     }
 
     #[test]

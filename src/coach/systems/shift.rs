@@ -14,7 +14,7 @@ use super::{
 use crate::{simulation::Rail, table::Table};
 
 /// Maximum difference between the shift's prediction and the actual arrival, diamonds.
-const MAX_ARRIVAL_ERROR: f64 = 0.5;
+const MAX_ARRIVAL_ERROR: f64 = 0.3;
 
 /// Smaller shifts do not matter to a player, diamonds: the line itself leads to the diamond.
 const MIN_SHIFT: f64 = 0.05;
@@ -76,11 +76,14 @@ impl ParallelShift {
             return None;
         }
         let (lower, last) = (aimed.floor(), if is_long(first) { SIZE.x } else { SIZE.y });
+        // Beyond the corner there is nothing to aim at.
+        if !(0.0..=last).contains(&aimed) {
+            return None;
+        }
         let mut beside = [lower, lower + 1.0];
         beside.sort_by(|one, other| (one - aimed).abs().total_cmp(&(other - aimed).abs()));
         let turned = if is_long(first) == is_long(second) { 1.0 } else { -1.0 };
         let table_third = along(leg.hits[2].1, third);
-        // There is no diamond to aim at beyond the corner.
         beside.into_iter().filter(|diamond| (0.0..=last).contains(diamond)).find_map(|diamond| {
             let by = aimed - diamond;
             let path = parallel_path(table, leg, -by)?;
@@ -158,7 +161,8 @@ mod tests {
         assert!(shifts.len() > 20, "{}", shifts.len());
         for shift in &shifts {
             let last = if is_long(shift.rails[0]) { 8.0 } else { 4.0 };
-            assert!((0.0..=last).contains(&shift.diamond) && (0.0..=last).contains(&shift.third), "{shift:?}");
+            let places = [shift.diamond, shift.third, shift.shot_aim()];
+            assert!(places.iter().all(|place| (0.0..=last).contains(place)), "{shift:?}");
         }
         let shift = ParallelShift {
             rails: [Rail::Top, Rail::Bottom],

@@ -1,6 +1,6 @@
 //! Display of a system's arithmetic in players' notation.
 
-use std::fmt;
+use std::{fmt, ops::RangeInclusive};
 
 use super::{
     guide::{Applied, Guide},
@@ -8,6 +8,9 @@ use super::{
     system::{Numbers, System},
 };
 use crate::coach::words::format_trimmed;
+
+/// Usual numbers of Corner-5: starts from 20 to 70 and arrivals from 5 to 45, those of the published examples and a little more.
+const CORNER_5_USUAL: [RangeInclusive<f64>; 2] = [20.0..=70.0, 5.0..=45.0];
 
 /// Formats a system's number: integers if the scale has tens per diamond, otherwise one decimal.
 pub fn number(system: System, number: f64) -> String {
@@ -50,8 +53,21 @@ impl Applied {
         number(self.system, first)
     }
 
-    /// Describes the correction for this table; empty if it is unknown.
+    /// Describes the correction for this table, and says if the numbers are outside the usual range; empty if there is nothing to say.
     pub fn correction(&self) -> String {
+        let unusual = self.is_unusual().then(|| "outside the usual range of the system".to_owned());
+        let parts = [self.table_correction(), unusual.unwrap_or_default()];
+        parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ")
+    }
+
+    /// Whether the system is hardly ever played with these numbers, because its sums hold less and less well beyond them.
+    fn is_unusual(&self) -> bool {
+        let Numbers { start, third, .. } = self.numbers;
+        let [starts, thirds] = CORNER_5_USUAL;
+        self.system == System::Corner5 && !(starts.contains(&start) && thirds.contains(&third))
+    }
+
+    fn table_correction(&self) -> String {
         let said = |value: f64| number(self.system, value);
         match (self.table_first, self.table_third) {
             (Some(first), _) if said(first) == self.aim() => "the same on this table".to_owned(),
