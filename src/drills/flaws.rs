@@ -45,6 +45,10 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
         ("it hits the first ball only once before the second", technique.rehit_after.is_none()),
         ("it covers at least a twentieth of the first ball", technique.fullness() >= 0.05),
         ("yellow stays away from red but in a time shot", technique.drives_second == exercise.has_tag("time")),
+        (
+            "with the tag back the cue ball turns by more than 90 degrees",
+            !exercise.has_tag("back") || technique.deflection > 1.5 * FRAC_PI_3,
+        ),
     ];
     checks.extend(match exercise.category {
         Category::FirstCaroms => vec![
@@ -54,10 +58,6 @@ pub fn flaws(exercise: &Exercise) -> Result<Vec<&'static str>, ExerciseError> {
         Category::Draw => vec![
             ("the tip is more than 0.2 R below the centre", cue.b < -0.2),
             ("the cue ball turns by more than 60 degrees", technique.deflection > FRAC_PI_3),
-            (
-                "with the tag back it turns by more than 90",
-                !exercise.has_tag("back") || technique.deflection > 1.5 * FRAC_PI_3,
-            ),
             ("struck in the middle it misses", misses(CueInputs { b: 0.0, ..cue })),
         ],
         Category::Follow => vec![

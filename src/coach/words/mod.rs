@@ -36,13 +36,14 @@ pub const TIP: f64 = 0.1;
 /// Minimum english that is reported, R w / v.
 const MIN_ENGLISH: f64 = 0.1;
 
-/// Elevation below which a cue is called level, degrees: no player sees the difference.
-const MAX_LEVEL_ELEVATION: f64 = 2.0;
+/// Elevation up to which a cue is called level, degrees: the rail behind the ball alone requires two or three, and no player sees the
+/// difference.
+const MAX_LEVEL_ELEVATION: f64 = 3.5;
 
 /// Maximum difference from the least possible elevation for a cue to count as "as level as it can be", rad: half a degree.
 const LEVEL_TOLERANCE: f64 = 0.5_f64.to_radians();
 
-/// Elevation from which such a cue is no longer called level, degrees: the rail behind the ball alone requires two or three.
+/// Elevation from which such a cue is no longer called level, degrees.
 const MIN_RAISED_ELEVATION: f64 = 5.0;
 
 /// The effect of side at the first cushion.
