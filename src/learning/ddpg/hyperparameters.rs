@@ -51,7 +51,8 @@ pub struct Hyperparameters {
     /// Largest norm of a gradient; longer ones are scaled down to it.
     #[serde(alias = "gradient_clip")]
     pub max_grad_norm: f64,
-    /// Rate of the target networks' soft update: `target = tau * online + (1 - tau) * target`. The thesis' 0.001.
+    /// Rate of the target networks' soft update: `target = tau * online + (1 - tau) * target`. The thesis' 0.001, and more in the first
+    /// updates of a run.
     #[serde(alias = "target_rate")]
     pub tau: f64,
     /// Shots in the minibatch of a critic update.

@@ -4,7 +4,7 @@
 //! protocol buffers: <https://github.com/tensorflow/tensorflow/blob/master/tensorflow/core/util/event.proto>.
 
 use std::{
-    fs::{File, OpenOptions},
+    fs::{self, File, OpenOptions},
     io::{self, Write as _},
     path::Path,
     time::{SystemTime, UNIX_EPOCH},
@@ -25,14 +25,21 @@ const CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISCSI);
 pub struct EventFile(File);
 
 impl EventFile {
-    /// Opens the file of a run that has written `records` so far. It is rewritten from the records if these are complete (`is_whole`).
-    /// Otherwise it is kept as it is, because it may contain the lost lines.
-    pub fn open(folder: &Path, records: &[Record], is_whole: bool) -> io::Result<Self> {
+    /// Opens the file of a run that has written `records` so far, or writes it from them if there is none. An existing file is continued
+    /// in place, because an open `TensorBoard` would go on reading a file that was replaced. A record that was cut off is removed, and what
+    /// the file contains beyond the last of `records` counts no more.
+    pub fn open(folder: &Path, records: &[Record]) -> io::Result<Self> {
         let path = folder.join(FILE);
-        if is_whole || !path.exists() {
+        if !path.exists() {
             write_atomic_unsynced(&path, &Self::content(records))?;
+            return Ok(Self(OpenOptions::new().append(true).open(path)?));
         }
-        Ok(Self(OpenOptions::new().append(true).open(path)?))
+        let length = length_of_whole_records(&fs::read(&path)?);
+        let mut file = OpenOptions::new().append(true).open(path)?;
+        file.set_len(length as u64)?;
+        let next = records.last().map_or(0, |last| last.shots + 1);
+        file.write_all(&framed(&restart(next)))?;
+        Ok(Self(file))
     }
 
     /// Returns the content of a file with all these records.
@@ -52,9 +59,33 @@ impl EventFile {
     }
 }
 
+/// Returns the length of the records at the beginning of `bytes` that are complete.
+fn length_of_whole_records(bytes: &[u8]) -> usize {
+    let mut whole = 0;
+    while let Some(length) = bytes[whole..].first_chunk::<8>() {
+        let content = usize::try_from(u64::from_le_bytes(*length)).unwrap_or(usize::MAX);
+        let end = whole.saturating_add(content).saturating_add(FRAME);
+        if end > bytes.len() {
+            break;
+        }
+        whole = end;
+    }
+    whole
+}
+
+/// Encodes the event after which readers discard what the file contains from this step on.
+fn restart(step: u64) -> Vec<u8> {
+    let step = field(STEP, VARINT, &varint(step));
+    let start = field(STATUS, VARINT, &varint(START));
+    [field(WALL_TIME, DOUBLE, &now().to_le_bytes()), step, sized(SESSION_LOG, &start)].concat()
+}
+
 fn now() -> f64 {
     SystemTime::now().duration_since(UNIX_EPOCH).map_or(0.0, |since| since.as_secs_f64())
 }
+
+/// Bytes of a record around its content: the length and both checksums.
+const FRAME: usize = 16;
 
 /// Frames an event as a record of the file.
 fn framed(content: &[u8]) -> Vec<u8> {
@@ -68,11 +99,14 @@ fn masked(bytes: &[u8]) -> [u8; 4] {
     CHECKSUM.checksum(bytes).rotate_right(15).wrapping_add(0xa282_ead8).to_le_bytes()
 }
 
-/// Field numbers of an `Event`, of its `Summary` and of a value in the summary.
+/// Field numbers of an `Event`, of its `Summary`, of a value in the summary, and of its `SessionLog` with the status of a start.
 const WALL_TIME: u8 = 1;
 const STEP: u8 = 2;
 const FILE_VERSION: u8 = 3;
 const SUMMARY: u8 = 5;
+const SESSION_LOG: u8 = 7;
+const STATUS: u8 = 1;
+const START: u64 = 1;
 const VALUE: u8 = 1;
 const TAG: u8 = 1;
 const SIMPLE_VALUE: u8 = 2;
@@ -129,24 +163,30 @@ mod tests {
     }
 
     #[test]
-    fn lines_missing_in_the_metrics_are_kept() {
+    fn a_resumed_run_continues_the_same_file() {
         let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(FILE);
         let record = Record { shots: 300, ..Record::default() };
-        let length = || std::fs::metadata(folder.path().join(FILE)).unwrap().len();
-        let open = |records: &[Record], is_whole| EventFile::open(folder.path(), records, is_whole).unwrap();
-        open(&[record.clone(), record.clone()], true);
-        let two = length();
-        open(&[], false).push(&record).unwrap();
-        assert!(length() > two);
-        open(&[record], true);
-        assert!(length() < two, "a rewritten file contains only the lines of the metrics");
+        EventFile::open(folder.path(), &[]).unwrap().push(&record).unwrap();
+        let before = fs::read(&path).unwrap();
+        // The process was killed in the middle of a record.
+        fs::write(&path, [before.as_slice(), &framed(b"event")[..11]].concat()).unwrap();
+        EventFile::open(folder.path(), std::slice::from_ref(&record)).unwrap().push(&record).unwrap();
+        let after = fs::read(&path).unwrap();
+        assert!(after.starts_with(&before), "what was written stays");
+        assert_eq!(length_of_whole_records(&after), after.len(), "no record is cut off");
+        let restart_at_301 = [STEP << 3, 0xad, 0x02, SESSION_LOG << 3 | BYTES, 2, STATUS << 3, START as u8];
+        assert!(after[before.len()..].windows(7).any(|part| part == restart_at_301));
+        fs::remove_file(&path).unwrap();
+        EventFile::open(folder.path(), &[record]).unwrap();
+        assert_eq!(fs::read(&path).unwrap().len(), before.len(), "a lost file is written anew");
     }
 
     #[test]
     fn a_file_has_a_version_and_one_event_per_line() {
         let folder = tempfile::tempdir().unwrap();
         let record = Record { shots: 300, critic_loss: f64::NAN, rollout_reward: 0.25, ..Record::default() };
-        let mut file = EventFile::open(folder.path(), std::slice::from_ref(&record), true).unwrap();
+        let mut file = EventFile::open(folder.path(), std::slice::from_ref(&record)).unwrap();
         file.push(&record).unwrap();
         let bytes = std::fs::read(folder.path().join(FILE)).unwrap();
         let (mut rest, mut events) = (bytes.as_slice(), Vec::new());

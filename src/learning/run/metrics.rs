@@ -91,7 +91,7 @@ pub(super) fn notices(path: &Path, shots: u64, log_every: u64) -> Vec<String> {
 
 /// Whether lines are missing after the `last` one of a run that resumes after `shots` shots. All lines before a checkpoint are written
 /// before it, so none is missing if no line was due between the last one and the checkpoint.
-pub(super) fn lacks_lines(last: Option<u64>, shots: u64, log_every: u64) -> bool {
+fn lacks_lines(last: Option<u64>, shots: u64, log_every: u64) -> bool {
     let number = |shots: u64| shots / log_every.max(1);
     number(last.unwrap_or(0)) != number(shots)
 }

@@ -14,7 +14,7 @@ use super::{
     examples::Examples,
     heartbeat::Heartbeat,
     json,
-    metrics::{self, MetricsFile, Record},
+    metrics::{MetricsFile, Record},
     request::Request,
     status::Phase,
 };
@@ -85,12 +85,11 @@ impl Run {
         let path = self.folder.join(METRICS);
         let (metrics, records) = MetricsFile::open(&path, self.learner.shots()).map_err(file(&path))?;
         let (last, shots) = (records.last().map(|record| record.shots), self.learner.shots());
-        let is_whole = !metrics::lacks_lines(last, shots, self.state.schedule.log_every);
         let layouts = held_out_layouts(self.learner.table(), self.state.schedule.evaluation_layouts, HELD_OUT_SEED);
         let mut events = None;
         // A finished run writes no more lines.
         if !self.learner.is_finished() {
-            events = EventFile::open(&self.folder, &records, is_whole).ok();
+            events = EventFile::open(&self.folder, &records).ok();
             // A result exists here if the last checkpoint of a finished run was lost and the run resumes from the previous one.
             let _ = fs::remove_file(self.folder.join(RESULT));
         }
