@@ -108,7 +108,8 @@ impl Keys for BatchLine {
         ),
         Key::RULE,
     ];
-    const FORM: &'static str = "preset (the table, like \"match\"), layout, and cue or impulse; rule may be left out";
+    const FORM: &'static str = "preset (the table, like \"match\"), layout (like [[-0.71, 0.18], [-0.71, 0], [0.71, 0]]), and cue or \
+                                impulse; rule may be left out";
 }
 
 /// An initial motion of the cue ball, in place of a stroke; for filmed shots.

@@ -119,7 +119,8 @@ struct BatchLine {
 
 impl Keys for BatchLine {
     const KEYS: &'static [Key] = &[Key::PRESET, Key::LAYOUT, Key::RULE];
-    const FORM: &'static str = "preset (the table, like \"match\") and layout; rule may be left out";
+    const FORM: &'static str = "preset (the table, like \"match\") and layout (like [[-0.71, 0.18], [-0.71, 0], [0.71, 0]]); rule may \
+                                be left out";
 }
 
 /// A shot in JSON. Unknown values are absent.

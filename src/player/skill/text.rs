@@ -98,7 +98,7 @@ impl FromStr for Skill {
     type Err = SkillError;
 
     fn from_str(text: &str) -> Result<Self, SkillError> {
-        if let Some((_, skill)) = Self::NAMED.iter().find(|(name, _)| *name == text) {
+        if let Some((_, skill)) = Self::NAMED.iter().find(|(name, _)| name.eq_ignore_ascii_case(text)) {
             return Ok(*skill);
         }
         if let Some(average) = parse_number(text.strip_prefix(AVERAGE).unwrap_or(text)) {
@@ -121,7 +121,10 @@ impl FromStr for Skill {
                 }
                 continue;
             }
-            let input = Input::ALL.into_iter().find(|input| input.name() == name.trim()).ok_or_else(unknown)?;
+            let input = Input::ALL
+                .into_iter()
+                .find(|input| input.name().eq_ignore_ascii_case(name.trim()))
+                .ok_or_else(unknown)?;
             let (unit, most) = ERROR_FORMATS[input as usize];
             let value = match value.trim().strip_suffix('%').filter(|_| input == Input::Speed) {
                 Some(share) => {

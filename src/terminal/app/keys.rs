@@ -72,7 +72,11 @@ impl App {
         if found.is_none() && key.modifiers.contains(KeyModifiers::ALT) {
             return self.handle_as_escape_and_key(key);
         }
-        let found = found?;
+        let is_hidden = || {
+            self.key_context() == KeyContext::OwnStroke
+                && bindings::find(&translated, KeyContext::Coach, |_| None).is_some()
+        };
+        let found = found.or_else(|| is_hidden().then_some(Err("Esc leaves your stroke first")))?;
         if translated.code == KeyCode::Esc {
             self.toasts.clear();
             if found.is_err() {
@@ -114,6 +118,8 @@ impl App {
         }
         if self.input(Typed::Paste(text)) {
             self.toasts.dismiss_answers();
+        } else {
+            self.toasts.push("pasted text not used: nothing here asks for text".to_owned(), true);
         }
         self.collect_toasts(true);
     }

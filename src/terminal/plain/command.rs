@@ -121,7 +121,9 @@ impl FromStr for Command {
     type Err = String;
 
     fn from_str(line: &str) -> Result<Self, String> {
-        let words: Vec<&str> = line.split_whitespace().collect();
+        // Telephones, dictation and braille keyboards begin a line with a capital letter.
+        let lower = line.to_ascii_lowercase();
+        let words: Vec<&str> = lower.split_whitespace().collect();
         Ok(match words[..] {
             [] | ["shot" | "ask"] => Self::Shot,
             ["try", ..] => Self::Try(line.trim_start()["try".len()..].to_owned()),
@@ -209,6 +211,9 @@ mod tests {
             assert_eq!(rule.parse(), Ok(Command::Rule(Rule::OneCushion)));
         }
         assert_eq!("skill world class".parse(), Ok(Command::Skill(Skill::WORLD_CLASS)));
+        assert_eq!("Skill World Class".parse(), Ok(Command::Skill(Skill::WORLD_CLASS)));
+        assert_eq!("Cue Ball Yellow".parse(), Ok(Command::CueBall(CueBall::Yellow)));
+        assert!("Skill A=0.7,b=0.7,theta=0.2,phi=0.2,V=0.1".parse::<Command>().is_ok());
         for average in ["skill 0.6", "skill 0,6"] {
             assert_eq!(average.parse(), Ok(Command::Skill(Skill::of_average(0.6).unwrap())));
         }

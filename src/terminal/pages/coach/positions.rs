@@ -22,7 +22,10 @@ impl CoachPage {
 
     /// Puts the balls in the pasted positions.
     pub(super) fn paste(&mut self, text: &str) {
-        if let Err(sentence) = self.apply_positions(text) {
+        if self.own_stroke.is_some() {
+            let words = "pasted text not used: t asks for a stroke; Esc goes back to the balls";
+            self.message = Some(Message::warning(words));
+        } else if let Err(sentence) = self.apply_positions(text) {
             // The paste may be an accident, so there is no question that asks for a correction.
             self.message = Some(Message::warning(format!("pasted text not used: {sentence}")));
         }

@@ -296,7 +296,7 @@ pub const EXERCISE: &[Binding<A, W>] = stroke_keys!(A::ChangeStroke, W::Aiming, 
     bind(Stroke, W::Running, &[key(Enter, A::Next)], Some(("to the end", 1)), "to the end of the shot"),
     bind(Stroke, W::GoalReached, &[key(Enter, A::Next)], Some(("begin again", 1)), "begin another run, game or match like it"),
     bind(Stroke, W::Ended, &[key(Enter, A::Next)], Some(("next", 1)), "the next repetition, or the next exercise of an exam"),
-    bind(Stroke, W::Watching, &[letter(' ', P(Toggle))], Some(("replay", 1)), "play and pause the shot"),
+    bind(Stroke, W::Watching, &[letter(' ', P(Toggle))], Some(("play/pause", 1)), "play and pause the shot"),
     bind(Stroke, W::Watching, &[letter('-', P(Pace(-1))), letter('+', P(Pace(1))), letter('=', P(Pace(1))),
         key(Down, P(Pace(-1))), key(Up, P(Pace(1)))], None, "play slower or faster")
         .each(&["play slower", "play faster"]),

@@ -89,7 +89,10 @@ fn question(coach: &CoachPage, has_plan: bool, has_average: bool, ui: &Ui) -> Li
     }
     let mut line = Line::default();
     for (action, words) in parts {
-        line.push_span(Span::styled(format!(" {}", ui.key_of(COACH, &action)), ui.theme.accent()));
+        // These keys do nothing while the player's own stroke is open.
+        if coach.what_if().is_none() {
+            line.push_span(Span::styled(format!(" {}", ui.key_of(COACH, &action)), ui.theme.accent()));
+        }
         line.push_span(Span::styled(format!(" {words}"), ui.theme.text()));
     }
     line

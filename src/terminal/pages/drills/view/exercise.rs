@@ -9,7 +9,6 @@ use crate::{
         Capabilities, Shot,
         pages::drills::{
             AimLine, DrillsPage, ModelShotState, Turn,
-            turn_actions::IS_RUNNING,
             view::{draw_header, panels, panes::Panes, score},
         },
         ui::{
@@ -144,27 +143,35 @@ fn status_line(turn: &Turn, unit: LengthUnit) -> Message {
             others_skill_word(level)
         ));
     }
-    Message::plain(match (turn.watched().is_some(), &turn.model_shot) {
-        (true, _) => IS_RUNNING,
-        (false, ModelShotState::Pending) if turn.is_coachs_turn() => "the coach is thinking about its stroke",
-        (false, ModelShotState::Missing) if turn.is_coachs_turn() => {
+    if let Some(watched) = turn.watched() {
+        let speed = match watched.playback.speed() {
+            1.0 => String::new(),
+            speed => format!(" at {speed} times its speed"),
+        };
+        return Message::plain(if watched.playback.playing {
+            format!("the shot is running{speed}; Enter skips to its end")
+        } else {
+            format!("the shot is paused{speed}; Space goes on, Enter skips to its end")
+        });
+    }
+    Message::plain(match &turn.model_shot {
+        ModelShotState::Pending if turn.is_coachs_turn() => "the coach is thinking about its stroke",
+        ModelShotState::Missing if turn.is_coachs_turn() => {
             "the coach knows no stroke here; Space plays full at a ball"
         }
-        (false, _) if turn.is_coachs_turn() => "the coach's stroke, with errors as large as yours; Space plays it",
-        (false, ModelShotState::Pending) => "set the stroke and play it; the coach is still thinking",
-        (false, ModelShotState::Missing) => "set the stroke and play it; the coach has found no shot here",
-        (false, ModelShotState::Known(_)) if turn.what_if().is_some() => {
+        _ if turn.is_coachs_turn() => "the coach's stroke, with errors as large as yours; Space plays it",
+        ModelShotState::Pending => "set the stroke and play it; the coach is still thinking",
+        ModelShotState::Missing => "set the stroke and play it; the coach has found no shot here",
+        ModelShotState::Known(_) if turn.what_if().is_some() => {
             "what if: change your stroke; the attempt counts as one with a hint"
         }
-        (false, ModelShotState::Known(model_shot)) if turn.shows_hint && model_shot.is_own => {
+        ModelShotState::Known(model_shot) if turn.shows_hint && model_shot.is_own => {
             "this is the model shot; the attempt counts as one with a hint"
         }
-        (false, ModelShotState::Known(_)) if turn.shows_hint => {
+        ModelShotState::Known(_) if turn.shows_hint => {
             "this is the coach's shot; the attempt counts as one with a hint"
         }
-        (false, ModelShotState::Known(_)) if turn.session.is_exam() || turn.session.is_match() => {
-            "set the stroke and play it"
-        }
-        (false, ModelShotState::Known(_)) => "set the stroke and play it; at a real table: m made, n missed",
+        ModelShotState::Known(_) if turn.session.is_exam() || turn.session.is_match() => "set the stroke and play it",
+        ModelShotState::Known(_) => "set the stroke and play it; at a real table: m made, n missed",
     })
 }
