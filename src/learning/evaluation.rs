@@ -8,7 +8,8 @@ use crate::table::{Layout, Table};
 /// Seed of the held-out layouts on which a training run measures its progress.
 pub const HELD_OUT_SEED: u64 = 2026;
 
-/// Seed of the layouts that `carom evaluate` uses. No training run and no setting was ever selected by its score on them.
+/// Seed of the layouts that `carom evaluate` uses. No training run uses them, and a comparison that is to choose between networks should
+/// name another seed.
 pub const EVALUATION_SEED: u64 = 1867;
 
 /// Limit on the steps of resting contacts that are simulated for a shot in training. A shot that needs more keeps the reward that it

@@ -218,6 +218,15 @@ pub fn merge(files: &[PathBuf]) -> Result<(Spec, Records), Failure> {
         return Err(missing(Shard { part, of }));
     }
     records.sort();
+    // An inning of self-play may have been left out for want of time.
+    if let Records::Shots(shots) = &records
+        && shots.iter().map(|shot| shot.layout).ne(0..spec.layouts)
+    {
+        let (held, layouts) = (shots.len(), spec.layouts);
+        return Err(Failure::wrong_input(format_args!(
+            "the parts hold {held} of {layouts} layouts; run the incomplete part again"
+        )));
+    }
     Ok((spec, records))
 }
 

@@ -32,7 +32,8 @@ const STREAM: u64 = 0x0070_6c61_7474;
 /// A layout, and the context under which it is played.
 pub(super) type ContextualLayout = (Layout, Context);
 
-fn part(share: f64, of: usize) -> usize {
+/// Returns this share of a number, rounded.
+pub(super) fn part(share: f64, of: usize) -> usize {
     ((of as f64 * share).round() as usize).min(of)
 }
 

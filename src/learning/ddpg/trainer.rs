@@ -12,12 +12,12 @@ use super::{
     context::CONTEXT_FEATURES,
     features::STATE_FEATURES,
     first_contact::RAIL_FEATURES,
-    hyperparameters::Hyperparameters,
+    hyperparameters::{Hyperparameters, RANKED},
     networks::Networks,
     observation_batch::ObservationBatch,
     policy::{Policy, calibration::Calibration, file::Origin},
     randomized_tables::RandomizedTables,
-    snapshot,
+    rollout, snapshot,
 };
 use crate::{
     learning::{
@@ -132,7 +132,29 @@ fn hyperparameters(settings: &Value) -> Result<Hyperparameters, StartError> {
         let reason = "searches need players with errors: use searched with context = true";
         return Err(StartError::Settings(reason.to_owned()));
     }
-    let Hyperparameters { imitation, actor_learning_rate, .. } = hyperparameters;
+    let Hyperparameters { imitation, actor_learning_rate, ranking, shots_per_update, .. } = hyperparameters;
+    let own = Hyperparameters::default();
+    let idle = [
+        (
+            imitation > 0.0 && hyperparameters.searched == 0,
+            "imitation needs searched strokes: use searched = 1 or more, or imitation = 0",
+        ),
+        (
+            hyperparameters.attempts != own.attempts && !hyperparameters.context,
+            "attempts need players with errors: use attempts with context = true, or attempts = 1",
+        ),
+        (
+            hyperparameters.perfect != own.perfect && !hyperparameters.context,
+            "perfect is the share of players without errors: use it with context = true",
+        ),
+        (
+            ranking > 0.0 && rollout::part(ranking, shots_per_update) < RANKED,
+            "ranking is less than the eight shots of one layout: use 0, or more of shots_per_update",
+        ),
+    ];
+    if let Some((_, reason)) = idle.into_iter().find(|(is_idle, _)| *is_idle) {
+        return Err(StartError::Settings(reason.to_owned()));
+    }
     if imitation > 0.0 && actor_learning_rate < MIN_ACTOR_LEARNING_RATE {
         let reason = format!(
             "imitation = {imitation} has no effect with an actor_learning_rate of {actor_learning_rate:e} (perhaps set by --from): \

@@ -81,6 +81,9 @@ fn a_table_is_followed_live_while_its_player_allows_it() {
         |screen: &vt100::Screen| ["Point", "No point", "point"].iter().any(|word| screen.contents().contains(word));
     anna.wait_until("the end", over);
     ben.wait_until("the end", over);
+    anna.send("w");
+    ben.wait_for("anna's own stroke, not the coach's shot");
+    anna.send("\x1b");
     // Keys of the spectator change nothing.
     ben.send("\x1b[C\x1b[Cro\rF");
     ben.wait_until_quiet(QUIET_TIME);

@@ -60,7 +60,11 @@ impl FollowedPlayer {
             Activity::Placing => Some(format!("{name} places the balls")),
             Activity::Thinking => Some(format!("the coach thinks for {name}")),
             Activity::Elsewhere => Some(format!("{name} is at another screen; this is the table as they have left it")),
-            Activity::Watching => seen.shot.is_none().then(|| format!("the shot of {name} cannot be shown here")),
+            Activity::Watching if seen.shot.is_none() => Some(format!("the shot of {name} cannot be shown here")),
+            Activity::Watching => {
+                let is_own = seen.shown.shot.is_some_and(|shot| shot.author == Author::Player);
+                is_own.then(|| format!("{name}'s own stroke, not the coach's shot"))
+            }
         }
     }
 }
