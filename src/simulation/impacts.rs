@@ -20,7 +20,7 @@ use crate::{
 
 /// Number of impacts at one moment after which further ones are solved without restitution. Three touching balls against a cushion need
 /// some dozens; an inelastic collapse would need infinitely many.
-const MAX_ROUNDS: u32 = 64;
+pub(super) const MAX_ROUNDS: u32 = 64;
 
 /// Number of impacts at one moment after which balls count as jammed between cushions. A ball that rolls past others in a row that fills
 /// the table needs more room than rounding leaves, until it has passed, and no impulse creates that room.
@@ -39,7 +39,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let (rail_after, rail, meets_two) =
             (*rail_after, *rail, is_in_corner(&self.constants, segment.position_after(*rail_after)));
         if (self.may_be_simultaneous(now) || meets_two || self.touches_another(index, now))
-            && self.collide_simultaneously(now)?
+            && self.collide_simultaneously(now, &Contact::with_cushion(index, rail))?
         {
             return ControlFlow::Continue(());
         }
@@ -90,12 +90,14 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 
     pub(super) fn collide(&mut self, pair: usize, now: f64) -> ControlFlow<()> {
-        if self.may_be_simultaneous(now) && self.collide_simultaneously(now)? {
-            return ControlFlow::Continue(());
-        }
+        let may_be_simultaneous = self.may_be_simultaneous(now);
         let (first, second) = PAIRS[pair];
         if !self.is_on_cloth(first) || !self.is_on_cloth(second) {
             return self.collide_in_space(pair, now);
+        }
+        let contact = Contact::of_balls(first, second);
+        if may_be_simultaneous && self.collide_simultaneously(now, &contact)? {
+            return ControlFlow::Continue(());
         }
         let PairPrediction { since, after, .. } = self.pairs[pair];
         let changed = std::array::from_fn(|ball| ball == first || ball == second);
@@ -120,7 +122,6 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let opening = (a.velocity - b.velocity).dot(a.position - b.position);
         let mut reported = true;
         if opening <= c.diameter * c.tolerance.slow_bounce {
-            let contact = Contact::of_balls(first, second);
             reported = self.slow_bounce(now, &contact)?;
             if let Some(rests) = self.chatter_end(now, freed.as_ref(), &contact, &[(first, a), (second, b)]) {
                 let before = [(first, before.0), (second, before.1)];
@@ -150,11 +151,17 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         PAIRS_OF[index].iter().any(|&(_, other)| here.distance_squared(place(other)) <= near * near)
     }
 
+    /// Counts the impacts at this moment.
+    #[inline(always)]
+    pub(super) fn count_round(&mut self, now: f64) {
+        self.rounds = if now - self.last_impact <= SAME_TIME { self.rounds + 1 } else { 0 };
+        self.last_impact = now;
+    }
+
     /// Whether other impacts may happen at this moment, or too many have happened.
     #[inline(always)]
     pub(super) fn may_be_simultaneous(&mut self, now: f64) -> bool {
-        self.rounds = if now - self.last_impact <= SAME_TIME { self.rounds + 1 } else { 0 };
-        self.last_impact = now;
+        self.count_round(now);
         let mut at_once = 0;
         for time in self.times {
             at_once += u32::from(time <= now + self.constants.tolerance.simultaneous);
@@ -162,9 +169,15 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         at_once > 1 || self.inelastic || self.rounds > MAX_ROUNDS
     }
 
-    /// Resolves all contacts that close now together, if there are several. Returns whether they have collided.
+    /// Resolves all contacts that close now together, if there are several; if a ball of them is in the air, only those that are linked to
+    /// the `predicted` one. Returns whether they have collided.
     #[cold]
-    pub(super) fn collide_simultaneously(&mut self, now: f64) -> ControlFlow<(), bool> {
+    pub(super) fn collide_simultaneously(&mut self, now: f64, predicted: &Contact) -> ControlFlow<(), bool> {
+        if self.balls.iter().any(|ball| ball.segment.motion == Motion::Flying)
+            && self.collide_together_aloft(now, predicted)?
+        {
+            return ControlFlow::Continue(true);
+        }
         self.effort.add(RAIL_BOUNCE_COST);
         let held = self.resting.as_ref().map(|resting| resting.after(self.table, now - resting.start));
         let mut states = self.states_with(now, held.as_ref(), &[]);
@@ -329,7 +342,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 }
 
 /// Returns the event of an impact.
-fn kind(contact: &Contact) -> EventKind {
+pub(super) fn kind(contact: &Contact) -> EventKind {
     match contact.partner {
         Partner::Ball(second) => EventKind::BallBall(contact.first, second),
         Partner::Cushion(rail) => EventKind::BallRail(contact.first, rail),

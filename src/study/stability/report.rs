@@ -196,7 +196,7 @@ Energy is audited in both directions. It never grows, at an event or between eve
 | motion that is stopped | speeds below 1e-7 m/s | 1e-14 m²/s² a ball, and the friction of the impulses in closed contacts that stop it |
 | bodies that touch without a collision | nothing | errors of 1e-10 m/s, of 1e-10 m and of 1e-5 of the work |
 | a landing, potential energy included | the cloth's restitution and friction, computed hop by hop | rounding |
-| an impact of balls in the air | the formulas of the reference engine: one impact after another in the air, simultaneous impacts on the cloth together | the overlap of the two bodies over a ball's diameter, which makes the direction uncertain |
+| an impact of balls in the air | the formulas of the reference engine: impacts at the same moment together, as on the cloth; slow ones in the air, with which a ball slides off, one after another | the overlap of the two bodies over a ball's diameter, which makes the direction uncertain |
 | a ball that leaves the table | its whole energy | |
 
 The columns below contain the largest residual at an event, between events or in a whole shot, as a multiple of the tolerance and in m²/s² (energy over a ball's mass).";
