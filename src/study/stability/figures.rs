@@ -43,10 +43,10 @@ pub struct Figures {
     pub energy: Worst,
     /// The same in m²/s² (energy per ball mass).
     pub gained: Worst,
-    /// Unexplained energy at an event, between events or in the whole shot, relative to rounding and tolerances: a loss without
-    /// a friction or impact that dissipates it, or a dissipation without a loss.
+    /// Unexplained energy at an event or between events, relative to rounding and tolerances: a loss without a friction or
+    /// impact that dissipates it, or a dissipation without a loss.
     pub unexplained: Worst,
-    /// The same in m²/s².
+    /// The same in m²/s², also of a whole shot.
     #[serde(rename = "missing")]
     pub unexplained_energy: Worst,
     /// Displacement of a ball between two pieces of its course, m.

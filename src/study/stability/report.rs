@@ -52,8 +52,6 @@ pub struct Row {
     pub example: Option<String>,
     /// The first failed shot, with its table.
     pub finding: Option<Finding>,
-    /// Whether all shots were played: always true; part of the JSON format.
-    pub complete: bool,
 }
 
 impl Row {
@@ -64,7 +62,7 @@ impl Row {
         let unlimited = (case.limits == Limits::ANY_EVENTS).then_some("any number of events");
         let parts = [Some(case.requirement).filter(|words| !words.is_empty()), unlimited];
         let checked = parts.into_iter().flatten().collect::<Vec<_>>().join("; ");
-        Self { name: case.name, checked, figures, failed, example, finding: first, complete: true }
+        Self { name: case.name, checked, figures, failed, example, finding: first }
     }
 
     /// Whether no shot failed.
@@ -199,7 +197,7 @@ Energy is audited in both directions. It never grows, at an event or between eve
 | an impact of balls in the air | the formulas of the reference engine: impacts at the same moment together, as on the cloth; slow ones in the air, with which a ball slides off, one after another | the overlap of the two bodies over a ball's diameter, which makes the direction uncertain |
 | a ball that leaves the table | its whole energy | |
 
-The columns below contain the largest residual at an event, between events or in a whole shot, as a multiple of the tolerance and in m²/s² (energy over a ball's mass).";
+The columns below contain the largest residual at an event or between events, as a multiple of the tolerance and in m²/s² (energy over a ball's mass); the latter also of a whole shot.";
 
 /// Returns the Markdown page with the table.
 pub fn page(plan: &Plan, rows: &[Row]) -> String {
@@ -235,7 +233,6 @@ mod tests {
             failed: 0,
             example: None,
             finding: None,
-            complete: true,
         }
     }
 
