@@ -213,7 +213,7 @@ pub fn page(plan: &Plan, rows: &[Row]) -> String {
         Every shot is checked on its whole course, not at samples: all numbers finite, no ball outside the table or overlapping another by \
         more than 1e-9 m, between events either (in proportion to the length on tables longer than 2.84 m), no jump between the \
         pieces of a course, no collision across a gap, no time that runs backwards, at most 500 events unless the row says otherwise, an \
-        end, and at most 50 ms of computing. A failed row states the number of failed shots and the violation in the first.\n\n\
+        end that is not forced because of too much work, and at most 50 ms of computing. A failed row states the number of failed shots and the violation in the first.\n\n\
         {AUDIT}\n\n{}",
         rows.len(),
         markdown(rows)
@@ -226,14 +226,7 @@ mod tests {
 
     fn row() -> Row {
         let figures = Figures { shots: 12, events: 7, ..Figures::default() };
-        Row {
-            name: "a case",
-            checked: "something".to_owned(),
-            figures,
-            failed: 0,
-            example: None,
-            finding: None,
-        }
+        Row { name: "a case", checked: "something".to_owned(), figures, failed: 0, example: None, finding: None }
     }
 
     #[test]
