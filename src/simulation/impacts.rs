@@ -2,8 +2,10 @@
 
 use std::ops::ControlFlow;
 
+use glam::DVec2;
+
 use super::{
-    Event, EventKind, Observer,
+    Constants, Event, EventKind, Observer,
     chatter::chatter_end,
     contacts::{PAIRS_OF, close_gaps, is_in_corner, move_to_cushion, touching},
     engine::{Ball, ContactMode, Engine, PairPrediction, SAME_TIME, only_ball},
@@ -96,7 +98,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             return self.collide_in_space(pair, now);
         }
         let contact = Contact::of_balls(first, second);
-        if may_be_simultaneous && self.collide_simultaneously(now, &contact)? {
+        if (may_be_simultaneous || self.pair_touches_another(first, second, now))
+            && self.collide_simultaneously(now, &contact)?
+        {
             return ControlFlow::Continue(());
         }
         let PairPrediction { since, after, .. } = self.pairs[pair];
@@ -143,12 +147,33 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if self.resting.is_some() || self.balls[index].mode != ContactMode::Free {
             return false;
         }
-        let place = |ball: usize| {
-            let segment = &self.balls[ball].segment;
-            segment.position_after(now - segment.start)
-        };
+        let place = |ball: usize| self.place(ball, now);
         let (here, near) = (place(index), self.constants.diameter + self.constants.tolerance.touching);
         PAIRS_OF[index].iter().any(|&(_, other)| here.distance_squared(place(other)) <= near * near)
+    }
+
+    /// Whether one of two balls that collide touches the third ball or a cushion: the closing speed may be so low that the impacts are
+    /// predicted for different times, although rounding alone separates them.
+    #[inline(always)]
+    fn pair_touches_another(&self, first: usize, second: usize, now: f64) -> bool {
+        let is_free = |ball: usize| self.balls[ball].mode == ContactMode::Free;
+        if self.resting.is_some() || !is_free(first) || !is_free(second) {
+            return false;
+        }
+        let Constants { reach, diameter, tolerance, .. } = &self.constants;
+        let near = diameter + tolerance.touching;
+        let third = self.place(BALLS - first - second, now);
+        [first, second].into_iter().any(|ball| {
+            let here = self.place(ball, now);
+            here.distance_squared(third) <= near * near || (*reach - here.abs()).min_element() <= tolerance.touching
+        })
+    }
+
+    /// Returns the position of a ball now along the table, m.
+    #[inline(always)]
+    fn place(&self, ball: usize, now: f64) -> DVec2 {
+        let segment = &self.balls[ball].segment;
+        segment.position_after(now - segment.start)
     }
 
     /// Counts the impacts at this moment.
