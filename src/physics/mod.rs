@@ -19,7 +19,9 @@ pub use cue::{CueDegrees, CueError, CueInputs, Impulse, ImpulseError, level_stro
 pub use cue_room::tests::collides;
 pub use cue_room::{LeastElevation, NoRoom, Obstacle, has_room, least_elevation, raise_to_clear};
 pub use flight::{Cloth, SpatialState, spin_change_by_cloth};
-pub use impact::{BallImpact, Cushion, ImpactImpulse, ImpactLaw, collide_together};
+pub use impact::{
+    Aloft, BallImpact, Cushion, ImpactImpulse, ImpactLaw, Touch, collide_together, collide_together_in_space,
+};
 pub use motion::{BallState, Motion, decayed_spin, rolling_spin, slip};
 pub use rolling::Rolling;
 pub use slope::{Stretch, roll_on_slope, slide_on_slope};

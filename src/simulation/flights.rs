@@ -123,24 +123,29 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     #[cold]
     pub(super) fn rebound_in_space(&mut self, index: usize, now: f64) -> ControlFlow<()> {
         self.effort_in_air.add(AIR_IMPACT_COST);
+        self.count_round(now);
         let Ball { rail_after, rail, .. } = self.balls[index];
         let c = self.constants;
         let mut state = self.balls[index].segment.spatial_after(&c, rail_after);
         self.land_before_impact(now, &mut state);
-        self.end_segment(index, now);
         let cushion = *self.law.cushion(rail);
         let to_nose = Nose::of(&cushion, c.radius).vector_from(&c, rail, state.position);
         if to_nose.truncate().dot(rail.normal()) >= 0.0 {
+            self.end_segment(index, now);
             let segment =
                 Segment { start: now, motion: Motion::OffTable, ..Segment::at_rest(state.horizontal_state().position) };
             self.set(index, segment, f64::INFINITY);
             self.report(now, EventKind::LeavesTable(index))?;
             return self.predict_ball(now, index);
         }
+        let contact = Contact::with_cushion(index, rail);
+        if self.collide_together_aloft(now, &contact)? {
+            return ControlFlow::Continue(());
+        }
+        self.end_segment(index, now);
         let slowest = c.tolerance.slowest_in_air;
         let approach = cushion.resolve_in_space(c.radius, slowest, to_nose.normalize(), &mut state);
         self.resolve_cloth_impact(&mut state);
-        let contact = Contact::with_cushion(index, rail);
         let reported = self.is_reported(now, &contact, approach);
         self.report_impact(now, EventKind::BallRail(index, rail), reported)?;
         self.launch_in_space(index, now, &state)?;
@@ -150,8 +155,12 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     /// Handles a collision of two balls, at least one of which is in the air.
     #[cold]
     pub(super) fn collide_in_space(&mut self, pair: usize, now: f64) -> ControlFlow<()> {
-        self.effort_in_air.add(AIR_IMPACT_COST);
         let (first, second) = PAIRS[pair];
+        let contact = Contact::of_balls(first, second);
+        if self.collide_together_aloft(now, &contact)? {
+            return ControlFlow::Continue(());
+        }
+        self.effort_in_air.add(AIR_IMPACT_COST);
         let PairPrediction { since, after, .. } = self.pairs[pair];
         let changed = std::array::from_fn(|ball| ball == first || ball == second);
         let freed = if self.resting.is_some() { self.release(now, changed) } else { None };
@@ -172,7 +181,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         for index in [first, second] {
             self.end_segment(index, now);
         }
-        let reported = self.is_reported(now, &Contact::of_balls(first, second), approach);
+        let reported = self.is_reported(now, &contact, approach);
         self.report_impact(now, EventKind::BallBall(first, second), reported)?;
         for (index, state) in [(first, &one), (second, &other)] {
             self.launch_in_space(index, now, state)?;
@@ -184,13 +193,13 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 
     /// Whether an impact in the air is reported. It is not if it is one of many by which a ball slides off another one or off a nose.
-    fn is_reported(&mut self, now: f64, contact: &Contact, approach: f64) -> bool {
+    pub(super) fn is_reported(&mut self, now: f64, contact: &Contact, approach: f64) -> bool {
         approach > self.constants.tolerance.slow_bounce || !self.chatters.bounce(contact, now)
     }
 
     /// Makes a ball that reaches the cloth at the moment of an impact land before it: otherwise rounding would decide whether its state is
     /// from before or after the landing. If the ball would rise too slowly to fly, it stays on the cloth.
-    fn land_before_impact(&self, now: f64, state: &mut SpatialState) {
+    pub(super) fn land_before_impact(&self, now: f64, state: &mut SpatialState) {
         let falls = -state.velocity.z;
         let rounding = if falls > 0.0 { f64::EPSILON * (self.constants.radius + MOMENT * now * falls) } else { 0.0 };
         if state.position.z <= rounding {

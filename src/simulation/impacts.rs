@@ -2,8 +2,10 @@
 
 use std::ops::ControlFlow;
 
+use glam::DVec2;
+
 use super::{
-    Event, EventKind, Observer,
+    Constants, Event, EventKind, Observer,
     chatter::chatter_end,
     contacts::{PAIRS_OF, close_gaps, is_in_corner, move_to_cushion, touching},
     engine::{Ball, ContactMode, Engine, PairPrediction, SAME_TIME, only_ball},
@@ -20,7 +22,7 @@ use crate::{
 
 /// Number of impacts at one moment after which further ones are solved without restitution. Three touching balls against a cushion need
 /// some dozens; an inelastic collapse would need infinitely many.
-const MAX_ROUNDS: u32 = 64;
+pub(super) const MAX_ROUNDS: u32 = 64;
 
 /// Number of impacts at one moment after which balls count as jammed between cushions. A ball that rolls past others in a row that fills
 /// the table needs more room than rounding leaves, until it has passed, and no impulse creates that room.
@@ -39,7 +41,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let (rail_after, rail, meets_two) =
             (*rail_after, *rail, is_in_corner(&self.constants, segment.position_after(*rail_after)));
         if (self.may_be_simultaneous(now) || meets_two || self.touches_another(index, now))
-            && self.collide_simultaneously(now)?
+            && self.collide_simultaneously(now, &Contact::with_cushion(index, rail))?
         {
             return ControlFlow::Continue(());
         }
@@ -90,12 +92,16 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 
     pub(super) fn collide(&mut self, pair: usize, now: f64) -> ControlFlow<()> {
-        if self.may_be_simultaneous(now) && self.collide_simultaneously(now)? {
-            return ControlFlow::Continue(());
-        }
+        let may_be_simultaneous = self.may_be_simultaneous(now);
         let (first, second) = PAIRS[pair];
         if !self.is_on_cloth(first) || !self.is_on_cloth(second) {
             return self.collide_in_space(pair, now);
+        }
+        let contact = Contact::of_balls(first, second);
+        if (may_be_simultaneous || self.pair_touches_another(first, second, now))
+            && self.collide_simultaneously(now, &contact)?
+        {
+            return ControlFlow::Continue(());
         }
         let PairPrediction { since, after, .. } = self.pairs[pair];
         let changed = std::array::from_fn(|ball| ball == first || ball == second);
@@ -120,7 +126,6 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let opening = (a.velocity - b.velocity).dot(a.position - b.position);
         let mut reported = true;
         if opening <= c.diameter * c.tolerance.slow_bounce {
-            let contact = Contact::of_balls(first, second);
             reported = self.slow_bounce(now, &contact)?;
             if let Some(rests) = self.chatter_end(now, freed.as_ref(), &contact, &[(first, a), (second, b)]) {
                 let before = [(first, before.0), (second, before.1)];
@@ -142,19 +147,46 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if self.resting.is_some() || self.balls[index].mode != ContactMode::Free {
             return false;
         }
-        let place = |ball: usize| {
-            let segment = &self.balls[ball].segment;
-            segment.position_after(now - segment.start)
-        };
+        let place = |ball: usize| self.place(ball, now);
         let (here, near) = (place(index), self.constants.diameter + self.constants.tolerance.touching);
         PAIRS_OF[index].iter().any(|&(_, other)| here.distance_squared(place(other)) <= near * near)
+    }
+
+    /// Whether one of two balls that collide touches the third ball or a cushion: the closing speed may be so low that the impacts are
+    /// predicted for different times, although rounding alone separates them.
+    #[inline(always)]
+    fn pair_touches_another(&self, first: usize, second: usize, now: f64) -> bool {
+        let is_free = |ball: usize| self.balls[ball].mode == ContactMode::Free;
+        if self.resting.is_some() || !is_free(first) || !is_free(second) {
+            return false;
+        }
+        let Constants { reach, diameter, tolerance, .. } = &self.constants;
+        let near = diameter + tolerance.touching;
+        let third = self.place(BALLS - first - second, now);
+        [first, second].into_iter().any(|ball| {
+            let here = self.place(ball, now);
+            here.distance_squared(third) <= near * near || (*reach - here.abs()).min_element() <= tolerance.touching
+        })
+    }
+
+    /// Returns the position of a ball now along the table, m.
+    #[inline(always)]
+    fn place(&self, ball: usize, now: f64) -> DVec2 {
+        let segment = &self.balls[ball].segment;
+        segment.position_after(now - segment.start)
+    }
+
+    /// Counts the impacts at this moment.
+    #[inline(always)]
+    pub(super) fn count_round(&mut self, now: f64) {
+        self.rounds = if now - self.last_impact <= SAME_TIME { self.rounds + 1 } else { 0 };
+        self.last_impact = now;
     }
 
     /// Whether other impacts may happen at this moment, or too many have happened.
     #[inline(always)]
     pub(super) fn may_be_simultaneous(&mut self, now: f64) -> bool {
-        self.rounds = if now - self.last_impact <= SAME_TIME { self.rounds + 1 } else { 0 };
-        self.last_impact = now;
+        self.count_round(now);
         let mut at_once = 0;
         for time in self.times {
             at_once += u32::from(time <= now + self.constants.tolerance.simultaneous);
@@ -162,9 +194,15 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         at_once > 1 || self.inelastic || self.rounds > MAX_ROUNDS
     }
 
-    /// Resolves all contacts that close now together, if there are several. Returns whether they have collided.
+    /// Resolves all contacts that close now together, if there are several; if a ball of them is in the air, only those that are linked to
+    /// the `predicted` one. Returns whether they have collided.
     #[cold]
-    pub(super) fn collide_simultaneously(&mut self, now: f64) -> ControlFlow<(), bool> {
+    pub(super) fn collide_simultaneously(&mut self, now: f64, predicted: &Contact) -> ControlFlow<(), bool> {
+        if self.balls.iter().any(|ball| ball.segment.motion == Motion::Flying)
+            && self.collide_together_aloft(now, predicted)?
+        {
+            return ControlFlow::Continue(true);
+        }
         self.effort.add(RAIL_BOUNCE_COST);
         let held = self.resting.as_ref().map(|resting| resting.after(self.table, now - resting.start));
         let mut states = self.states_with(now, held.as_ref(), &[]);
@@ -329,7 +367,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 }
 
 /// Returns the event of an impact.
-fn kind(contact: &Contact) -> EventKind {
+pub(super) fn kind(contact: &Contact) -> EventKind {
     match contact.partner {
         Partner::Ball(second) => EventKind::BallBall(contact.first, second),
         Partner::Cushion(rail) => EventKind::BallRail(contact.first, rail),

@@ -32,6 +32,7 @@ mod roots;
 mod savings;
 mod scheduler;
 mod segment;
+mod together;
 mod tolerance;
 
 #[cfg(test)]

@@ -320,3 +320,20 @@ fn ball_in_a_corner_hits_both_cushions_together() {
     });
     assert!(ends[0].distance(ends[1].yx()) < 1e-12, "{ends:?}");
 }
+
+/// At 2 mm/s, a difference of the gaps that rounding could make is a difference of the times that is far above their rounding.
+#[test]
+fn slow_ball_hits_two_balls_at_once_whatever_the_computed_times() {
+    for name in ["match", "textbook"] {
+        let table = Table::preset(name).unwrap();
+        let back = 3.0_f64.sqrt() * table.radius + 1e-5;
+        let velocity = DVec2::new(2e-3, 0.0);
+        for later in [0.0, 4e-15, -4e-15] {
+            let balls = [DVec2::new(-back, 0.0), DVec2::new(0.0, table.radius), DVec2::new(later, -table.radius)];
+            let (course, end) = among(&table, balls, velocity, rolling_spin(table.radius, velocity).extend(0.0));
+            let met = |ball| course.events.iter().find(|event| event.kind == EventKind::BallBall(0, ball));
+            let [one, other] = [1, 2].map(|ball| met(ball).map(|event| event.time));
+            assert!(one.is_some() && one == other && end.y.abs() < 1e-14, "{name}, {later}: {end} {:?}", course.events);
+        }
+    }
+}

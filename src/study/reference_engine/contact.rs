@@ -129,7 +129,12 @@ impl Contact {
 
     /// Returns the slip velocity of the two surfaces (thesis equation 21), m/s.
     pub fn slip<R: Real>(self, numbers: &Numbers<R>, balls: &Balls<R>) -> Vector<R> {
-        let (n, relative) = (self.normal(balls), self.relative_velocity(balls));
+        self.slip_across(numbers, self.normal(balls), balls)
+    }
+
+    /// Returns the slip velocity of the two surfaces for this unit normal towards the first ball, m/s.
+    pub fn slip_across<R: Real>(self, numbers: &Numbers<R>, n: Vector<R>, balls: &Balls<R>) -> Vector<R> {
+        let relative = self.relative_velocity(balls);
         relative - n * relative.dot(n) + n.cross(self.spin(balls)) * numbers.radius
     }
 

@@ -8,6 +8,7 @@ use super::{
     meeting::{meets, touch},
     moment::process_moment,
     piece::Piece,
+    rounds::collide_all_aloft,
 };
 use crate::{
     simulation::{EventKind, Rail},
@@ -138,7 +139,7 @@ pub fn play<R: Real>(
                 events.push((now, EventKind::LeavesTable(index)));
             }
             Next::Meets(contact) if contact.is_aloft(&balls) => {
-                let met = flight::collide(numbers, contact, &mut balls);
+                let met = collide_all_aloft(numbers, contact, &mut balls)?;
                 events.extend(met.events.into_iter().map(|kind| (now, kind)));
                 (work, slides) = (work + met.work, slides || met.is_slow);
             }

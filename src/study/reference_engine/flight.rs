@@ -167,14 +167,21 @@ pub fn collide<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &mut Ball
     let (first, second) = contact.balls();
     for index in [Some(first), second].into_iter().flatten() {
         work = work + settle(numbers, &mut balls[index]);
-        match (before[index].motion == Motion::Flying, balls[index].motion == Motion::Flying) {
-            (false, true) => events.push(EventKind::Jumps(index)),
-            (true, false) => events.push(EventKind::Lands(index)),
-            _ => {}
-        }
     }
+    events.extend(jumps_and_landings(&before, balls));
     let slow = numbers.flight.map_or(R::zero(), |flight| flight.lifts);
     ImpactAloft { events, work, is_slow: approach <= slow }
+}
+
+/// Returns the events of balls that begin to fly or stay on the cloth.
+pub fn jumps_and_landings<R: Real>(before: &Balls<R>, after: &Balls<R>) -> Vec<EventKind> {
+    let flies = |ball: &Ball<R>| ball.motion == Motion::Flying;
+    let event = |(index, (before, after)): (usize, (&Ball<R>, &Ball<R>))| match (flies(before), flies(after)) {
+        (false, true) => Some(EventKind::Jumps(index)),
+        (true, false) => Some(EventKind::Lands(index)),
+        _ => None,
+    };
+    before.iter().zip(after).enumerate().filter_map(event).collect()
 }
 
 /// Removes the remaining gap, which is rounding, from the position of a ball in the air, without landing it. A ball that is
@@ -203,7 +210,7 @@ fn opened<R: Real>(slowest: R, n: Vector<R>, opening: R, across: Vector<R>) -> V
 }
 
 /// Returns the opening speed of an impact in the air, before the correction by [`opened`], and the slowest bounce.
-fn opening<R: Real>(numbers: &Numbers<R>, restitution: R, approach: R) -> (R, R) {
+pub(super) fn opening<R: Real>(numbers: &Numbers<R>, restitution: R, approach: R) -> (R, R) {
     let slowest = numbers.flight.map_or(R::zero(), |flight| flight.slowest);
     ((restitution * approach).max(approach.min(slowest)), slowest)
 }

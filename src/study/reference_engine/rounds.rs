@@ -2,17 +2,19 @@
 //!
 //! The normal impulses of a round are complementary to the speeds after it (Moreau 1988), `0 <= v+ + e v- ⊥ P >= 0`; the
 //! frictions follow from the slips before it. Contacts that close as a result form the next round. An impact thus passes
-//! through a row of balls as a chain, and the result does not depend on the numbering.
+//! through a row of balls as a chain, and the result does not depend on the numbering. A group of contacts with a ball in the air
+//! is solved in space in the same way, and the cloth then reacts.
 
 use super::{
-    Numbers, Real, Unjudged, Vector,
+    Motion, Numbers, Real, Unjudged, Vector,
     complementarity::{Block, Law, Problem},
     contact::{Balls, Contact},
+    flight::{self, ImpactAloft, from_nose, jumps_and_landings, opening_aloft, settle},
     impact::{balls_collide, coulomb, rail_collides},
     rows::{Movement, Row, movement},
     tolerance::{closed, touching},
 };
-use crate::table::BALLS;
+use crate::{simulation::EventKind, table::BALLS};
 
 /// Number of rounds after which all touching contacts get one inelastic impact.
 const MAX_ROUNDS: usize = 32;
@@ -83,7 +85,11 @@ pub fn collide_simultaneously<R: Real>(
         let taken = if let [contact] = joined[..] {
             met.push(contact);
             let dead = inelastic.contains(&contact).then(|| numbers.with_restitution(R::zero()));
-            collide_single(dead.as_ref().unwrap_or(numbers), balls, contact)
+            if contact.is_aloft(balls) {
+                flight::collide(numbers, contact, balls).work
+            } else {
+                collide_single(dead.as_ref().unwrap_or(numbers), balls, contact)
+            }
         } else {
             let pushes = normal_impulses(numbers, balls, &joined, restitution)?;
             let is_pushed = |(contact, push): (&Contact, &R)| (*push > R::zero()).then_some(*contact);
@@ -97,6 +103,61 @@ pub fn collide_simultaneously<R: Real>(
         work = work + taken;
     }
     Ok(work)
+}
+
+/// Collides two bodies, at least one of which is a ball in the air, together with all others that meet at the same time.
+///
+/// # Errors
+/// [`Unjudged::Unsolved`] if no impulses are found.
+pub fn collide_all_aloft<R: Real>(
+    numbers: &Numbers<R>,
+    contact: Contact,
+    balls: &mut Balls<R>,
+) -> Result<ImpactAloft<R>, Unjudged> {
+    let closing = closing_aloft(numbers, contact, balls);
+    if closing.iter().all(|other| *other == contact) {
+        return Ok(flight::collide(numbers, contact, balls));
+    }
+    let (before, mut met) = (*balls, Vec::new());
+    let work = collide_simultaneously(numbers, balls, &closing, &[], &mut met)?;
+    let mut events: Vec<EventKind> = met.iter().map(|contact| contact.event()).collect();
+    events.extend(jumps_and_landings(&before, balls));
+    Ok(ImpactAloft { events, work, is_slow: false })
+}
+
+/// Returns the contacts that close together with `contact`, at which a ball in the air meets another body, and share balls with
+/// it, directly or through others. In the air, only contacts that close faster than the slowest bounce there count.
+fn closing_aloft<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &Balls<R>) -> Vec<Contact> {
+    let slowest = numbers.flight.map_or(R::zero(), |flight| flight.slowest);
+    let closes = |other: &Contact| match *other {
+        _ if (0..BALLS).any(|ball| other.involves(ball) && balls[ball].motion == Motion::OffTable) => false,
+        Contact::Rail(ball, rail) if other.is_aloft(balls) => {
+            from_nose(numbers, &balls[ball], rail).length() - numbers.radius <= touching()
+                && opening_aloft(numbers, *other, balls) < -slowest
+        }
+        _ => {
+            let least = if other.is_aloft(balls) { slowest } else { closed() };
+            other.gap(numbers, balls) <= touching() && other.opening_speed(balls) < -least
+        }
+    };
+    let (mut linked, mut left): (Vec<Contact>, Vec<Contact>) = (Vec::new(), Contact::all().filter(closes).collect());
+    for _ in 0..BALLS {
+        let is_linked = |other: &Contact| {
+            other.shares_a_ball(contact) || linked.iter().any(|member: &Contact| other.shares_a_ball(*member))
+        };
+        let (joined, others): (Vec<_>, Vec<_>) = left.into_iter().partition(is_linked);
+        linked.extend(joined);
+        left = others;
+    }
+    linked
+}
+
+/// Returns the unit normal of an impact, towards the first ball: a ball in the air meets the nose of a cushion.
+fn impact_normal<R: Real>(numbers: &Numbers<R>, contact: Contact, balls: &Balls<R>) -> Vector<R> {
+    match contact {
+        Contact::Rail(ball, rail) if contact.is_aloft(balls) => from_nose(numbers, &balls[ball], rail).direction(),
+        _ => contact.normal(balls),
+    }
 }
 
 /// Computes a single impact by the table's own law. Returns the dissipated energy per mass.
@@ -114,8 +175,8 @@ pub fn collide_single<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, conta
     }
 }
 
-/// Applies simultaneous impacts that share balls, with these normal impulses, at the height of the balls' centres and with
-/// Coulomb friction. Adds the contacts with an impulse to `met`, and returns the dissipated energy per mass.
+/// Applies simultaneous impacts that share balls, with these normal impulses and with Coulomb friction, and the reaction of the
+/// cloth if a ball is in the air. Otherwise the impacts are at the height of the balls' centres, and no ball is lifted. Adds the contacts with an impulse to `met`, and returns the dissipated energy per mass.
 fn one_round<R: Real>(
     numbers: &Numbers<R>,
     balls: &mut Balls<R>,
@@ -125,7 +186,9 @@ fn one_round<R: Real>(
 ) -> R {
     let half = R::of(0.5);
     let before = movement(balls);
-    let normals: Vec<Row<R>> = contacts.iter().map(|contact| Row::opening(*contact, contact.normal(balls))).collect();
+    let aloft = contacts.iter().any(|contact| contact.is_aloft(balls));
+    let normals: Vec<Row<R>> =
+        contacts.iter().map(|contact| Row::opening(*contact, impact_normal(numbers, *contact, balls))).collect();
     let mut pushed = before;
     for (row, push) in normals.iter().zip(pushes) {
         row.push(numbers, *push, &mut pushed);
@@ -137,13 +200,15 @@ fn one_round<R: Real>(
     let mut frictions: Vec<(Row<R>, R)> = Vec::with_capacity(contacts.len());
     for (contact, push) in contacts.iter().zip(pushes).filter(|(_, push)| **push > R::zero()) {
         met.push(*contact);
-        let slip = contact.slip(numbers, balls);
+        let n = impact_normal(numbers, *contact, balls);
+        let slip = contact.slip_across(numbers, n, balls);
         let (friction, stops) = match contact {
             Contact::Balls(..) => (numbers.ball_friction_at(slip.length()), R::ratio(1.0, 7.0)),
             Contact::Rail(..) => (contact.friction(numbers), R::ratio(2.0, 7.0)),
         };
         let share = coulomb(friction, *push, slip.length(), stops);
-        frictions.push((Row::slip(numbers, *contact, contact.normal(balls), slip), -share));
+        let row = if aloft { Row::slip_in_space } else { Row::slip };
+        frictions.push((row(numbers, *contact, n, slip), -share));
     }
     let mut change = before.map(|_| (Vector::zero(), Vector::zero()));
     for (row, size) in &frictions {
@@ -160,6 +225,11 @@ fn one_round<R: Real>(
     for (ball, (velocity, spin)) in balls.iter_mut().zip(after) {
         (ball.velocity, ball.spin) = (velocity, spin);
     }
+    for (index, ball) in balls.iter_mut().enumerate() {
+        if aloft && contacts.iter().any(|contact| contact.involves(index)) {
+            work = work + settle(numbers, ball);
+        }
+    }
     work
 }
 
@@ -171,9 +241,13 @@ fn normal_impulses<R: Real>(
     restitution: impl Fn(&Contact) -> R,
 ) -> Result<Vec<R>, Unjudged> {
     let before = movement(balls);
-    let normals: Vec<Row<R>> = contacts.iter().map(|contact| Row::opening(*contact, contact.normal(balls))).collect();
-    let speeds =
-        contacts.iter().zip(&normals).map(|(contact, row)| (R::of(1.0) + restitution(contact)) * row.speed(&before));
+    let aloft = contacts.iter().any(|contact| contact.is_aloft(balls));
+    let normals: Vec<Row<R>> =
+        contacts.iter().map(|contact| Row::opening(*contact, impact_normal(numbers, *contact, balls))).collect();
+    let speeds = contacts.iter().zip(&normals).map(|(contact, row)| {
+        let (speed, restitution) = (row.speed(&before), restitution(contact));
+        if aloft { speed - flight::opening(numbers, restitution, -speed).0 } else { (R::of(1.0) + restitution) * speed }
+    });
     let matrix: Vec<Vec<R>> =
         normals.iter().map(|of| normals.iter().map(|by| of.response(numbers, by)).collect()).collect();
     let blocks: Vec<Block<R>> = (0..contacts.len()).map(|at| Block { at, axes: 1, law: Law::Push }).collect();

@@ -50,6 +50,11 @@ impl<R: Real> Row<R> {
         Self::of_contact(contact, direction.flat(), direction.cross(n) * numbers.radius)
     }
 
+    /// The slip of a contact with normal `n` in a direction across it, if its force may lift a ball.
+    pub fn slip_in_space(numbers: &Numbers<R>, contact: Contact, n: Vector<R>, direction: Vector<R>) -> Self {
+        Self::of_contact(contact, direction, direction.cross(n) * numbers.radius)
+    }
+
     /// The slip of a ball on the cloth in a direction.
     pub fn cloth(numbers: &Numbers<R>, ball: usize, direction: Vector<R>) -> Self {
         Self::of_ball(ball, direction, direction.cross(Vector::up()) * numbers.radius)

@@ -43,10 +43,10 @@ pub struct Figures {
     pub energy: Worst,
     /// The same in m²/s² (energy per ball mass).
     pub gained: Worst,
-    /// Unexplained energy at an event, between events or in the whole shot, relative to rounding and tolerances: a loss without
-    /// a friction or impact that dissipates it, or a dissipation without a loss.
+    /// Unexplained energy at an event or between events, relative to rounding and tolerances: a loss without a friction or
+    /// impact that dissipates it, or a dissipation without a loss.
     pub unexplained: Worst,
-    /// The same in m²/s².
+    /// The same in m²/s², also of a whole shot.
     #[serde(rename = "missing")]
     pub unexplained_energy: Worst,
     /// Displacement of a ball between two pieces of its course, m.
@@ -60,6 +60,8 @@ pub struct Figures {
     pub not_finite: u64,
     /// Number of shots that were aborted, or whose balls still moved at the end.
     pub unfinished: u64,
+    /// Number of shots that the engine gave up because they took too much work: their ends are not those of real shots.
+    pub exhausted: u64,
     /// Number of shots whose course was too long to be checked whole.
     pub truncated: u64,
     /// Largest number of events of a shot.
@@ -102,6 +104,9 @@ pub enum Violation {
     /// The shot was aborted, or balls still moved at its end.
     #[error("the shot does not end")]
     Unfinished,
+    /// The engine gave the shot up before its balls came to rest by themselves.
+    #[error("the shot is given up because it takes too much work")]
+    Exhausted,
     /// The course is only stored, and so only checked, to a part.
     #[error("the course has too many pieces to be checked whole")]
     Truncated,
@@ -164,6 +169,7 @@ impl Figures {
         }
         self.not_finite += other.not_finite;
         self.unfinished += other.unfinished;
+        self.exhausted += other.exhausted;
         self.truncated += other.truncated;
         self.events = self.events.max(other.events);
         self.steps = self.steps.max(other.steps);
@@ -176,6 +182,7 @@ impl Figures {
         let candidates = [
             (self.not_finite > 0, Violation::NotFinite),
             (self.unfinished > 0, Violation::Unfinished),
+            (self.exhausted > 0, Violation::Exhausted),
             (self.truncated > 0, Violation::Truncated),
             (beyond(self.outside, limits.distance), Violation::Outside(self.outside)),
             (beyond(self.overlap, limits.distance), Violation::Overlap(self.overlap)),

@@ -26,6 +26,7 @@ fn measure(table: &Table, shot: &Shot, trace: &Trace) -> Figures {
         steps: trace.steps,
         seconds: trace.seconds,
         unfinished: u64::from(!(trace.finished && trace.end.balls.iter().all(|ball| ball.velocity == DVec2::ZERO))),
+        exhausted: u64::from(trace.end.is_exhausted),
         truncated: u64::from(trace.kept_until < f64::INFINITY),
         ..Figures::default()
     };
@@ -120,6 +121,7 @@ mod tests {
             assert!(found.iter().any(kind), "tampering {index} gives {found:?}");
         }
         assert_eq!(violations(|trace| trace.finished = false), [Violation::Unfinished]);
+        assert_eq!(violations(|trace| trace.end.is_exhausted = true), [Violation::Exhausted]);
         assert_eq!(violations(|trace| trace.event_count = 501), [Violation::Events(501)]);
     }
 }

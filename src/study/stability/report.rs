@@ -52,8 +52,6 @@ pub struct Row {
     pub example: Option<String>,
     /// The first failed shot, with its table.
     pub finding: Option<Finding>,
-    /// Whether all shots were played: always true; part of the JSON format.
-    pub complete: bool,
 }
 
 impl Row {
@@ -64,7 +62,7 @@ impl Row {
         let unlimited = (case.limits == Limits::ANY_EVENTS).then_some("any number of events");
         let parts = [Some(case.requirement).filter(|words| !words.is_empty()), unlimited];
         let checked = parts.into_iter().flatten().collect::<Vec<_>>().join("; ");
-        Self { name: case.name, checked, figures, failed, example, finding: first, complete: true }
+        Self { name: case.name, checked, figures, failed, example, finding: first }
     }
 
     /// Whether no shot failed.
@@ -196,10 +194,10 @@ Energy is audited in both directions. It never grows, at an event or between eve
 | motion that is stopped | speeds below 1e-7 m/s | 1e-14 m²/s² a ball, and the friction of the impulses in closed contacts that stop it |
 | bodies that touch without a collision | nothing | errors of 1e-10 m/s, of 1e-10 m and of 1e-5 of the work |
 | a landing, potential energy included | the cloth's restitution and friction, computed hop by hop | rounding |
-| an impact of balls in the air | the formulas of the reference engine: one impact after another in the air, simultaneous impacts on the cloth together | the overlap of the two bodies over a ball's diameter, which makes the direction uncertain |
+| an impact of balls in the air | the formulas of the reference engine: impacts at the same moment together, as on the cloth; slow ones in the air, with which a ball slides off, one after another | the overlap of the two bodies over a ball's diameter, which makes the direction uncertain |
 | a ball that leaves the table | its whole energy | |
 
-The columns below contain the largest residual at an event, between events or in a whole shot, as a multiple of the tolerance and in m²/s² (energy over a ball's mass).";
+The columns below contain the largest residual at an event or between events, as a multiple of the tolerance and in m²/s² (energy over a ball's mass); the latter also of a whole shot.";
 
 /// Returns the Markdown page with the table.
 pub fn page(plan: &Plan, rows: &[Row]) -> String {
@@ -215,7 +213,7 @@ pub fn page(plan: &Plan, rows: &[Row]) -> String {
         Every shot is checked on its whole course, not at samples: all numbers finite, no ball outside the table or overlapping another by \
         more than 1e-9 m, between events either (in proportion to the length on tables longer than 2.84 m), no jump between the \
         pieces of a course, no collision across a gap, no time that runs backwards, at most 500 events unless the row says otherwise, an \
-        end, and at most 50 ms of computing. A failed row states the number of failed shots and the violation in the first.\n\n\
+        end that is not forced because of too much work, and at most 50 ms of computing. A failed row states the number of failed shots and the violation in the first.\n\n\
         {AUDIT}\n\n{}",
         rows.len(),
         markdown(rows)
@@ -228,15 +226,7 @@ mod tests {
 
     fn row() -> Row {
         let figures = Figures { shots: 12, events: 7, ..Figures::default() };
-        Row {
-            name: "a case",
-            checked: "something".to_owned(),
-            figures,
-            failed: 0,
-            example: None,
-            finding: None,
-            complete: true,
-        }
+        Row { name: "a case", checked: "something".to_owned(), figures, failed: 0, example: None, finding: None }
     }
 
     #[test]

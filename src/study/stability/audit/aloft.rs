@@ -1,5 +1,4 @@
-//! Energy losses at landings, by formulas independent of the engine, and at successive impacts, by those of the reference
-//! engine.
+//! Energy losses at landings, by formulas independent of the engine, and at impacts, by those of the reference engine.
 
 use super::{
     moment::{Bounces, fastest_micro_collision},
@@ -66,7 +65,7 @@ pub struct Assumptions {
     pub grazes: bool,
     /// Closing speeds up to this count as rounding, m/s.
     pub none: f64,
-    /// Bit mask of the impacts on the cloth that close at the same time as those before them.
+    /// Bit mask of the impacts that close at the same time as those before them.
     pub joins: u32,
     /// Whether balls that rebound too slowly to hop are on the cloth already.
     pub lies: bool,
@@ -75,7 +74,7 @@ pub struct Assumptions {
 }
 
 impl Assumptions {
-    /// Rounding decides nothing, and all impacts on the cloth join those before them.
+    /// Rounding decides nothing, and all impacts join those before them.
     pub const NOTHING: Self = Self { grazes: false, none: 0.0, joins: u32::MAX, lies: false, is_micro: false };
 }
 
@@ -104,8 +103,7 @@ fn slip_energy(table: &Table, contact: Contact, balls: &[Ball<f64>; BALLS]) -> f
     along * along / 14.0 + upright * upright / 10.0
 }
 
-/// Computes the reported impacts of a `group` of balls: one after another in the air, together on the cloth if they close at
-/// the same time. `flew` are the balls that were in the air before. Those of them that have come down are first thrown up by
+/// Computes the reported impacts of a `group` of balls, together if they close at the same time. `flew` are the balls that were in the air before. Those of them that have come down are first thrown up by
 /// the cloth, or are on it; others land last if a landing is reported. An impact has no restitution if its bodies rest against
 /// each other from now on.
 pub fn impacts(
@@ -117,7 +115,8 @@ pub fn impacts(
 ) -> Impacts {
     let numbers = Numbers::<f64>::of(table);
     let lossless = numbers.with_restitution(1.0);
-    let slowest = numbers.flight.filter(|_| assumed.lies).map_or(0.0, |flight| flight.slowest);
+    let slowest_bounce = numbers.flight.map_or(0.0, |flight| flight.slowest);
+    let slowest = if assumed.lies { slowest_bounce } else { 0.0 };
     let mut lost = 0.0;
     let mut balls: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
         let SpatialState { position, velocity, spin } = before[ball];
@@ -166,24 +165,34 @@ pub fn impacts(
         resting_speed.max(assumed.none).max(GRAZING * (speed(first) + second.map_or(0.0, speed)))
     };
     while let Some((contact, stays, _)) = contacts.next() {
-        if contact.is_aloft(&balls) {
-            let rounding = rounding(&contact, &balls);
-            if opening_aloft(&numbers, contact, &balls) > if assumed.grazes { -rounding } else { rounding } {
-                continue;
+        let is_aloft = contact.is_aloft(&balls);
+        let rounded = rounding(&contact, &balls);
+        if is_aloft && opening_aloft(&numbers, contact, &balls) > if assumed.grazes { -rounded } else { rounded } {
+            continue;
+        }
+        let closes = |contact: &Contact| {
+            if contact.is_aloft(&balls) {
+                return opening_aloft(&numbers, *contact, &balls) < -slowest_bounce;
             }
+            let least = if assumed.grazes { 0.0 } else { rounding(contact, &balls) };
+            contact.opening_speed(&balls) < -least
+        };
+        let may_join = !is_aloft || closes(&contact);
+        let (mut round, mut staying) = (vec![contact], Vec::from_iter(stays.then_some(contact)));
+        // With a ball in the air, only contacts that share balls are solved together.
+        let is_linked = |other: &Contact, round: &[Contact]| {
+            let all_lie = || !round.iter().chain([other]).any(|contact| contact.is_aloft(&balls));
+            round.iter().any(|member| member.shares_a_ball(*other)) || all_lie()
+        };
+        while let Some((other, stays, _)) = contacts.next_if(|(other, _, joins)| {
+            may_join && *joins && closes(other) && !round.contains(other) && is_linked(other, &round)
+        }) {
+            round.push(other);
+            staying.extend(stays.then_some(other));
+        }
+        if is_aloft && round.len() == 1 {
             lost += collide_aloft(&numbers, contact, &mut balls).work;
         } else {
-            let closes = |contact: &Contact| {
-                let least = if assumed.grazes { 0.0 } else { rounding(contact, &balls) };
-                !contact.is_aloft(&balls) && contact.opening_speed(&balls) < -least
-            };
-            let (mut round, mut staying) = (vec![contact], Vec::from_iter(stays.then_some(contact)));
-            while let Some((other, stays, _)) =
-                contacts.next_if(|(other, _, joins)| *joins && closes(other) && !round.contains(other))
-            {
-                round.push(other);
-                staying.extend(stays.then_some(other));
-            }
             for contact in &staying {
                 let closing_speed = -contact.opening_speed(&balls);
                 let left_out = Bounces::of(table, contact.balls().0, closing_speed, contact.restitution(&numbers));

@@ -43,8 +43,6 @@ pub struct Account {
     pub start: f64,
     /// Energy lost in the whole shot beyond the laws, m²/s²; negative if too little is lost.
     pub unexplained: f64,
-    /// Tolerance of this: what rounding and the uncertainties explain, m²/s².
-    pub allowed: f64,
 }
 
 /// Relative uncertainty of an event time: four roundings of its sum with the start of a course.
@@ -70,7 +68,7 @@ pub fn account(table: &Table, trace: &Trace) -> Account {
     audit(table, trace, &mut Figures::default())
 }
 
-/// Audits a shot, and records the largest gain and the largest unexplained loss of its parts and of the whole.
+/// Audits a shot, and records the largest gain and the largest unexplained loss of its parts, and the unexplained loss of the whole.
 pub(super) fn audit(table: &Table, trace: &Trace, figures: &mut Figures) -> Account {
     let courses = std::array::from_fn(|ball| Course::new(table, trace, ball));
     let start = courses.iter().map(|course: &Course| course.energy).sum();
@@ -89,9 +87,8 @@ pub(super) fn audit(table: &Table, trace: &Trace, figures: &mut Figures) -> Acco
         audit.moment(now, reported, figures);
         audit.pieces(now, figures);
     }
-    let Account { unexplained, allowed, .. } = audit.account;
-    figures.unexplained.record(unexplained.abs() / allowed.max(f64::MIN_POSITIVE), trace.end.time);
-    figures.unexplained_energy.record(unexplained.abs(), trace.end.time);
+    // Relative to the tolerances, the whole is never worse than the worst of its parts.
+    figures.unexplained_energy.record(audit.account.unexplained.abs(), trace.end.time);
     audit.account
 }
 
@@ -292,7 +289,6 @@ impl Audit<'_> {
         // Without energy there is no rounding.
         figures.unexplained.record(unexplained.abs() / allowed.max(f64::MIN_POSITIVE), uncertainty.time);
         self.account.unexplained += unexplained;
-        self.account.allowed += allowed;
     }
 }
 
