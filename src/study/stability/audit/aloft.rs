@@ -103,9 +103,30 @@ fn slip_energy(table: &Table, contact: Contact, balls: &[Ball<f64>; BALLS]) -> f
     along * along / 14.0 + upright * upright / 10.0
 }
 
-/// Computes the reported impacts of a `group` of balls, together if they close at the same time. `flew` are the balls that were in the air before. Those of them that have come down are first thrown up by
-/// the cloth, or are on it; others land last if a landing is reported. An impact has no restitution if its bodies rest against
-/// each other from now on.
+/// Returns the balls before their impacts, those that have come down after the cloth's response, and the energy per mass that it takes.
+fn arriving(
+    numbers: &Numbers<f64>,
+    before: &[SpatialState; BALLS],
+    flew: [bool; BALLS],
+    has_come_down: impl Fn(usize) -> bool,
+) -> ([Ball<f64>; BALLS], f64) {
+    let mut lost = 0.0;
+    let balls = std::array::from_fn(|ball| {
+        let SpatialState { position, velocity, spin } = before[ball];
+        let mut state =
+            Ball { velocity: Vector::of(velocity), spin: Vector::of(spin), ..Ball::at_rest(Vector::of(position)) };
+        state.motion = if flew[ball] { Motion::Flying } else { state.on_cloth(numbers, 0.0) };
+        if has_come_down(ball) {
+            lost += settle(numbers, &mut state);
+        }
+        state
+    });
+    (balls, lost)
+}
+
+/// Computes the reported impacts of a `group` of balls, together if they close at the same time. `flew` are the balls that were in the air
+/// before. Those of them that have come down are first thrown up by the cloth, or are on it; others land last if a landing is reported. An
+/// impact has no restitution if its bodies rest against each other from now on.
 pub fn impacts(
     table: &Table,
     [before, after]: [&[SpatialState; BALLS]; 2],
@@ -117,20 +138,15 @@ pub fn impacts(
     let lossless = numbers.with_restitution(1.0);
     let slowest_bounce = numbers.flight.map_or(0.0, |flight| flight.slowest);
     let slowest = if assumed.lies { slowest_bounce } else { 0.0 };
-    let mut lost = 0.0;
-    let mut balls: [Ball<f64>; BALLS] = std::array::from_fn(|ball| {
-        let SpatialState { position, velocity, spin } = before[ball];
-        let mut state =
-            Ball { velocity: Vector::of(velocity), spin: Vector::of(spin), ..Ball::at_rest(Vector::of(position)) };
-        state.motion = if flew[ball] { Motion::Flying } else { state.on_cloth(&numbers, 0.0) };
-        if group[ball] && flew[ball] && position.z <= 0.0 && velocity.z <= slowest {
-            lost += settle(&numbers, &mut state);
-            if assumed.lies && meets_before_it_lands(reported, ball) {
-                state.motion = Motion::Flying;
-            }
-        }
-        state
-    });
+    let has_come_down = |ball: usize| {
+        let SpatialState { position, velocity, .. } = before[ball];
+        group[ball] && flew[ball] && position.z <= 0.0 && velocity.z <= slowest
+    };
+    let (mut balls, mut lost) = arriving(&numbers, before, flew, has_come_down);
+    for ball in (0..BALLS).filter(|&ball| has_come_down(ball) && assumed.lies && meets_before_it_lands(reported, ball))
+    {
+        balls[ball].motion = Motion::Flying;
+    }
     let contacts: Vec<Contact> = reported
         .iter()
         .filter_map(|event| Contact::of_event(event.kind))
@@ -142,12 +158,9 @@ pub fn impacts(
     });
     let rests = |contact: &Contact| contact.is_among(rests) && contact.opening_speed(&after) < STOPPED_SPEED;
     let overlap = contacts.iter().fold(0.0_f64, |most, contact| most.max(-contact.gap(&numbers, &balls)));
-    let mut gripping: Vec<Contact> = Vec::new();
-    for contact in contacts.iter().filter(|contact| rests(contact)) {
-        if !gripping.contains(contact) {
-            gripping.push(*contact);
-        }
-    }
+    let first_of_its_kind = |(index, contact): &(usize, &Contact)| !contacts[..*index].contains(contact);
+    let gripping = contacts.iter().enumerate().filter(first_of_its_kind).map(|(_, contact)| *contact).filter(rests);
+    let gripping: Vec<Contact> = gripping.collect();
     // The contact stays closed after the last of its impacts.
     let mut contacts = contacts
         .iter()
@@ -218,8 +231,8 @@ pub fn impacts(
         }
     }
     if table.ball_friction.is_none() && table.ball_slip_friction.is_none() {
-        gripping.retain(|contact| !contact.is_aloft(&balls));
-        lost += gripping.iter().map(|contact| slip_energy(table, *contact, &balls)).sum::<f64>();
+        let slipping = gripping.into_iter().filter(|contact| !contact.is_aloft(&balls));
+        lost += slipping.map(|contact| slip_energy(table, contact, &balls)).sum::<f64>();
     }
     let moved = balls.iter().zip(before).map(|(ball, before)| before.position.distance(ball.position.to_f64()));
     Impacts { lost, moved: moved.fold(overlap, f64::max), bounces }
