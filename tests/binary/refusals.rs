@@ -65,7 +65,16 @@ fn invalid_agent_settings_are_refused_in_plain_words() {
         ("ddpg", "searched = 1", "use searched with context = true"),
         // Regression test: expert iteration started from a round in which only the critic learned; it continued like that unnoticed for ten
         // rounds.
-        ("ddpg", "context = true\nimitation = 0.3\nactor_learning_rate = 1e-9", "actor_learning_rate of 1e-9"),
+        (
+            "ddpg",
+            "context = true\nsearched = 1\nimitation = 0.3\nactor_learning_rate = 1e-9",
+            "actor_learning_rate of 1e-9",
+        ),
+        // Settings without any effect.
+        ("ddpg", "imitation = 0.3", "imitation needs searched strokes"),
+        ("ddpg", "attempts = 8", "use attempts with context = true"),
+        ("ddpg", "perfect = 1.0", "use it with context = true"),
+        ("ddpg", "ranking = 0.01", "ranking is less than the eight shots"),
         ("q-learning", "learning_rate = 1.5", "learning_rate = 1.5"),
         ("q-learning", "alpha = 0.1", "alpha"),
         ("dqn", "target_update_interval = 0.5", "expected a whole number; accepted is 1 to 16777216"),

@@ -49,7 +49,7 @@ fn several_seeds_equal_single_runs_and_resume_together() {
     continued("--seeds 2").fails(1, &["was started with 3 seeds, not 2: --continue resumes a run that"]);
     continued("").fails(1, &["was started with 3 seeds, not as a single run"]);
     for (other, words) in [
-        ("--set ranking=0.35", "was started with ranking = 0.0, not 0.35:"),
+        ("--set critic_chooses=0.35", "was started with critic_chooses = 0.3, not 0.35:"),
         ("--set exploration={uniform=0.25}", "was started with exploration.uniform = "),
         ("--from four", "was started without --from, not from four"),
     ] {
