@@ -103,6 +103,21 @@ fn slip_energy(table: &Table, contact: Contact, balls: &[Ball<f64>; BALLS]) -> f
     along * along / 14.0 + upright * upright / 10.0
 }
 
+/// Lands the balls of a `group` that are still in the air if a landing is reported. Returns the dissipated energy per mass, m²/s².
+fn land(numbers: &Numbers<f64>, balls: &mut [Ball<f64>; BALLS], reported: &[Event], group: [bool; BALLS]) -> f64 {
+    let mut lost = 0.0;
+    for event in reported {
+        if let EventKind::Lands(ball) = event.kind
+            && group[ball]
+            && balls[ball].motion == Motion::Flying
+        {
+            balls[ball].position.z = 0.0;
+            lost += settle(numbers, &mut balls[ball]);
+        }
+    }
+    lost
+}
+
 /// Computes the reported impacts of a `group` of balls, together if they close at the same time. `flew` are the balls that were in the air before. Those of them that have come down are first thrown up by
 /// the cloth, or are on it; others land last if a landing is reported. An impact has no restitution if its bodies rest against
 /// each other from now on.
@@ -208,15 +223,7 @@ pub fn impacts(
             ball.motion = Motion::Flying;
         }
     }
-    for event in reported {
-        if let EventKind::Lands(ball) = event.kind
-            && group[ball]
-            && balls[ball].motion == Motion::Flying
-        {
-            balls[ball].position.z = 0.0;
-            lost += settle(&numbers, &mut balls[ball]);
-        }
-    }
+    lost += land(&numbers, &mut balls, reported, group);
     if table.ball_friction.is_none() && table.ball_slip_friction.is_none() {
         gripping.retain(|contact| !contact.is_aloft(&balls));
         lost += gripping.iter().map(|contact| slip_energy(table, *contact, &balls)).sum::<f64>();
