@@ -94,12 +94,17 @@ fn every_row_of_the_table_is_a_test() {
     assert_eq!(cases().iter().map(|case| case.name).collect::<Vec<_>>(), NAMES);
 }
 
+/// The only row that fails, with what the documented table says of it: balls in a row that fills the table are jammed.
+const KNOWN: (&str, &str) =
+    ("the smallest table, 16 by 6 ball radii", "| 1 fail: the shot is given up because it takes too much work |");
+
 #[test]
-fn every_row_is_documented_as_holding() {
+fn every_other_row_is_documented_as_holding() {
     let page = include_str!("../../docs/stability.md");
     for name in NAMES {
         let line = page.lines().find(|line| line.starts_with(&format!("| {name} |"))).expect(name);
-        assert!(line.contains("| holds |"), "{line}");
+        let verdict = if *name == KNOWN.0 { KNOWN.1 } else { "| holds |" };
+        assert!(line.contains(verdict), "{line}");
     }
 }
 
