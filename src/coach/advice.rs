@@ -84,7 +84,8 @@ pub struct Recommendation {
     /// The kind of the shot, if it makes the point.
     pub kind: Option<Kind>,
     /// How often the player makes it, from independent attempts that took no part in the choice, unless time ran out before the fresh
-    /// ones were complete, or they showed that another shot is better. `None` if there is no such shot, or time ran out before the first attempt. A perfect player makes every shot that makes the point.
+    /// ones were complete, or they showed that another shot is better. `None` if there is no such shot, or time ran out before the first
+    /// attempt. A perfect player makes every shot that makes the point.
     pub make_probability: Option<SuccessRate>,
     /// Index of the first attempt behind `make_probability`, as [`judge`](super::judge) counts them: above 0 if earlier
     /// attempts took part in the choice.

@@ -71,16 +71,16 @@ pub fn robust_answer(
     let (mut best, mut fresh) = (0, compared..compared + ATTEMPTS);
     // If time runs out, the comparison is made first.
     let mut made = judged(&[pieces_of(&all, 0..compared), pieces_of(&[best], fresh.clone())].concat());
-    let mut contestants = made_more_often(&pool, &complete_rates(&made, pool.len(), compared), plan);
-    if !contestants.is_empty() {
-        made.extend(judged(&pieces_of(&contestants, compared..ATTEMPTS)));
+    let better = made_more_often(&pool, &complete_rates(&made, pool.len(), compared), plan);
+    if !better.is_empty() {
+        made.extend(judged(&pieces_of(&better, compared..ATTEMPTS)));
         let complete = complete_rates(&made, pool.len(), ATTEMPTS);
         best = made_more_often(&pool, &complete, plan).first().copied().unwrap_or_default();
         fresh = fresh.end..fresh.end + ATTEMPTS;
-        // The best one first, if time runs out.
-        contestants.retain(|index| *index != best);
-        contestants.splice(..0, if best == 0 { vec![0] } else { vec![best, 0] });
-        made.extend(judged(&pieces_of(&contestants, fresh.clone())));
+        // If time runs out, the best one is judged first.
+        let rivals = [0].into_iter().chain(better).filter(|index| *index != best);
+        let judged_again: Vec<usize> = [best].into_iter().chain(rivals).collect();
+        made.extend(judged(&pieces_of(&judged_again, fresh.clone())));
     }
     let rate_of = |index: usize| {
         let unbiased = rate_within(&made, index, fresh.clone()).filter(|rate| rate.trials == ATTEMPTS);

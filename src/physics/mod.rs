@@ -21,6 +21,7 @@ pub use cue_room::{LeastElevation, NoRoom, Obstacle, has_room, least_elevation, 
 pub use flight::{Cloth, SpatialState, spin_change_by_cloth};
 pub use impact::{
     Aloft, BallImpact, Cushion, ImpactImpulse, ImpactLaw, Touch, collide_together, collide_together_in_space,
+    take_linked,
 };
 pub use motion::{BallState, Motion, decayed_spin, rolling_spin, slip};
 pub use rolling::Rolling;

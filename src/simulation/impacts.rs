@@ -187,11 +187,19 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     #[inline(always)]
     pub(super) fn may_be_simultaneous(&mut self, now: f64) -> bool {
         self.count_round(now);
-        let mut at_once = 0;
-        for time in self.times {
-            at_once += u32::from(time <= now + self.constants.tolerance.simultaneous);
+        self.has_several_events_until(now + self.constants.tolerance.simultaneous)
+            || self.inelastic
+            || self.rounds > MAX_ROUNDS
+    }
+
+    /// Whether more than one event is predicted until this time.
+    #[inline(always)]
+    pub(super) fn has_several_events_until(&self, time: f64) -> bool {
+        let mut count = 0;
+        for predicted in self.times {
+            count += u32::from(predicted <= time);
         }
-        at_once > 1 || self.inelastic || self.rounds > MAX_ROUNDS
+        count > 1
     }
 
     /// Resolves all contacts that close now together, if there are several; if a ball of them is in the air, only those that are linked to

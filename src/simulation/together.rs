@@ -17,11 +17,19 @@ use super::{
     savings::Savings,
 };
 use crate::{
-    physics::{Aloft, Contact, Motion, Partner, SpatialState, Touch, collide_together_in_space},
+    physics::{Aloft, Contact, Motion, Partner, SpatialState, Touch, collide_together_in_space, take_linked},
     table::{BALLS, PAIRS},
 };
 
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
+    /// Whether other contacts may close at this moment, of which one has a ball in the air. Such contacts close faster than the slowest
+    /// bounce in the air, so that those within the touching tolerance are predicted for almost the same time.
+    #[inline(always)]
+    pub(super) fn may_be_simultaneous_aloft(&self, now: f64) -> bool {
+        let tolerance = &self.constants.tolerance;
+        self.has_several_events_until(now + tolerance.simultaneous + tolerance.touching / tolerance.slowest_in_air)
+    }
+
     /// Resolves all contacts together that close at this moment and are linked to the `predicted` one by shared balls, if there are others
     /// than this one and a ball of them is in the air. Returns whether they have collided.
     #[cold]
@@ -30,7 +38,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         let flies = std::array::from_fn(|ball| self.balls[ball].segment.motion == Motion::Flying);
         let aloft = Aloft { flies, cloth, slowest: self.constants.tolerance.slowest_in_air };
         let mut states = self.states_in_space(now);
-        let group = linked(predicted, self.closing_in_space(&states, &aloft));
+        let closing = self.closing_in_space(&states, &aloft);
+        let linked = take_linked(&closing, predicted, &mut (0..closing.len()).collect());
+        let group: Vec<Touch> = linked.into_iter().map(|index| closing[index]).collect();
         let involved: [bool; BALLS] =
             std::array::from_fn(|ball| group.iter().any(|touch| touch.contact.involves(ball)));
         let is_alone = group.iter().all(|touch| touch.contact == *predicted);
@@ -52,7 +62,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
                 states[contact.first].position = place.extend(0.0);
             }
         }
-        let closing: Vec<f64> = group.iter().map(|touch| -touch.opening_speed(&states)).collect();
+        let approaches: Vec<f64> = group.iter().map(|touch| -touch.opening_speed(&states)).collect();
         // As on the cloth, rounds without end are cut short.
         let law = if self.rounds > MAX_ROUNDS { self.law.with_restitution(0.0) } else { self.law.clone() };
         let impulses = collide_together_in_space(c.radius, &law, Some(&aloft), &mut states, &group);
@@ -62,11 +72,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             self.end_segment(ball, now);
         }
         let mut bounces = [false; BALLS];
-        for ((Touch { contact, .. }, impulse), closing) in group.iter().zip(&impulses).zip(closing) {
+        for ((Touch { contact, .. }, impulse), approach) in group.iter().zip(&impulses).zip(approaches) {
             if impulse.normal <= 0.0 {
                 continue;
             }
-            let reported = self.is_reported(now, contact, closing);
+            let reported = self.is_reported(now, contact, approach);
             self.report_impact(now, kind(contact), reported)?;
             members().filter(|&ball| contact.involves(ball)).for_each(|ball| bounces[ball] |= !reported);
             if impulse.climb > c.least_climb {
@@ -101,7 +111,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     }
 
     /// Returns all touching contacts of balls on the table that close: at the height of the balls' centres on the cloth, with a ball in the
-    /// air faster than the slowest bounce there. Pairs of balls come first: each contact of a linked group then shares a ball with one before.
+    /// air faster than the slowest bounce there. Pairs of balls come first, so that each reported impact of a group shares a ball with one
+    /// before.
     fn closing_in_space(&self, states: &[SpatialState; BALLS], aloft: &Aloft) -> Vec<Touch> {
         let c = &self.constants;
         let is_here = |ball: usize| self.balls[ball].segment.motion != Motion::OffTable;
@@ -130,23 +141,6 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             }
         }
         closing
-    }
-}
-
-/// Returns the touches that are linked to a contact by shared balls, directly or through others.
-fn linked(to: &Contact, touches: Vec<Touch>) -> Vec<Touch> {
-    let (mut group, mut rest) = (Vec::new(), touches);
-    loop {
-        let is_linked = |touch: &Touch| {
-            let shares = |other: &Touch| other.contact.shares_a_ball(&touch.contact);
-            touch.contact.shares_a_ball(to) || group.iter().any(shares)
-        };
-        let (joined, others): (Vec<Touch>, Vec<Touch>) = rest.into_iter().partition(is_linked);
-        if joined.is_empty() {
-            return group;
-        }
-        group.extend(joined);
-        rest = others;
     }
 }
 

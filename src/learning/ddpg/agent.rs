@@ -150,8 +150,8 @@ impl Ddpg {
 }
 
 /// Returns the rate of the soft update after this number of updates: higher at first, so that the average forgets the random weights with
-/// which it began (as TensorFlow's `ExponentialMovingAverage` does with `num_updates`). At a constant rate of 0.001, a fifth of them would be
-/// left after 300,000 shots.
+/// which it began (as TensorFlow's `ExponentialMovingAverage` does with `num_updates`). At a constant rate of 0.001, a fifth of them would
+/// be left after 300,000 shots.
 fn averaging_rate(tau: f64, updates: u32) -> f64 {
     tau.max(9.0 / (10.0 + f64::from(updates)))
 }

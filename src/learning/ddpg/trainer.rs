@@ -128,13 +128,13 @@ pub const AGENT: AgentKind = AgentKind {
 /// Parses the settings with which a run starts.
 fn hyperparameters(settings: &Value) -> Result<Hyperparameters, StartError> {
     let hyperparameters: Hyperparameters = settings_from(settings, Hyperparameters::validate)?;
-    if hyperparameters.searched > 0 && !hyperparameters.context {
-        let reason = "searches need players with errors: use searched with context = true";
-        return Err(StartError::Settings(reason.to_owned()));
-    }
     let Hyperparameters { imitation, actor_learning_rate, ranking, shots_per_update, .. } = hyperparameters;
     let own = Hyperparameters::default();
-    let idle = [
+    let without_effect = [
+        (
+            hyperparameters.searched > 0 && !hyperparameters.context,
+            "searches need players with errors: use searched with context = true",
+        ),
         (
             imitation > 0.0 && hyperparameters.searched == 0,
             "imitation needs searched strokes: use searched = 1 or more, or imitation = 0",
@@ -152,7 +152,7 @@ fn hyperparameters(settings: &Value) -> Result<Hyperparameters, StartError> {
             "ranking is less than the eight shots of one layout: use 0, or more of shots_per_update",
         ),
     ];
-    if let Some((_, reason)) = idle.into_iter().find(|(is_idle, _)| *is_idle) {
+    if let Some((_, reason)) = without_effect.into_iter().find(|(is_set, _)| *is_set) {
         return Err(StartError::Settings(reason.to_owned()));
     }
     if imitation > 0.0 && actor_learning_rate < MIN_ACTOR_LEARNING_RATE {

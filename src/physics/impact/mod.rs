@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3};
 use super::BallState;
 pub use ball_ball::BallImpact;
 pub use cushion::{Cushion, ImpactImpulse};
-pub use simultaneous::{Aloft, ImpactLaw, Touch, collide_together, collide_together_in_space};
+pub use simultaneous::{Aloft, ImpactLaw, Touch, collide_together, collide_together_in_space, take_linked};
 
 /// Returns the separation speed of an impact in the air with the closing speed `approach`, m/s. Up to `slowest` no speed is lost: otherwise
 /// a ball that settles on a nose or on another ball would slide off in ever lower bounces, without end.

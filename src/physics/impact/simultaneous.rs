@@ -37,8 +37,8 @@ const MAX_SWEEPS: usize = 200;
 /// Pivots up to this count as zero when the normal impulses are solved for directly: thousands of roundings.
 const LEAST_PIVOT: f64 = 1e-12;
 
-/// Impact laws of a table. If several contacts that share balls close at once, cushion contacts of balls on the cloth are at the height of the
-/// balls' centres, with Coulomb friction, and restitution is that of slow impacts.
+/// Impact laws of a table. If several contacts that share balls close at once, cushion contacts of balls on the cloth are at the height
+/// of the balls' centres, with Coulomb friction, and restitution is that of slow impacts.
 #[derive(Clone, Debug)]
 pub struct ImpactLaw {
     /// Law of two balls.
@@ -131,10 +131,11 @@ impl Touch {
         DVec2::new(relative.dot(t) - radius * spin.dot(up), relative.dot(up) + radius * spin.dot(t))
     }
 
-    /// Applies an impulse per mass along the two tangents, m/s, which also turns the balls.
-    fn rub(&self, radius: f64, impulse: DVec2, balls: &mut [SpatialState; BALLS], free: DVec3) {
+    /// Applies a friction impulse per mass along the two tangents, m/s, which also turns the balls. The velocities change only along the
+    /// axes that are `free`.
+    fn apply_friction(&self, radius: f64, impulse: DVec2, balls: &mut [SpatialState; BALLS], free: DVec3) {
         let [t, up] = self.tangents();
-        self.push(free * (impulse.x * t + impulse.y * up), balls);
+        self.apply_impulse(free * (impulse.x * t + impulse.y * up), balls);
         let twist = 2.5 / radius * (impulse.x * up - impulse.y * t);
         balls[self.contact.first].spin -= twist;
         if let Some(second) = self.contact.second() {
@@ -143,7 +144,7 @@ impl Touch {
     }
 
     /// Applies an impulse per mass, m/s, to the balls' centres.
-    fn push(&self, impulse: DVec3, balls: &mut [SpatialState; BALLS]) {
+    fn apply_impulse(&self, impulse: DVec3, balls: &mut [SpatialState; BALLS]) {
         balls[self.contact.first].velocity += impulse;
         if let Some(second) = self.contact.second() {
             balls[second].velocity -= impulse;
@@ -187,9 +188,10 @@ pub fn collide_together_in_space(
     touches: &[Touch],
 ) -> [ImpactImpulse; MAX_CONTACTS] {
     let mut impulses = [ImpactImpulse::default(); MAX_CONTACTS];
-    let mut left = vec![(0..touches.len()).collect()];
+    let mut left: Vec<Vec<usize>> = vec![(0..touches.len()).collect()];
     while let Some(mut rest) = left.pop() {
-        let group = take_group(touches, &mut rest);
+        let Some(&first) = rest.first() else { continue };
+        let group = take_linked(touches, &touches[first].contact, &mut rest);
         if !rest.is_empty() {
             left.push(rest);
         }
@@ -228,17 +230,19 @@ fn involve(touches: &[Touch], ball: usize) -> bool {
     touches.iter().any(|touch| touch.contact.involves(ball))
 }
 
-/// Removes the first contact from `rest`, and all contacts that share balls with it, directly or through others. Returns them.
-fn take_group(touches: &[Touch], rest: &mut Vec<usize>) -> Vec<usize> {
-    let mut group: Vec<usize> = rest.drain(..rest.len().min(1)).collect();
+/// Removes from `rest`, a list of indices, all contacts that share balls with the contact `to`, directly or through others. Returns them.
+pub fn take_linked(touches: &[Touch], to: &Contact, rest: &mut Vec<usize>) -> Vec<usize> {
+    let mut linked: Vec<usize> = Vec::new();
     loop {
-        let shares = |one: usize, other: usize| touches[one].contact.shares_a_ball(&touches[other].contact);
-        let is_joined = |index: &usize| group.iter().any(|&other| shares(other, *index));
-        let (joined, others): (Vec<_>, Vec<_>) = rest.iter().partition(|index| is_joined(index));
+        let is_linked = |index: &usize| {
+            let contact = &touches[*index].contact;
+            contact.shares_a_ball(to) || linked.iter().any(|&other| touches[other].contact.shares_a_ball(contact))
+        };
+        let (joined, others): (Vec<_>, Vec<_>) = rest.iter().partition(|index| is_linked(index));
         if joined.is_empty() {
-            return group;
+            return linked;
         }
-        group.extend(joined);
+        linked.extend(joined);
         *rest = others;
     }
 }
@@ -255,7 +259,7 @@ fn apply_impulses(
 ) {
     let slips: Vec<DVec2> = touches.iter().map(|touch| touch.slip(radius, balls)).collect();
     for (touch, impulse) in touches.iter().zip(impulses) {
-        touch.push(*impulse * touch.normal, balls);
+        touch.apply_impulse(*impulse * touch.normal, balls);
     }
     let with_friction = |share: f64| {
         let mut balls = *balls;
@@ -265,7 +269,7 @@ fn apply_impulses(
                 Partner::Ball(_) => law.balls.friction_factor(impulse, slip),
                 Partner::Cushion(rail) => law.cushion(rail).friction_factor(impulse, slip),
             };
-            touch.rub(radius, -share * factor * slips[index], &mut balls, free);
+            touch.apply_friction(radius, -share * factor * slips[index], &mut balls, free);
         }
         balls
     };

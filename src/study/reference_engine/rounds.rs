@@ -176,7 +176,8 @@ pub fn collide_single<R: Real>(numbers: &Numbers<R>, balls: &mut Balls<R>, conta
 }
 
 /// Applies simultaneous impacts that share balls, with these normal impulses and with Coulomb friction, and the reaction of the
-/// cloth if a ball is in the air. Otherwise the impacts are at the height of the balls' centres, and no ball is lifted. Adds the contacts with an impulse to `met`, and returns the dissipated energy per mass.
+/// cloth if a ball is in the air. Otherwise the impacts are at the height of the balls' centres, and no ball is lifted. Adds the
+/// contacts with an impulse to `met`, and returns the dissipated energy per mass.
 fn one_round<R: Real>(
     numbers: &Numbers<R>,
     balls: &mut Balls<R>,
