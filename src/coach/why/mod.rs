@@ -29,6 +29,10 @@ const ATTEMPTS: usize = 200;
 /// Minimum share of the attempts for a kiss to be reported.
 const MIN_KISS_SHARE: f64 = 0.02;
 
+/// Probabilities that differ by no more than this are reported as about equal. It is one standard error of the difference if half of a
+/// thousand and of four hundred attempts make the point.
+const NOTABLE_DIFFERENCE: f64 = 0.03;
+
 /// The aim width is reported only if it is at least this share of the window in which the player's direction must stay
 /// to make the shot as often as it is made.
 const MIN_EXPLAINED_SHARE: f64 = 0.8;
@@ -126,6 +130,18 @@ pub struct Why {
     scale: (f64, DVec2),
 }
 
+/// A shot's make probability, and the probability of the next point.
+type Probabilities = (Option<f64>, Option<f64>);
+
+/// Whether a shot leads although it is made less often than another one, because it leaves a clearly easier next point, so that it has the
+/// higher probability of both.
+fn leads_by_plan((own, after): Probabilities, (other, after_other): Probabilities) -> bool {
+    let known = own.zip(after).zip(other.zip(after_other));
+    known.is_some_and(|((own, after), (other, after_other))| {
+        own < other && own * after > other * after_other && after - after_other >= NOTABLE_DIFFERENCE
+    })
+}
+
 /// Explains the recommended shot. It takes some hundred simulations; the same seed draws the same attempts.
 ///
 /// # Errors
@@ -157,9 +173,13 @@ pub fn why(
             next_probability: other.next_probability,
         })
     });
+    let rate = |made: Option<SuccessRate>| made.map(|made| made.rate);
     let is_unsure = |other: &Alternative| {
-        let rates = other.make_probability.zip(advice.make_probability);
-        rates.is_some_and(|(its, own)| its.rate > own.rate) && Drawback::of(other, advice).is_none()
+        let own = (rate(advice.make_probability), advice.next_probability);
+        let its = (rate(other.make_probability), other.next_probability);
+        own.0.zip(its.0).is_some_and(|(own, its)| own < its)
+            && !leads_by_plan(own, its)
+            && Drawback::of(other, advice).is_none()
     };
     let numbered = (2..).zip(&advice.alternatives);
     Ok(Why {

@@ -1,6 +1,6 @@
 //! The reasons for a shot, in sentences.
 
-use super::{Difference, Drawback, Kiss, Why};
+use super::{Difference, Drawback, Kiss, NOTABLE_DIFFERENCE, Why, leads_by_plan};
 use crate::{
     coach::{
         Units,
@@ -8,10 +8,6 @@ use crate::{
     },
     table::CueBall,
 };
-
-/// Make probabilities that differ by no more than this are reported as "about as often". It is one standard error of
-/// the difference if half of a thousand and of four hundred attempts make the point.
-const NOTABLE_DIFFERENCE: f64 = 0.03;
 
 /// Aim tolerances that differ by less than this share of the second shot's are reported as alike.
 const NOTABLE_WIDTH_SHARE: f64 = 0.05;
@@ -59,20 +55,17 @@ impl Why {
         parts.iter().map(|part| format!("{}.", capitalize(part))).collect::<Vec<_>>().join(" ")
     }
 
-    /// Whether the second-best shot has the higher make probability, and this one leads because it leaves a clearly easier next point, so
-    /// that it has the higher probability of both.
+    /// Whether the second-best shot has the higher make probability, and the plan explains why this one leads.
     fn is_by_plan(&self) -> bool {
-        let second = self.second.as_ref();
-        let made = self.make_probability.zip(second.and_then(|second| second.make_probability));
-        let next = self.next_probability.zip(second.and_then(|second| second.next_probability));
-        made.zip(next).is_some_and(|((own, other), (after, after_other))| {
-            own < other && own * after > other * after_other && after - after_other >= NOTABLE_DIFFERENCE
-        })
+        let own = (self.make_probability, self.next_probability);
+        self.second
+            .as_ref()
+            .is_some_and(|second| leads_by_plan(own, (second.make_probability, second.next_probability)))
     }
 
-    /// Whether the second-best shot seems to be made more often, possibly by chance, and no plan decides.
+    /// Whether the second-best shot seems to be made more often, possibly by chance.
     fn is_unsure(&self) -> bool {
-        self.unsure.contains(&2) && !self.is_by_plan()
+        self.unsure.contains(&2)
     }
 
     /// Describes the probability of the next point, compared with that after the second-best shot, which is called `other`.
@@ -113,12 +106,10 @@ impl Why {
     pub fn facts_beyond_list(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
         let luck = match &self.unsure[..] {
             [] => None,
-            // The plan does not rank them by the make probability alone.
-            _ if self.is_by_plan() => None,
-            [number] => Some(format!("shot {number}'s higher rate may be chance")),
+            [number] => Some(format!("shot {number}: maybe by chance")),
             [numbers @ .., last] => {
                 let numbers: Vec<_> = numbers.iter().map(usize::to_string).collect();
-                Some(format!("shots {} and {last}: higher rates may be chance", numbers.join(", ")))
+                Some(format!("shots {} and {last}: maybe by chance", numbers.join(", ")))
             }
         };
         let reasons = self.reasons(cue_ball, "shot 2");
@@ -265,13 +256,7 @@ mod tests {
             next_probability: Some(0.31),
             ..second
         });
-        let planned = Why {
-            make_probability: Some(0.8),
-            next_probability: Some(0.62),
-            second,
-            unsure: vec![2, 3],
-            ..why.clone()
-        };
+        let planned = Why { make_probability: Some(0.8), next_probability: Some(0.62), second, ..why.clone() };
         let reason = "the plan decides: it leaves the next point at 62 %";
         let said = planned.words(CueBall::White, Units::default());
         assert!(said.contains(&format!("{} (after the second shot: 31 %).", capitalize(reason))), "{said}");
@@ -281,7 +266,8 @@ mod tests {
         assert!(planned.facts_beyond_list(CueBall::White).all(|sentence| sentence.starts_with("The plan decides")));
         // Without a clearly easier next point, the plan decides nothing.
         for next in [None, Some(0.33)] {
-            let said = Why { next_probability: next, ..planned.clone() }.words(CueBall::White, Units::default());
+            let unsure = Why { next_probability: next, unsure: vec![2], ..planned.clone() };
+            let said = unsure.words(CueBall::White, Units::default());
             assert!(!said.contains("plan") && said.contains("the second shot 90 %, maybe by chance."), "{said}");
         }
         // If the second shot seems to be made more often only by chance, that is no reason against the first.
@@ -295,8 +281,8 @@ mod tests {
             assert!(sentence.contains("%, maybe by chance"), "{sentence}");
         }
         let first = second(&[2]).facts_beyond_list(CueBall::White).next().unwrap();
-        assert!(first.starts_with("Shot 2's higher rate may be chance"), "{first}");
-        for (unsure, words) in [(&[3][..], "Shot 3's higher rate"), (&[2, 3], "Shots 2 and 3: higher rates")] {
+        assert!(first.starts_with("Shot 2: maybe by chance"), "{first}");
+        for (unsure, words) in [(&[3][..], "Shot 3: maybe"), (&[2, 3], "Shots 2 and 3: maybe")] {
             let first = second(unsure).facts_beyond_list(CueBall::White).next().unwrap();
             assert!(first.starts_with(words), "{first}");
         }

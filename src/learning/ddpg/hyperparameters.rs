@@ -16,6 +16,11 @@ use crate::learning::{
 /// make 24 proposals for straight paths.)
 pub const RANKED: usize = 8;
 
+/// Returns this share of a number, rounded.
+pub(super) fn part(share: f64, of: usize) -> usize {
+    ((of as f64 * share).round() as usize).min(of)
+}
+
 /// The hyperparameters. The bundled policies were trained with the defaults, except for the differences listed in the model card. A
 /// serde `alias` is the name of a setting in earlier versions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -143,6 +148,11 @@ impl Hyperparameters {
     pub const fn inputs(&self) -> Inputs {
         let Self { actions: space, context, closed_form, rails_first, .. } = *self;
         Inputs { space, context, closed_form, rails_first }
+    }
+
+    /// Returns the number of layouts before every update on which ranked proposals are played, without exploration.
+    pub fn ranked_layouts(&self) -> usize {
+        part(self.ranking, self.shots_per_update) / RANKED
     }
 
     /// Returns the layer sizes of the actor and of the critic, inputs first.

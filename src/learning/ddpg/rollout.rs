@@ -9,7 +9,7 @@ use super::{
     action::Action,
     agent::Transition,
     expert::{Expert, SearchResult},
-    hyperparameters::{Hyperparameters, RANKED},
+    hyperparameters::{Hyperparameters, RANKED, part},
     networks::Networks,
     observation::Observation,
     observation_batch::ObservationBatch,
@@ -32,16 +32,11 @@ const STREAM: u64 = 0x0070_6c61_7474;
 /// A layout, and the context under which it is played.
 pub(super) type ContextualLayout = (Layout, Context);
 
-/// Returns this share of a number, rounded.
-pub(super) fn part(share: f64, of: usize) -> usize {
-    ((of as f64 * share).round() as usize).min(of)
-}
-
 impl Trainer {
     /// Plays the shots of one iteration and returns their mean reward. Each shot has a fresh layout, except the ranked ones.
     pub(super) fn play(&mut self) -> Result<f64> {
         let Hyperparameters { shots_per_update, critic_chooses, .. } = self.task.hyperparameters;
-        let ranked = self.ranked_layouts();
+        let ranked = self.task.hyperparameters.ranked_layouts();
         // A layout with ranked proposals takes `RANKED` shots; every other takes one.
         let count = ranked + (shots_per_update - ranked * RANKED);
         let layouts: Vec<ContextualLayout> = (0..count).map(|_| self.draw_layout()).collect();
@@ -53,16 +48,11 @@ impl Trainer {
         Ok(total / shots_per_update as f64)
     }
 
-    /// Number of layouts of an iteration on which ranked proposals are played, without exploration.
-    fn ranked_layouts(&self) -> usize {
-        let Hyperparameters { shots_per_update, ranking, .. } = self.task.hyperparameters;
-        part(ranking, shots_per_update) / RANKED
-    }
-
     /// Share of the shots that are uniformly random.
     pub(super) fn uniform_share(&self) -> f64 {
         let Hyperparameters { shots_per_update, exploration, .. } = &self.task.hyperparameters;
-        exploration.uniform * (1.0 - (self.ranked_layouts() * RANKED) as f64 / *shots_per_update as f64)
+        exploration.uniform
+            * (1.0 - (self.task.hyperparameters.ranked_layouts() * RANKED) as f64 / *shots_per_update as f64)
     }
 
     /// Draws a fresh layout and its context.

@@ -12,12 +12,12 @@ use super::{
     context::CONTEXT_FEATURES,
     features::STATE_FEATURES,
     first_contact::RAIL_FEATURES,
-    hyperparameters::{Hyperparameters, RANKED},
+    hyperparameters::Hyperparameters,
     networks::Networks,
     observation_batch::ObservationBatch,
     policy::{Policy, calibration::Calibration, file::Origin},
     randomized_tables::RandomizedTables,
-    rollout, snapshot,
+    snapshot,
 };
 use crate::{
     learning::{
@@ -128,8 +128,8 @@ pub const AGENT: AgentKind = AgentKind {
 /// Parses the settings with which a run starts.
 fn hyperparameters(settings: &Value) -> Result<Hyperparameters, StartError> {
     let hyperparameters: Hyperparameters = settings_from(settings, Hyperparameters::validate)?;
-    let Hyperparameters { imitation, actor_learning_rate, ranking, shots_per_update, .. } = hyperparameters;
-    let own = Hyperparameters::default();
+    let Hyperparameters { imitation, actor_learning_rate, .. } = hyperparameters;
+    let default = Hyperparameters::default();
     let without_effect = [
         (
             hyperparameters.searched > 0 && !hyperparameters.context,
@@ -140,15 +140,15 @@ fn hyperparameters(settings: &Value) -> Result<Hyperparameters, StartError> {
             "imitation needs searched strokes: use searched = 1 or more, or imitation = 0",
         ),
         (
-            hyperparameters.attempts != own.attempts && !hyperparameters.context,
+            hyperparameters.attempts != default.attempts && !hyperparameters.context,
             "attempts need players with errors: use attempts with context = true, or attempts = 1",
         ),
         (
-            hyperparameters.perfect != own.perfect && !hyperparameters.context,
+            hyperparameters.perfect != default.perfect && !hyperparameters.context,
             "perfect is the share of players without errors: use it with context = true",
         ),
         (
-            ranking > 0.0 && rollout::part(ranking, shots_per_update) < RANKED,
+            hyperparameters.ranking > 0.0 && hyperparameters.ranked_layouts() == 0,
             "ranking is less than the eight shots of one layout: use 0, or more of shots_per_update",
         ),
     ];

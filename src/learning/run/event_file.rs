@@ -25,10 +25,11 @@ const CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISCSI);
 pub struct EventFile(File);
 
 impl EventFile {
-    /// Opens the file of a run that has written `records` so far, or writes it from them if there is none. An existing file is continued
-    /// in place, because an open `TensorBoard` would go on reading a file that was replaced. A record that was cut off is removed, and what
-    /// the file contains beyond the last of `records` counts no more.
-    pub fn open(folder: &Path, records: &[Record]) -> io::Result<Self> {
+    /// Opens the file of a run that begins or resumes after `shots` shots and has written `records` so far. If there is no file, it is
+    /// written from them. An existing one is continued in place, because an open `TensorBoard` would go on reading a file that was
+    /// replaced, and because it may contain lines that the metrics have lost. A record that was cut off is removed, and those of later shots
+    /// count no more.
+    pub fn open(folder: &Path, records: &[Record], shots: u64) -> io::Result<Self> {
         let path = folder.join(FILE);
         if !path.exists() {
             write_atomic_unsynced(&path, &Self::content(records))?;
@@ -37,8 +38,7 @@ impl EventFile {
         let length = length_of_whole_records(&fs::read(&path)?);
         let mut file = OpenOptions::new().append(true).open(path)?;
         file.set_len(length as u64)?;
-        let next = records.last().map_or(0, |last| last.shots + 1);
-        file.write_all(&framed(&restart(next)))?;
+        file.write_all(&framed(&restart(shots + 1)))?;
         Ok(Self(file))
     }
 
@@ -167,18 +167,19 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(FILE);
         let record = Record { shots: 300, ..Record::default() };
-        EventFile::open(folder.path(), &[]).unwrap().push(&record).unwrap();
+        EventFile::open(folder.path(), &[], 0).unwrap().push(&record).unwrap();
         let before = fs::read(&path).unwrap();
         // The process was killed in the middle of a record.
         fs::write(&path, [before.as_slice(), &framed(b"event")[..11]].concat()).unwrap();
-        EventFile::open(folder.path(), std::slice::from_ref(&record)).unwrap().push(&record).unwrap();
+        // Its metrics are lost, too; the line in this file stays valid.
+        EventFile::open(folder.path(), &[], 300).unwrap().push(&record).unwrap();
         let after = fs::read(&path).unwrap();
         assert!(after.starts_with(&before), "what was written stays");
         assert_eq!(length_of_whole_records(&after), after.len(), "no record is cut off");
         let restart_at_301 = [STEP << 3, 0xad, 0x02, SESSION_LOG << 3 | BYTES, 2, STATUS << 3, START as u8];
         assert!(after[before.len()..].windows(7).any(|part| part == restart_at_301));
         fs::remove_file(&path).unwrap();
-        EventFile::open(folder.path(), &[record]).unwrap();
+        EventFile::open(folder.path(), &[record], 300).unwrap();
         assert_eq!(fs::read(&path).unwrap().len(), before.len(), "a lost file is written anew");
     }
 
@@ -186,7 +187,7 @@ mod tests {
     fn a_file_has_a_version_and_one_event_per_line() {
         let folder = tempfile::tempdir().unwrap();
         let record = Record { shots: 300, critic_loss: f64::NAN, rollout_reward: 0.25, ..Record::default() };
-        let mut file = EventFile::open(folder.path(), std::slice::from_ref(&record)).unwrap();
+        let mut file = EventFile::open(folder.path(), std::slice::from_ref(&record), 300).unwrap();
         file.push(&record).unwrap();
         let bytes = std::fs::read(folder.path().join(FILE)).unwrap();
         let (mut rest, mut events) = (bytes.as_slice(), Vec::new());

@@ -89,7 +89,7 @@ impl Run {
         let mut events = None;
         // A finished run writes no more lines.
         if !self.learner.is_finished() {
-            events = EventFile::open(&self.folder, &records).ok();
+            events = EventFile::open(&self.folder, &records, shots).ok();
             // A result exists here if the last checkpoint of a finished run was lost and the run resumes from the previous one.
             let _ = fs::remove_file(self.folder.join(RESULT));
         }
