@@ -139,9 +139,9 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
             return self.predict_ball(now, index);
         }
         let contact = Contact::with_cushion(index, rail);
-        // Of the two noses in a corner, only one is predicted.
-        let is_near_corner = (c.reach - state.position.truncate().abs()).max_element() <= c.radius;
-        if (is_near_corner || self.may_be_simultaneous_aloft(now)) && self.collide_together_aloft(now, &contact)? {
+        if self.nose_may_be_one_of_several(index, state.position.truncate(), now)
+            && self.collide_together_aloft(now, &contact)?
+        {
             return ControlFlow::Continue(());
         }
         self.end_segment(index, now);
@@ -159,7 +159,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     pub(super) fn collide_in_space(&mut self, pair: usize, now: f64) -> ControlFlow<()> {
         let (first, second) = PAIRS[pair];
         let contact = Contact::of_balls(first, second);
-        if self.may_be_simultaneous_aloft(now) && self.collide_together_aloft(now, &contact)? {
+        if self.pair_may_be_one_of_several(first, second, now) && self.collide_together_aloft(now, &contact)? {
             return ControlFlow::Continue(());
         }
         self.effort_in_air.add(AIR_IMPACT_COST);

@@ -171,7 +171,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
     /// Returns the position of a ball now along the table, m.
     #[inline(always)]
-    fn place(&self, ball: usize, now: f64) -> DVec2 {
+    pub(super) fn place(&self, ball: usize, now: f64) -> DVec2 {
         let segment = &self.balls[ball].segment;
         segment.position_after(now - segment.start)
     }
@@ -187,19 +187,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
     #[inline(always)]
     pub(super) fn may_be_simultaneous(&mut self, now: f64) -> bool {
         self.count_round(now);
-        self.has_several_events_until(now + self.constants.tolerance.simultaneous)
-            || self.inelastic
-            || self.rounds > MAX_ROUNDS
-    }
-
-    /// Whether more than one event is predicted until this time.
-    #[inline(always)]
-    pub(super) fn has_several_events_until(&self, time: f64) -> bool {
         let mut count = 0;
         for predicted in self.times {
-            count += u32::from(predicted <= time);
+            count += u32::from(predicted <= now + self.constants.tolerance.simultaneous);
         }
-        count > 1
+        count > 1 || self.inelastic || self.rounds > MAX_ROUNDS
     }
 
     /// Resolves all contacts that close now together, if there are several; if a ball of them is in the air, only those that are linked to

@@ -7,10 +7,12 @@
 
 use std::ops::ControlFlow;
 
+use glam::DVec2;
+
 use super::{
-    Observer, Rail,
+    Constants, Observer, Rail,
     aloft::Nose,
-    contacts::move_to_cushion,
+    contacts::{PAIRS_OF, move_to_cushion},
     engine::Engine,
     guards::AIR_IMPACT_COST,
     impacts::{MAX_ROUNDS, kind},
@@ -22,12 +24,30 @@ use crate::{
 };
 
 impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
-    /// Whether other contacts may close at this moment, of which one has a ball in the air. Such contacts close faster than the slowest
-    /// bounce in the air, so that those within the touching tolerance are predicted for almost the same time.
+    /// Whether a ball in the air that meets a nose at `place` may touch a second nose or another ball too.
     #[inline(always)]
-    pub(super) fn may_be_simultaneous_aloft(&self, now: f64) -> bool {
-        let tolerance = &self.constants.tolerance;
-        self.has_several_events_until(now + tolerance.simultaneous + tolerance.touching / tolerance.slowest_in_air)
+    pub(super) fn nose_may_be_one_of_several(&self, ball: usize, place: DVec2, now: f64) -> bool {
+        let Constants { reach, radius, .. } = self.constants;
+        // A ball touches noses at other distances than on the cloth, but less than a radius away from there.
+        (reach - place.abs()).max_element() <= radius
+            || PAIRS_OF[ball].iter().any(|&(_, other)| self.may_touch(place, other, now))
+    }
+
+    /// Whether one of two balls that collide in the air may touch the third ball or a cushion too.
+    #[inline(always)]
+    pub(super) fn pair_may_be_one_of_several(&self, first: usize, second: usize, now: f64) -> bool {
+        let Constants { reach, radius, .. } = self.constants;
+        [first, second].into_iter().any(|ball| {
+            let place = self.place(ball, now);
+            (reach - place.abs()).min_element() <= radius || self.may_touch(place, BALLS - first - second, now)
+        })
+    }
+
+    /// Whether a ball at `place` touches another one, seen from above: in the air, its height may still separate them.
+    #[inline(always)]
+    fn may_touch(&self, place: DVec2, other: usize, now: f64) -> bool {
+        let near = self.constants.diameter + self.constants.tolerance.touching;
+        place.distance_squared(self.place(other, now)) <= near * near
     }
 
     /// Resolves all contacts together that close at this moment and are linked to the `predicted` one by shared balls, if there are others

@@ -162,14 +162,9 @@ pub fn impacts(
     let gripping = contacts.iter().enumerate().filter(first_of_its_kind).map(|(_, contact)| *contact).filter(rests);
     let gripping: Vec<Contact> = gripping.collect();
     // The contact stays closed after the last of its impacts.
-    let mut contacts = contacts
-        .iter()
-        .enumerate()
-        .map(|(index, contact)| {
-            let stays = rests(contact) && !contacts[index + 1..].contains(contact);
-            (*contact, stays, assumed.joins.checked_shr(index as u32).is_none_or(|joins| joins & 1 == 1))
-        })
-        .peekable();
+    let stays = |index: usize| rests(&contacts[index]) && !contacts[index + 1..].contains(&contacts[index]);
+    let joins = |index: usize| assumed.joins.checked_shr(index as u32).is_none_or(|joins| joins & 1 == 1);
+    let mut next = 0;
     let mut bounces: Option<Bounces> = None;
     let rounding = |contact: &Contact, balls: &[Ball<f64>; BALLS]| {
         let (first, second) = contact.balls();
@@ -177,10 +172,11 @@ pub fn impacts(
         let resting_speed = if contact.is_among(rested) { RESTING_SPEED } else { 0.0 };
         resting_speed.max(assumed.none).max(GRAZING * (speed(first) + second.map_or(0.0, speed)))
     };
-    while let Some((contact, stays, _)) = contacts.next() {
+    while let Some(&contact) = contacts.get(next) {
         let is_aloft = contact.is_aloft(&balls);
         let rounded = rounding(&contact, &balls);
         if is_aloft && opening_aloft(&numbers, contact, &balls) > if assumed.grazes { -rounded } else { rounded } {
+            next += 1;
             continue;
         }
         let closes = |contact: &Contact| {
@@ -191,32 +187,51 @@ pub fn impacts(
             contact.opening_speed(&balls) < -least
         };
         let may_join = !is_aloft || closes(&contact);
-        let (mut round, mut staying) = (vec![contact], Vec::from_iter(stays.then_some(contact)));
         // With a ball in the air, only contacts that share balls are solved together.
         let is_linked = |other: &Contact, round: &[Contact]| {
             let all_lie = || !round.iter().chain([other]).any(|contact| contact.is_aloft(&balls));
             round.iter().any(|member| member.shares_a_ball(*other)) || all_lie()
         };
-        while let Some((other, stays, _)) = contacts.next_if(|(other, _, joins)| {
-            may_join && *joins && closes(other) && !round.contains(other) && is_linked(other, &round)
-        }) {
-            round.push(other);
-            staying.extend(stays.then_some(other));
+        let joins = |end: usize| {
+            let (round, other) = (&contacts[next..end], &contacts[end]);
+            joins(end) && closes(other) && !round.contains(other) && is_linked(other, round)
+        };
+        let mut end = next + 1;
+        while may_join && end < contacts.len() && joins(end) {
+            end += 1;
         }
-        if is_aloft && round.len() == 1 {
-            lost += collide_aloft(&numbers, contact, &mut balls).work;
-        } else {
+        let before = balls;
+        loop {
+            let round = &contacts[next..end];
+            balls = before;
+            if is_aloft && round.len() == 1 {
+                lost += collide_aloft(&numbers, contact, &mut balls).work;
+                break;
+            }
+            let staying: Vec<Contact> =
+                (next..end).filter(|&index| stays(index)).map(|index| contacts[index]).collect();
+            let is_slow = |contact: &Contact| -contact.opening_speed(&before) < fastest_micro_collision(table);
+            let law = if assumed.is_micro && round.iter().all(is_slow) { &lossless } else { &numbers };
+            let mut met = Vec::new();
+            let work = collide_simultaneously(law, &mut balls, round, &staying, &mut met);
+            // Only impacts with an impulse are reported: this one belongs to a later round.
+            if let Some(unmet @ 1..) = round.iter().position(|contact| !met.contains(contact))
+                && work.is_ok()
+            {
+                end = next + unmet;
+                continue;
+            }
             for contact in &staying {
-                let closing_speed = -contact.opening_speed(&balls);
+                let closing_speed = -contact.opening_speed(&before);
                 let left_out = Bounces::of(table, contact.balls().0, closing_speed, contact.restitution(&numbers));
                 bounces =
                     bounces.into_iter().chain([left_out]).max_by(|one, other| one.energy.total_cmp(&other.energy));
             }
-            let is_slow = |contact: &Contact| -contact.opening_speed(&balls) < fastest_micro_collision(table);
-            let law = if assumed.is_micro && round.iter().all(is_slow) { &lossless } else { &numbers };
             // If no impulses are found, nothing is explained.
-            lost += collide_simultaneously(law, &mut balls, &round, &staying, &mut Vec::new()).unwrap_or(0.0);
+            lost += work.unwrap_or(0.0);
+            break;
         }
+        next = end;
         for ball in balls.iter_mut().filter(|ball| ball.velocity.z > 0.0) {
             ball.motion = Motion::Flying;
         }

@@ -211,7 +211,9 @@ impl Audit<'_> {
         let moved = |ball: usize| before[ball].position.distance(after[ball].position) / (2.0 * self.table.radius);
         let turned = (0..BALLS).filter(|&ball| group[ball]).map(|ball| moved(ball) * before[ball].velocity.length());
         let none = self.trace.constants.tolerance.opening + turned.fold(0.0, f64::max);
-        let several = if reported.len() > MAX_JOINING { 0 } else { reported.len() };
+        let is_impact = |event: &&Event| Contact::of_event(event.kind).is_some_and(|contact| group[contact.balls().0]);
+        let impacts = reported.iter().filter(is_impact).count();
+        let several = if impacts > MAX_JOINING { 0 } else { impacts };
         // The first impact joins no other.
         let ways = (0..1_u32 << several).step_by(2).flat_map(|apart| {
             let joins = !apart;
