@@ -124,6 +124,51 @@ fn arriving(
     (balls, lost)
 }
 
+/// The first impacts of a round.
+struct Taken {
+    count: usize,
+    /// The dissipated energy, m²/s².
+    lost: f64,
+    /// The fastest of the omitted bounces.
+    bounces: Option<Bounces>,
+}
+
+/// Computes a `round` of contacts that close at the same time, given with whether they stay closed. If a later one of them gets no impulse,
+/// only those before it are taken: impacts without an impulse are not reported, so this one belongs to a later round. `lossless` is the law
+/// of slow impacts, if that is another one.
+fn collide_round(
+    table: &Table,
+    numbers: &Numbers<f64>,
+    lossless: Option<&Numbers<f64>>,
+    balls: &mut [Ball<f64>; BALLS],
+    round: &[(Contact, bool)],
+) -> Taken {
+    let before = *balls;
+    let (mut joined, mut staying): (Vec<Contact>, Vec<Contact>) = Default::default();
+    for (contact, stays) in round {
+        joined.push(*contact);
+        staying.extend(stays.then_some(*contact));
+    }
+    let is_slow = |contact: &Contact| -contact.opening_speed(&before) < fastest_micro_collision(table);
+    let law = lossless.filter(|_| joined.iter().all(is_slow)).unwrap_or(numbers);
+    let mut met = Vec::new();
+    let work = collide_simultaneously(law, balls, &joined, &staying, &mut met);
+    if let (Some(unmet @ 1..), true) = (joined.iter().position(|contact| !met.contains(contact)), work.is_ok()) {
+        *balls = before;
+        return collide_round(table, numbers, lossless, balls, &round[..unmet]);
+    }
+    let bounces_of = |contact: &Contact| {
+        let closing_speed = -contact.opening_speed(&before);
+        Bounces::of(table, contact.balls().0, closing_speed, contact.restitution(numbers))
+    };
+    Taken {
+        count: round.len(),
+        // If no impulses are found, nothing is explained.
+        lost: work.unwrap_or(0.0),
+        bounces: staying.iter().map(bounces_of).max_by(|one, other| one.energy.total_cmp(&other.energy)),
+    }
+}
+
 /// Computes the reported impacts of a `group` of balls, together if they close at the same time. `flew` are the balls that were in the air
 /// before. Those of them that have come down are first thrown up by the cloth, or are on it; others land last if a landing is reported. An
 /// impact has no restitution if its bodies rest against each other from now on.
@@ -200,36 +245,15 @@ pub fn impacts(
         while may_join && end < contacts.len() && joins(end) {
             end += 1;
         }
-        let before = balls;
-        loop {
-            let round = &contacts[next..end];
-            balls = before;
-            if is_aloft && round.len() == 1 {
-                lost += collide_aloft(&numbers, contact, &mut balls).work;
-                break;
-            }
-            let staying: Vec<Contact> =
-                (next..end).filter(|&index| stays(index)).map(|index| contacts[index]).collect();
-            let is_slow = |contact: &Contact| -contact.opening_speed(&before) < fastest_micro_collision(table);
-            let law = if assumed.is_micro && round.iter().all(is_slow) { &lossless } else { &numbers };
-            let mut met = Vec::new();
-            let work = collide_simultaneously(law, &mut balls, round, &staying, &mut met);
-            // Only impacts with an impulse are reported: this one belongs to a later round.
-            if let Some(unmet @ 1..) = round.iter().position(|contact| !met.contains(contact))
-                && work.is_ok()
-            {
-                end = next + unmet;
-                continue;
-            }
-            for contact in &staying {
-                let closing_speed = -contact.opening_speed(&before);
-                let left_out = Bounces::of(table, contact.balls().0, closing_speed, contact.restitution(&numbers));
-                bounces =
-                    bounces.into_iter().chain([left_out]).max_by(|one, other| one.energy.total_cmp(&other.energy));
-            }
-            // If no impulses are found, nothing is explained.
-            lost += work.unwrap_or(0.0);
-            break;
+        if is_aloft && end == next + 1 {
+            lost += collide_aloft(&numbers, contact, &mut balls).work;
+        } else {
+            let round: Vec<_> = (next..end).map(|index| (contacts[index], stays(index))).collect();
+            let lossless = assumed.is_micro.then_some(&lossless);
+            let taken = collide_round(table, &numbers, lossless, &mut balls, &round);
+            lost += taken.lost;
+            bounces = bounces.into_iter().chain(taken.bounces).max_by(|one, other| one.energy.total_cmp(&other.energy));
+            end = next + taken.count;
         }
         next = end;
         for ball in balls.iter_mut().filter(|ball| ball.velocity.z > 0.0) {

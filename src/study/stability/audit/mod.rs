@@ -153,6 +153,7 @@ impl Audit<'_> {
             let flown = members().any(|member| flew[member] || flies[member]);
             let on_cloth = if flown { None } else { Some(moment.residual(group)) };
             let Residual { mut unexplained, bounces } = match on_cloth {
+                _ if moment.follows_an_unknown_law(group) => Residual { unexplained: lost.min(0.0), bounces: None },
                 Some(residual) if residual.unexplained.abs() <= uncertainty.at_a_change(self.table) => residual,
                 _ => {
                     let states = [&in_space, &after_in_space];

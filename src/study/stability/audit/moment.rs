@@ -9,7 +9,7 @@ use super::{
 use crate::{
     physics::{BallState, slip},
     statistics::dot,
-    study::reference_engine::{Contact, Numbers},
+    study::reference_engine::{Contact, Numbers, RailLaw},
     table::{BALLS, Table},
 };
 
@@ -77,6 +77,14 @@ impl Moment<'_> {
     pub fn ends_a_chatter(&self, group: [bool; BALLS]) -> bool {
         let mut inside = self.impacts.iter().filter(|contact| group[contact.balls().0]);
         inside.any(|contact| self.closing_speed(*contact).abs() < LAST_BOUNCE)
+    }
+
+    /// Whether a ball of a group hits a cushion whose law the reference engine does not implement.
+    pub fn follows_an_unknown_law(&self, group: [bool; BALLS]) -> bool {
+        self.impacts.iter().any(|contact| {
+            matches!(*contact, Contact::Rail(ball, rail)
+                if group[ball] && matches!(self.numbers.cushion(rail).law, RailLaw::Integrated))
+        })
     }
 
     /// Whether a contact of a group is closed without an impact. The engine checks whether such a contact rests, and removes

@@ -5,6 +5,7 @@ mod cushion;
 mod flights;
 mod grazing;
 mod lone;
+mod models;
 mod pressed;
 mod rail_course;
 mod simultaneous;
@@ -60,6 +61,7 @@ pub fn all() -> Vec<Case> {
         smooth_courses::CASES,
         strokes::CASES,
         tables::CASES,
+        models::CASES,
         flights::CASES,
     ]
     .concat()
