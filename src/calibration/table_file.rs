@@ -6,7 +6,7 @@ use std::{
 };
 
 use crate::{
-    storage::{self, resolve_symlinks, write_atomic},
+    storage::{self, create_atomic, resolve_symlinks, write_atomic},
     table::Table,
 };
 
@@ -33,16 +33,17 @@ pub fn may_save_table(path: &Path) -> Result<(), SaveError> {
     Ok(())
 }
 
-/// Writes the table. It may replace another table, but no other file.
+/// Writes the table. With `may_replace` it may replace another table, but no other file.
 ///
 /// # Errors
-/// The same as [`may_save_table`], and if the file cannot be written.
-pub fn save_table(path: &Path, table: &Table) -> Result<(), SaveError> {
+/// The same as [`may_save_table`], and if the file cannot be written, or exists without `may_replace`.
+pub fn save_table(path: &Path, table: &Table, may_replace: bool) -> Result<(), SaveError> {
     may_save_table(path)?;
     let unwritten = |error| SaveError::Unwritable(path.to_owned(), error);
     let text = toml::to_string(table).map_err(|error| unwritten(io::Error::other(error)))?;
     let text = format!(
         "# Written by carom calibrate. To use this table, give the path of this file to carom recommend --table.\n{text}"
     );
-    write_atomic(&resolve_symlinks(path), text.as_bytes()).map_err(unwritten)
+    let write = if may_replace { write_atomic } else { create_atomic };
+    write(&resolve_symlinks(path), text.as_bytes()).map_err(unwritten)
 }

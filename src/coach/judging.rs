@@ -249,9 +249,10 @@ fn judging_draws(worlds: &Worlds, seed: u64, piece: usize) -> Draws {
     Draws::independent(CHUNK_SIZE, worlds, judging_seed(seed).wrapping_add(piece as u64))
 }
 
-/// The streams of neighbouring seeds are far apart, so that the pieces of one request are not those of the next.
+/// The streams of neighbouring seeds are far apart, so that the pieces of one request are not those of the next. The factor (Steele and Vigna
+/// 2022) is not the increment of the generator that spreads a seed, with which neighbours would share most of their states.
 const fn judging_seed(seed: u64) -> u64 {
-    (seed ^ 0x6a75_6467_6521).wrapping_mul(0x9e37_79b9_7f4a_7c15)
+    (seed ^ 0x6a75_6467_6521).wrapping_mul(0xd134_2543_de82_ef95)
 }
 
 #[cfg(test)]

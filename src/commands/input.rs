@@ -151,7 +151,7 @@ pub fn parse_seed(text: &str) -> Result<u64, String> {
 }
 
 /// Returns the time and the number of simulations of a search from the values of `--budget-ms` and `--simulations`. Without either, the time
-/// is `default_ms`; with a number of simulations alone, it is unlimited, so that the result is the same on every machine.
+/// is `default_ms`; with a number of simulations alone, it is unlimited, so that the result does not depend on the speed of the machine.
 pub fn search_limits(budget_ms: Option<u64>, simulations: Option<u64>, default_ms: u64) -> (Duration, u64) {
     let budget = match (budget_ms, simulations) {
         (None, Some(_)) => Duration::MAX,

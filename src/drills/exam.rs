@@ -3,8 +3,8 @@
 use rand::{SeedableRng, seq::SliceRandom};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::{Category, Exercise, Par, Session};
-use crate::coach::Doubt;
+use super::{Category, Exercise, Par, Session, par};
+use crate::coach::{Doubt, layout_number, layout_seed};
 
 /// Number of exercises in an exam; an exam of a single category has fewer if the category has.
 pub const LENGTH: usize = 20;
@@ -12,7 +12,8 @@ pub const LENGTH: usize = 20;
 /// Fewest exercises in an exam of a single category.
 const MIN_OF_CATEGORY: usize = 3;
 
-/// Attempts for each expected share of an exercise; over an exam their standard error is at most 0.1 points.
+/// Attempts for each expected share of an exercise. Every exercise has errors of its own, so that over an exam the standard error is at most
+/// 0.1 points.
 const PAR_ATTEMPTS: usize = 1000;
 
 /// The grades of the exercises in each level.
@@ -60,8 +61,8 @@ pub fn category(exercises: &[Exercise]) -> Option<Category> {
 /// Draws the exercises of an exam of `level` 1 to [`HIGHEST_LEVEL`] from `library`, easy ones first: of one `category`,
 /// or of all. They are spread over the categories and grades as evenly as the library allows.
 /// The player's own positions are excluded because they have no measured par, and jumps and massés, which most clubs
-/// forbid, unless they are the category. The same seed draws the same exam. The pars of the result are those of strokes in the program, which are made more often
-/// than at a real table: table and positions are exact.
+/// forbid, unless they are the category. The same seed draws the same exam. The pars of the result are those of strokes in the
+/// program, which are made more often than at a real table: table and positions are exact.
 ///
 /// # Errors
 /// [`ExamError`].
@@ -95,7 +96,8 @@ pub fn draw(
     }
     drawn.sort_by_key(|exercise| exercise.grade);
     let with_par = |exercise: &Exercise| {
-        let par = Par::with_doubt(exercise, Doubt::NONE, PAR_ATTEMPTS).ok().flatten();
+        let seed = layout_seed(par::SEED, layout_number(&exercise.layout));
+        let par = Par::with_doubt(exercise, Doubt::NONE, PAR_ATTEMPTS, seed).ok().flatten();
         Exercise { par: par.or(exercise.par), ..exercise.clone() }
     };
     Ok(drawn.into_iter().map(with_par).collect())

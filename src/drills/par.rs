@@ -20,21 +20,26 @@ impl Par {
     /// # Errors
     /// Fails if the exercise cannot be played.
     pub fn measure(exercise: &Exercise) -> Result<Option<Self>, ExerciseError> {
-        Self::with_doubt(exercise, Doubt::FULL, ATTEMPTS)
+        Self::with_doubt(exercise, Doubt::FULL, ATTEMPTS, SEED)
     }
 
-    /// Like [`Par::measure`], with this doubt and number of attempts: without doubt for strokes in the program, where table and positions
-    /// are exact.
+    /// Like [`Par::measure`], with this doubt, number of attempts, and seed of their errors: without doubt for strokes in the program, where
+    /// table and positions are exact.
     ///
     /// # Errors
     /// Fails if the exercise cannot be played.
-    pub fn with_doubt(exercise: &Exercise, doubt: Doubt, attempts: usize) -> Result<Option<Self>, ExerciseError> {
+    pub fn with_doubt(
+        exercise: &Exercise,
+        doubt: Doubt,
+        attempts: usize,
+        seed: u64,
+    ) -> Result<Option<Self>, ExerciseError> {
         exercise.validate()?;
         let table = exercise.table()?;
         let Some(shot) = exercise.model_shot() else { return Ok(None) };
         let share = |skill| {
             let shooter = Shooter { skill, doubt };
-            let made = make_probability(shooter, exercise.rule, &table, &exercise.layout, &shot, attempts, SEED);
+            let made = make_probability(shooter, exercise.rule, &table, &exercise.layout, &shot, attempts, seed);
             (made.rate * 1e3).round() / 1e3
         };
         Ok(Some(Self {

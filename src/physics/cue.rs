@@ -295,7 +295,7 @@ pub fn level_stroke(table: &Table, impulse: &Impulse) -> Option<CueInputs> {
     let (a, b) = (-tip * spin.z, tip * spin.truncate().dot(ahead.perp()));
     let offset = a * a + b * b;
     let cue_speed = 0.5 * speed * (1.0 + table.ball_mass / table.cue_mass + 2.5 * offset);
-    let phi = velocity.to_angle() - squirt(table, a);
+    let phi = libm::atan2(velocity.y, velocity.x) - squirt(table, a);
     (offset <= 1.0).then_some(CueInputs { a, b, theta: 0.0, phi, speed: cue_speed })
 }
 

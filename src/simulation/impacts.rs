@@ -147,9 +147,8 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if self.resting.is_some() || self.balls[index].mode != ContactMode::Free {
             return false;
         }
-        let place = |ball: usize| self.place(ball, now);
-        let (here, near) = (place(index), self.constants.diameter + self.constants.tolerance.touching);
-        PAIRS_OF[index].iter().any(|&(_, other)| here.distance_squared(place(other)) <= near * near)
+        let here = self.place(index, now);
+        PAIRS_OF[index].iter().any(|&(_, other)| self.may_touch(here, other, now))
     }
 
     /// Whether one of two balls that collide touches the third ball or a cushion: the closing speed may be so low that the impacts are
@@ -160,12 +159,11 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
         if self.resting.is_some() || !is_free(first) || !is_free(second) {
             return false;
         }
-        let Constants { reach, diameter, tolerance, .. } = &self.constants;
-        let near = diameter + tolerance.touching;
-        let third = self.place(BALLS - first - second, now);
+        let Constants { reach, tolerance, .. } = &self.constants;
         [first, second].into_iter().any(|ball| {
             let here = self.place(ball, now);
-            here.distance_squared(third) <= near * near || (*reach - here.abs()).min_element() <= tolerance.touching
+            (*reach - here.abs()).min_element() <= tolerance.touching
+                || self.may_touch(here, BALLS - first - second, now)
         })
     }
 

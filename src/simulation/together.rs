@@ -45,7 +45,7 @@ impl<S: Savings, O: Observer + ?Sized> Engine<'_, S, O> {
 
     /// Whether a ball at `place` touches another one, seen from above: in the air, its height may still separate them.
     #[inline(always)]
-    fn may_touch(&self, place: DVec2, other: usize, now: f64) -> bool {
+    pub(super) fn may_touch(&self, place: DVec2, other: usize, now: f64) -> bool {
         let near = self.constants.diameter + self.constants.tolerance.touching;
         place.distance_squared(self.place(other, now)) <= near * near
     }

@@ -172,8 +172,12 @@ impl StrokeText {
         };
         let level = CueInputs { a: 0.0, b: 0.0, theta: 0.0, phi: 0.0, speed };
         let cue = before.copied().unwrap_or(level);
-        let [a, b] = accepted_tip([self.side.unwrap_or(cue.a), self.height.unwrap_or(cue.b)], table.miscue_limit)?;
-        let cue = CueInputs { a, b, theta: self.elevation.unwrap_or(cue.theta), speed, ..cue };
+        let (a, b) = (self.side.unwrap_or(cue.a), self.height.unwrap_or(cue.b));
+        let mut cue = CueInputs { a, b, theta: self.elevation.unwrap_or(cue.theta), speed, ..cue };
+        // A raised cue may hit the ball farther up.
+        if cue.is_miscue(table) {
+            [cue.a, cue.b] = accepted_tip([a, b], table.miscue_limit)?;
+        }
         cue.validate().map_err(|error| match error {
             CueError::Range { name: "theta", value, accepted } => StrokeTextError::Elevation(value, accepted),
             error => StrokeTextError::Cue(error),
@@ -334,8 +338,8 @@ fn speed_of(table: &Table, lengths: f64) -> Result<f64, StrokeTextError> {
     Ok(0.5 * (low + high))
 }
 
-/// Returns the tip position, radii, unless the tip would slip off the ball. A position in half tips, as the coach reports it, may be rounded to slightly beyond the
-/// miscue limit; it is moved back to the limit.
+/// Returns the tip position, radii, unless the tip of a level cue would slip off the ball. A position in half tips, as the coach reports it,
+/// may be rounded to slightly beyond the miscue limit; it is moved back to the limit.
 fn accepted_tip([a, b]: [f64; 2], limit: f64) -> Result<[f64; 2], StrokeTextError> {
     let (said, most) = (libm::hypot(a, b), limit.sqrt());
     if said > most + MAX_TIP_ROUNDING {

@@ -162,3 +162,13 @@ proptest! {
         }
     }
 }
+
+/// Earlier the tip of a massé was judged as that of a level cue.
+#[test]
+fn a_raised_cue_may_hit_farther_up() {
+    let masse = stroke("red full, 9 up, raised 60, 3 lengths", None).unwrap();
+    assert!((masse.b - 0.9).abs() < 1e-9 && (masse.theta.to_degrees() - 60.0).abs() < 1e-9, "{masse:?}");
+    let faster = stroke("4 lengths", Some(&masse)).unwrap();
+    assert!(faster.speed > masse.speed && faster.b == masse.b);
+    assert!(matches!(stroke("raised 0", Some(&masse)), Err(StrokeTextError::Tips(..))));
+}

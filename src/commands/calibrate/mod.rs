@@ -152,7 +152,7 @@ fn report_result(args: &Args, table: &Table, doubt: &TableDoubt, entries: &Entri
     // Save before anything is printed: a closed output must not prevent it.
     let out = args.out.as_ref().filter(|_| odd.is_empty() && !found.is_contradictory());
     if let Some(path) = out {
-        save_table(path, &found.table).map_err(Failure::failed)?;
+        save_table(path, &found.table, true).map_err(Failure::failed)?;
     }
     if args.json {
         report.json()?;

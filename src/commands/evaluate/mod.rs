@@ -108,8 +108,8 @@ pub struct Args {
     /// Time that the recommender has for a layout, ms.
     #[arg(long, default_value_t = 500, conflicts_with = "policy_only", value_parser = whole_number(0..=3_600_000_u64))]
     budget_ms: u64,
-    /// Number of simulations after which the recommender starts nothing new on a layout, instead of a time: the answer is then the same on
-    /// every machine. As for `carom recommend`, a minimum of work is always done in addition.
+    /// Number of simulations after which the recommender starts nothing new on a layout, instead of a time: the answer is then the same
+    /// however fast the machine is. As for `carom recommend`, a minimum of work is always done in addition.
     #[arg(long, value_name = "COUNT", conflicts_with_all = ["policy_only", "random_search", "budget_ms"],
         value_parser = whole_number_from(1_u64))]
     simulations: Option<u64>,

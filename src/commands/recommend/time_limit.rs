@@ -15,9 +15,14 @@ pub fn with_time_limit<T: Send + 'static, E: std::fmt::Display + Send + 'static>
     let (sender, found) = mpsc::channel();
     // A late result is ignored; the thread ends with the program.
     thread::spawn(move || drop(sender.send(find())));
-    if let Ok(found) = found.recv_timeout(TIME_LIMIT) {
-        return found.map(Some).map_err(Failure::wrong_input);
+    match found.recv_timeout(TIME_LIMIT) {
+        Ok(found) => return found.map(Some).map_err(Failure::wrong_input),
+        Err(mpsc::RecvTimeoutError::Timeout) => print_note(format_args!(
+            "note: {what} take more than {} s on this table and are left out",
+            TIME_LIMIT.as_secs()
+        )),
+        // The failure itself has been reported by the thread.
+        Err(mpsc::RecvTimeoutError::Disconnected) => print_note(format_args!("note: {what} are left out")),
     }
-    print_note(format_args!("note: {what} take more than {} s on this table and are left out", TIME_LIMIT.as_secs()));
     Ok(None)
 }

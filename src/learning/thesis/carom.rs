@@ -8,7 +8,7 @@ use super::{
     hindsight,
 };
 use crate::{
-    game::{Referee, Reward},
+    game::{Referee, Reward, Rule},
     learning::{
         evaluation::CONTACT_STEPS,
         settings::{SettingError, check},
@@ -92,7 +92,7 @@ impl CaromGame {
         self.layout = end.layout(&self.table);
         let hit = match self.reward {
             Reward::R1 | Reward::R1Difficulty | Reward::R2 => tally.has_hit_any(),
-            Reward::R3 | Reward::R4 => tally.has_hit_both(),
+            Reward::R4 => tally.is_point(Rule::StraightRail),
             point => point.value(&self.table, &tally, &self.layout) >= point.max_value(),
         };
         (self.reward.value(&self.table, &tally, &self.layout), !hit)

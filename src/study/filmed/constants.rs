@@ -49,7 +49,7 @@ pub struct Fitted {
     pub constants: Vec<Constant>,
     /// Correlation matrix by rows, in the same order.
     pub correlations: Vec<Vec<f64>>,
-    /// The table with the fitted constants.
+    /// The table with the fitted constants, the slight slope of the filmed table included.
     #[serde(skip)]
     pub table: Table,
 }
@@ -61,7 +61,8 @@ pub struct Constant {
     pub name: &'static str,
     /// Its value.
     pub value: f64,
-    /// Standard deviation, from the fit and the prior.
+    /// Half the width of the range that agrees with the film about as well, from the curvature of the fit and the prior. It is no exact
+    /// standard deviation, because a stretch has one residual: the root mean square of its distances.
     pub deviation: f64,
 }
 
@@ -129,7 +130,6 @@ pub fn fit_constants(table: &Table, model: RailModel, film: &[FilmedShot]) -> Fi
         stretches: stretches.len(),
         constants: constants.collect(),
         correlations: correlations.collect(),
-        // The filmed table has a slight tilt of its own, which no other table shares.
-        table: Table { tilt: DVec2::ZERO, ..with(table, model, &values) },
+        table: with(table, model, &values),
     }
 }

@@ -1,6 +1,6 @@
 //! The state of the last session, from which the next one can continue.
 
-use std::path::Path;
+use std::{collections::HashSet, path::Path};
 
 use serde::{Deserialize, Serialize};
 
@@ -90,6 +90,23 @@ impl SavedSession {
     pub fn of_sessions(sessions: &[Self]) -> Option<Self> {
         let (last, former) = sessions.split_first()?;
         Some(last.clone().with_former_sessions(former.to_vec()))
+    }
+
+    /// Adds to the sessions of this program the unfinished exams, games and matches of others that are running: those `stored` in the file
+    /// that are not among the `known` ones, which this program has loaded or saved. `None` if there are none.
+    pub fn with_those_of_others(mine: Option<Self>, stored: Option<Self>, known: &HashSet<String>) -> Option<Self> {
+        let mut sessions = mine.map_or_else(Vec::new, Self::into_sessions);
+        let is_of_another = |session: &Self| {
+            let offered = session.practice.as_ref().filter(|practice| practice.is_exam() || practice.is_game());
+            offered.is_some_and(|practice| !known.contains(&practice.id))
+        };
+        sessions.extend(stored.map_or_else(Vec::new, Self::into_sessions).into_iter().filter(is_of_another));
+        Self::of_sessions(&sessions)
+    }
+
+    /// Returns the identifiers of the practice sessions.
+    pub fn practice_ids(&self) -> impl Iterator<Item = String> {
+        [self].into_iter().chain(&self.former).filter_map(|session| Some(session.practice.as_ref()?.id.clone()))
     }
 
     /// Loads the file; `None` if it does not exist.
@@ -241,6 +258,29 @@ mod tests {
         }
         let practised: Vec<_> = last.into_sessions().into_iter().filter_map(|before| before.practice).collect();
         assert_eq!(practised, [open]);
+    }
+
+    #[test]
+    fn a_program_keeps_the_unfinished_match_of_another_one_until_that_one_ends_it() {
+        let half_ball = Exercise::new_own("half-ball", Rule::StraightRail, "match", Layout::opening(&Table::default()));
+        let playing = |seed: u64| {
+            let goal = Goal::Match { innings: 10, points: 0, against_coach: true };
+            let open = Session::new(goal, Venue::Program, vec![half_ball.clone()], Skill::CLUB, seed);
+            SavedSession { practice: Some(Session { id: seed.to_string(), ..open }), ..session(Table::default()) }
+        };
+        let open = |saved: &Option<SavedSession>| saved.iter().flat_map(SavedSession::practice_ids).collect::<Vec<_>>();
+        let ids = |saved: &SavedSession| saved.practice_ids().collect::<HashSet<_>>();
+        let (mine, other) = (playing(1), playing(2));
+        let both = SavedSession::with_those_of_others(Some(mine.clone()), Some(other.clone()), &ids(&mine));
+        assert_eq!(open(&both), ["1", "2"]);
+        // The other program plays on, and does not keep its own older state.
+        let again = SavedSession::with_those_of_others(Some(other.clone()), both, &ids(&other));
+        assert_eq!(open(&again), ["2", "1"]);
+        // My match is over; the file still has it.
+        let over = SavedSession::with_those_of_others(Some(session(Table::default())), again.clone(), &ids(&mine));
+        assert_eq!(open(&over), ["2"]);
+        assert_eq!(open(&SavedSession::with_those_of_others(None, again, &ids(&mine))), ["2"]);
+        assert_eq!(SavedSession::with_those_of_others(None, Some(mine.clone()), &ids(&mine)), None);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The event loop: waits for events, passes them to the app, and draws a frame after changes.
 
 use std::{
+    collections::HashSet,
     io::{self, Write},
     sync::mpsc::{Receiver, RecvTimeoutError},
     time::{Duration, Instant},
@@ -49,6 +50,7 @@ pub fn run(app: App, paths: DataPaths) -> io::Result<()> {
     let session = TerminalGuard::start(app.mouse)?;
     let tasks = Tasks::new(to_screen)?;
     let saved = (None, Instant::now());
+    let known_practice = app.coach.earlier_session().iter().flat_map(SavedSession::practice_ids).collect();
     let (ticked, retried) = (Instant::now(), Instant::now());
     let sharing = TableSharing::new(paths.spectator_folder.clone());
     let (has_resumed, has_save_failed, last_logged) = (false, false, String::new());
@@ -60,6 +62,8 @@ pub fn run(app: App, paths: DataPaths) -> io::Result<()> {
         ticked,
         has_resumed,
         saved,
+        may_have_changed: true,
+        known_practice,
         retried,
         has_save_failed,
         last_logged,
@@ -109,8 +113,12 @@ struct Runner {
     ticked: Instant,
     /// Whether the terminal has already been taken over again when the signal for it arrives.
     has_resumed: bool,
-    /// The session saved last, and the time of the save.
+    /// The session saved last, and the time of the save or of finding it unchanged.
     saved: (Option<SavedSession>, Instant),
+    /// Whether anything has happened since then that may have changed the session.
+    may_have_changed: bool,
+    /// Identifiers of the practice sessions that this program has loaded or saved.
+    known_practice: HashSet<String>,
     /// Time of the last attempt to save what the disk has refused, or when everything was saved.
     retried: Instant,
     /// Whether saving the session has failed.
@@ -152,6 +160,7 @@ impl Runner {
             if !self.app.drills.has_unsaved() {
                 self.retried = self.ticked;
             }
+            self.may_have_changed |= first.is_some() || interval.is_some();
             if interval.is_some() || toast.is_some() {
                 self.app.tick(passed.as_secs_f64());
             }
@@ -188,18 +197,18 @@ impl Runner {
         Ok(())
     }
 
-    /// Time of the next save of the session; `None` if nothing has changed.
+    /// Time of the next save of the session; `None` if nothing has happened.
     fn next_save(&self) -> Option<Instant> {
-        let (before, when) = &self.saved;
-        (self.app.saved_session() != *before).then(|| *when + SAVE_INTERVAL)
+        self.may_have_changed.then(|| self.saved.1 + SAVE_INTERVAL)
     }
 
     /// Saves the session at the end and at intervals, so that a crash loses at most two seconds of it.
     fn save_session(&mut self, at_the_end: bool) {
         let (before, when) = &self.saved;
-        if !at_the_end && when.elapsed() < SAVE_INTERVAL {
+        if !at_the_end && (!self.may_have_changed || when.elapsed() < SAVE_INTERVAL) {
             return;
         }
+        self.may_have_changed = false;
         let last = self.app.saved_session();
         if last == *before {
             self.saved.1 = Instant::now();
@@ -207,7 +216,11 @@ impl Runner {
         }
         let path = &self.paths.last_session;
         let coach = &self.app.coach;
-        let saved = match last.clone().or_else(|| coach.earlier_session()) {
+        let mine = last.clone().or_else(|| coach.earlier_session());
+        self.known_practice.extend(mine.iter().flat_map(SavedSession::practice_ids));
+        // A file that cannot be read is replaced.
+        let stored = SavedSession::load(path).ok().flatten();
+        let saved = match SavedSession::with_those_of_others(mine, stored, &self.known_practice) {
             // Another player's table is shown; the player's own session stays.
             _ if coach.followed().is_some() => Ok(()),
             Some(last) => save_json(path, &last),

@@ -179,7 +179,10 @@ fn why_chances_and_plan_are_answered_in_sentences_without_the_course_again() {
         ],
     );
     let reasons = reply.lines().find(|line| line.starts_with("It is made ")).unwrap();
-    assert!(!reasons.contains(';') && !reply.contains("cushions in all") && !reply.contains(" and more."), "{reply}");
+    // The course is told with the shot only.
+    let (_, after_the_shot) = reply.split_once("The first shot. ").unwrap();
+    assert!(!after_the_shot.contains("Pattern: ") && !after_the_shot.contains("cushions in all"), "{reply}");
+    assert!(!reasons.contains(';') && !reply.contains(" and more."), "{reply}");
 }
 
 #[test]

@@ -64,12 +64,13 @@ pub fn faster(cue: &CueInputs, by: f64) -> Option<CueInputs> {
     (speed != cue.speed).then_some(CueInputs { speed, ..*cue })
 }
 
-/// Moves the tip, mm to the player's left and up; `None` if it would slip off the ball.
+/// Moves the tip, mm to the player's left and up; `None` if it would slip off the ball, unless it slips already and moves inwards.
 pub fn tip_moved(table: &Table, cue: &CueInputs, left: f64, up: f64) -> Option<CueInputs> {
     let millimetre = 0.001 / table.radius;
     let moved = |radii: f64, by: f64| rounded(radii / millimetre + by, MILLIMETRES) * millimetre;
-    let cue = CueInputs { a: moved(cue.a, left), b: moved(cue.b, up), ..*cue };
-    cue.validate_tip(table.miscue_limit).is_ok().then_some(cue)
+    let next = CueInputs { a: moved(cue.a, left), b: moved(cue.b, up), ..*cue };
+    let is_inwards = cue.is_miscue(table) && next.tip_offset_squared() < cue.tip_offset_squared();
+    (is_inwards || !next.is_miscue(table)).then_some(next)
 }
 
 #[cfg(test)]

@@ -38,6 +38,9 @@ pub enum StrokeLimit {
     /// The tip would slip off.
     #[error("further out the tip would slip off the ball")]
     TipSlips,
+    /// The tip would slip off if the cue pointed less towards the centre.
+    #[error("with the cue at that angle the tip would slip off the ball: move the tip inwards first")]
+    AngleSlips,
     /// The stroke has the highest speed of the keys.
     #[error("this is the hardest stroke that the keys set")]
     Hardest,
@@ -81,7 +84,14 @@ impl OwnStroke {
             StrokeChange::AimAtBall => aiming::aimed_at_ball(&cue, layout, aiming::next_ball(&cue, layout)),
             StrokeChange::Tip(left, up) => aiming::tip_moved(table, &cue, left, up).ok_or(StrokeLimit::TipSlips)?,
             StrokeChange::Centre => CueInputs { a: 0.0, b: 0.0, ..cue },
-            StrokeChange::Raise(degrees) => aiming::raised(&self.raised(table, layout), degrees),
+            StrokeChange::Raise(degrees) => {
+                let now = self.raised(table, layout);
+                let next = aiming::raised(&now, degrees);
+                if next.is_miscue(table) && !now.is_miscue(table) {
+                    return Err(StrokeLimit::AngleSlips);
+                }
+                next
+            }
             StrokeChange::Faster(by) => {
                 let limit = if by > 0.0 { StrokeLimit::Hardest } else { StrokeLimit::Softest };
                 aiming::faster(&cue, by).ok_or(limit)?
@@ -238,5 +248,24 @@ mod tests {
         assert_eq!(stroke.change(StrokeChange::Faster(0.1), &table, &layout), Err(StrokeLimit::Hardest));
         stroke.change(StrokeChange::Faster(-9.0), &table, &layout).unwrap();
         assert_eq!(stroke.change(StrokeChange::Faster(-0.1), &table, &layout), Err(StrokeLimit::Softest));
+    }
+
+    /// A cue raised to 60 degrees may strike the ball far above its middle. With a level one the tip would slip there.
+    #[test]
+    fn the_cue_is_not_lowered_until_the_tip_slips_and_a_slipping_tip_can_move_inwards() {
+        let table = Table::default();
+        let layout = Layout::opening(&table);
+        let masse =
+            CueInputs { b: 0.87, theta: 60_f64.to_radians(), ..aiming::first_stroke(Point::default(), &layout) };
+        assert!(!masse.is_miscue(&table));
+        let mut stroke = OwnStroke::new(masse);
+        let refused = (0..60).find_map(|_| stroke.change(StrokeChange::Raise(-1.0), &table, &layout).err());
+        assert_eq!(refused, Some(StrokeLimit::AngleSlips));
+        assert!(!stroke.cue().is_miscue(&table) && stroke.cue().theta < masse.theta);
+        let mut slipping = OwnStroke::new(CueInputs { theta: 0.2, ..masse });
+        assert_eq!(slipping.change(StrokeChange::Tip(0.0, 0.5), &table, &layout), Err(StrokeLimit::TipSlips));
+        while slipping.cue().is_miscue(&table) {
+            slipping.change(StrokeChange::Tip(0.0, -0.5), &table, &layout).unwrap();
+        }
     }
 }

@@ -1,13 +1,14 @@
 //! Background tasks of the calibration page, and their reports.
 
 use std::{
+    io::ErrorKind,
     panic::{AssertUnwindSafe, catch_unwind},
     path::PathBuf,
 };
 
 use crate::{
     calibration::{
-        Calibration, Edit, Entries, NextTest, TablePlay, Trial, back_up_unreadable, calibrate, edit_entries,
+        Calibration, Edit, Entries, NextTest, SaveError, TablePlay, Trial, back_up_unreadable, calibrate, edit_entries,
         load_entries_or_empty, rank_tests_before_trials, save_table,
     },
     table::{Table, TableDoubt},
@@ -110,9 +111,13 @@ impl CalibrationTask {
                 let evaluation = evaluation.unwrap_or_else(|_| Err(failed.to_owned()));
                 CalibrationReport::Evaluated(task.is_daily, task.number, evaluation.map(Box::new))
             }
-            Self::Save(path, _, false) if path.exists() => CalibrationReport::Saved(path, Ok(false)),
-            Self::Save(path, table, _) => {
-                let saved = save_table(&path, &table).map(|()| true).map_err(|error| error.to_string());
+            Self::Save(path, table, may_replace) => {
+                let saved = match save_table(&path, &table, may_replace) {
+                    Ok(()) => Ok(true),
+                    Err(SaveError::Unwritable(_, error)) if error.kind() == ErrorKind::AlreadyExists => Ok(false),
+                    Err(SaveError::NotATable(_)) if !may_replace => Ok(false),
+                    Err(error) => Err(error.to_string()),
+                };
                 CalibrationReport::Saved(path, saved)
             }
         }

@@ -39,7 +39,7 @@ const MAX_LINES: usize = 500;
 const BIT_EXACT_MODULES: [&str; 3] = ["table", "physics", "simulation"];
 
 /// Functions whose last bits depend on the system. `libm` has replacements for all of them.
-const PLATFORM_DEPENDENT: [&str; 16] = [
+const PLATFORM_DEPENDENT: [&str; 18] = [
     ".sin()",
     ".cos()",
     ".tan()",
@@ -56,6 +56,8 @@ const PLATFORM_DEPENDENT: [&str; 16] = [
     ".cbrt()",
     ".hypot(",
     "from_angle(",
+    ".to_angle()",
+    ".angle_to(",
 ];
 
 /// Returns the text of every file under `src`, by the name of its module.

@@ -38,6 +38,9 @@ impl CalibrationPage {
                 (!sheet.undo_stack.is_empty(), "nothing to undo yet; Delete removes the marked stroke")
             }
             Condition::HasResult if sheet.is_evaluating() => (false, "the values are being computed; one moment"),
+            Condition::HasResult if sheet.evaluation_error.is_some() => {
+                (false, "no table follows from these entries (see values): edit or delete one first")
+            }
             Condition::HasResult if !sheet.implausible_entries(&self.table).is_empty() => {
                 (false, "an entry looks wrong (see values): edit or delete it first")
             }
@@ -97,6 +100,7 @@ impl CalibrationPage {
                     Edit::ReplaceAll(_) => "what was entered before is back".to_owned(),
                 };
                 self.message = Some(Message::plain(text));
+                self.sheet_mut().unsaved_undo.push(edit.clone());
                 return Some(self.edit(edit, true));
             }
             Action::ToggleValues => {

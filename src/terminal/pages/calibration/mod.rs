@@ -204,6 +204,8 @@ impl CalibrationPage {
                     // A stroke that could not be saved stays in the form.
                     form.is_sent = false;
                 }
+                let sheets = [&mut self.all, &mut self.daily];
+                sheets.into_iter().filter(|sheet| sheet.path == path).for_each(Sheet::on_undo_refused);
                 self.message = Some(Message::warning(sentence));
                 // Read the file again, because another program may have changed it.
                 return vec![CalibrationTask::Read(path)];

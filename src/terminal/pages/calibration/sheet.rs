@@ -46,6 +46,8 @@ pub struct Sheet {
     stroke: Option<usize>,
     /// The undo stack.
     pub undo_stack: Vec<UndoStep>,
+    /// Undo steps that are being saved.
+    pub unsaved_undo: Vec<Edit>,
     /// Tests that the player does not want to play.
     left_out: Vec<&'static str>,
     /// The numbers of the last requested and of the last received evaluation.
@@ -182,8 +184,11 @@ impl Sheet {
         self.entries = Some(entries);
         self.trouble = None;
         self.stroke = None;
-        if let Some((back, false)) = back {
-            self.undo_stack.push(UndoStep::Edit(back));
+        match back {
+            Some((back, false)) => self.undo_stack.push(UndoStep::Edit(back)),
+            // The disk has the undo steps in their order.
+            Some((_, true)) if !self.unsaved_undo.is_empty() => drop(self.unsaved_undo.remove(0)),
+            _ => {}
         }
         if is_added && self.missing(self.test().name) == 0 {
             let later = self.tests().skip(self.mark + 1).chain(self.tests());
@@ -192,6 +197,12 @@ impl Sheet {
                 self.mark_test(test.name);
             }
         }
+    }
+
+    /// Takes back the undo steps that could not be saved.
+    pub fn on_undo_refused(&mut self) {
+        let refused = std::mem::take(&mut self.unsaved_undo);
+        self.undo_stack.extend(refused.into_iter().rev().map(UndoStep::Edit));
     }
 
     /// The implausible values among the entries, without the tests that are left out. They can occur in a file that was edited by hand.
@@ -316,6 +327,12 @@ mod tests {
         assert_eq!(sheet.count(), (2, 19));
         assert_eq!(sheet.undo_stack.pop(), Some(UndoStep::Edit(Edit::Remove(1, entry.clone()))));
         assert_eq!(sheet.undo_stack.pop(), Some(UndoStep::LeaveOut("slow-back")));
+        // The disk refuses two undo steps, of which the latest was taken first.
+        let step = |number: usize| Edit::Remove(number, entry.clone());
+        sheet.undo_stack.clear();
+        sheet.unsaved_undo = vec![step(2), step(1)];
+        sheet.on_undo_refused();
+        assert_eq!(sheet.undo_stack, [1, 2].map(|number| UndoStep::Edit(step(number))));
     }
 
     #[test]

@@ -51,8 +51,6 @@ impl DrillsPage {
             }
             DrillReport::Saved(session, saved) => return self.on_saved(&session, saved),
             DrillReport::Changed(stored) => {
-                // What the disk had refused of it is not tried again.
-                self.unsaved = None;
                 self.book.insert(&stored);
                 let tasks = self.replace_session(*stored);
                 self.message = Some(Message::warning(
