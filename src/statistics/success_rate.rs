@@ -25,10 +25,16 @@ impl SuccessRate {
     /// Computes the rate with Wilson's score interval: unlike the textbook interval, it stays within 0 to 1 and remains valid near both
     /// ends.
     pub fn new(successes: usize, trials: usize) -> Self {
+        Self::of_clustered(successes, trials, 1.0)
+    }
+
+    /// Like [`SuccessRate::new`], for trials that depend on each other, of which `per_independent` are worth one independent trial (Kish's
+    /// design effect).
+    pub fn of_clustered(successes: usize, trials: usize, per_independent: f64) -> Self {
         if trials == 0 {
             return Self { trials, successes, rate: 0.0, low: 0.0, high: 1.0 };
         }
-        let (n, rate) = (trials as f64, successes as f64 / trials as f64);
+        let (n, rate) = (trials as f64 / per_independent, successes as f64 / trials as f64);
         let centre = rate + Z * Z / (2.0 * n);
         let spread = Z * (rate * (1.0 - rate) / n + Z * Z / (4.0 * n * n)).sqrt();
         let scale = 1.0 + Z * Z / n;
@@ -60,6 +66,9 @@ mod tests {
         // 50 and 56 % of 1000 differ although their intervals overlap; 50 and 54 % do not.
         let [half, more, most] = [500, 540, 560].map(|made| SuccessRate::new(made, 1000));
         assert!(most.is_significantly_above(&half) && most.low < half.high && !more.is_significantly_above(&half));
+        // Four trials that always succeed or fail together are one.
+        let (clustered, alone) = (SuccessRate::of_clustered(100, 400, 4.0), SuccessRate::new(25, 100));
+        assert_eq!([clustered.rate, clustered.low, clustered.high], [alone.rate, alone.low, alone.high]);
         // Few trials prove little, even if all succeed.
         let [few, many] = [(13, 13), (130, 130)].map(|(made, tried)| SuccessRate::new(made, tried));
         let nine_tenths = SuccessRate::new(900, 1000);

@@ -102,10 +102,16 @@ fn average_words(skill: Skill) -> String {
     }
 }
 
-/// Formats a probability in per cent: to a tenth from 98.5 % on, and never as 100 unless it is exactly 1.
+/// Formats a probability in per cent: to a tenth below 1 % and from 98.5 % on, and never as 100 unless it is exactly 1.
 pub fn percent(probability: f64) -> String {
     let percent = 100.0 * probability;
-    if (98.5..100.0).contains(&percent) { fixed((10.0 * percent).floor() / 10.0, 1) } else { fixed(percent, 0) }
+    if (98.5..100.0).contains(&percent) {
+        fixed((10.0 * percent).floor() / 10.0, 1)
+    } else if (0.05..0.95).contains(&percent) {
+        fixed(percent, 1)
+    } else {
+        fixed(percent, 0)
+    }
 }
 
 /// Formats a rate with its 95 % interval, like 94 % (92-95).

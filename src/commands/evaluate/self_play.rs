@@ -68,7 +68,8 @@ struct SelfPlayReport<'a> {
     mean_run: f64,
     /// Points per miss.
     average: Option<f64>,
-    /// Its 95 % interval, from Wilson's interval for the share of misses; turns are assumed to be independent.
+    /// Its 95 % interval, from Wilson's interval for the share of misses, wider if the runs vary more than those of independent turns: the
+    /// turns of an inning share a table.
     average_interval: [Option<f64>; 2],
     longest: u32,
     runs: Vec<u32>,
@@ -126,11 +127,21 @@ pub fn print(spec: &Spec, records: &[InningRecord], json: bool) -> std::io::Resu
     if json { json_line(&report) } else { print_text(&mut printing::stdout(), &report) }
 }
 
+/// Returns the variance of the completed runs over that of independent turns, which is `m (1 + m)` at a mean of `m` points; at least 1.
+fn overdispersion(records: &[InningRecord]) -> f64 {
+    let runs: Vec<f64> = records.iter().filter(|inning| inning.missed).map(|inning| f64::from(inning.points)).collect();
+    let count = runs.len() as f64;
+    let mean = runs.iter().sum::<f64>() / count;
+    let variance = runs.iter().map(|run| (run - mean).powi(2)).sum::<f64>() / (count - 1.0);
+    // `max` also leaves out what is not a number: fewer than two runs, or no points.
+    (variance / (mean * (1.0 + mean))).max(1.0)
+}
+
 fn report<'a>(spec: &'a Spec, records: &[InningRecord]) -> SelfPlayReport<'a> {
     let points: u32 = records.iter().map(|inning| inning.points).sum();
     let misses = records.iter().filter(|inning| inning.missed).count() as u32;
     let turns = f64::from((points + misses).max(1));
-    let missed = SuccessRate::new(misses as usize, (points + misses) as usize);
+    let missed = SuccessRate::of_clustered(misses as usize, (points + misses) as usize, overdispersion(records));
     let average = |miss: f64| (miss > 0.0).then(|| (1.0 - miss) / miss);
     SelfPlayReport {
         player: &spec.player,
@@ -192,4 +203,27 @@ fn print_text(out: &mut impl Write, report: &SelfPlayReport<'_>) -> std::io::Res
         "{:.0} simulations and {:.1} ms a turn, the slowest took {:.1} ms",
         report.simulations_per_turn, report.mean_ms, report.slowest_ms
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_that_depend_on_the_table_are_overdispersed() {
+        let of = |runs: &[u32]| {
+            let record = |points: &u32| InningRecord {
+                layout: 0,
+                points: *points,
+                missed: true,
+                simulations: 0,
+                seconds: 0.0,
+                slowest_seconds: 0.0,
+            };
+            overdispersion(&runs.iter().map(record).collect::<Vec<_>>())
+        };
+        // Mean 5, variance 100 / 3, which is 30 for independent turns.
+        assert!((of(&[0, 0, 10, 10]) - 10.0 / 9.0).abs() < 1e-12);
+        assert_eq!([&[][..], &[3], &[0, 0], &[4, 5, 6]].map(of), [1.0; 4]);
+    }
 }
