@@ -12,6 +12,9 @@ use crate::{
 /// way, with different rounding of up to half a percent: marks must not jump where the tilt passes through zero.
 const LEVEL: f64 = 2e-4;
 
+/// A slope below this share of its standard deviation is negligible.
+const NEGLIGIBLE_SLOPE: f64 = 0.1;
+
 /// Limit on the tilt, as a share of the largest tilt that a table may have.
 const MAX_TILT_SHARE: f64 = 0.995;
 
@@ -26,6 +29,8 @@ const MAX_SHRINKS: usize = 500;
 pub struct Belief {
     /// The table, without its doubt.
     table: Table,
+    /// The part of its slope that stands for zero, m/s².
+    level: DVec2,
     names: Vec<String>,
     means: Vec<f64>,
     /// The lower triangular factor L of the covariance `L Lᵀ`, by rows.
@@ -43,8 +48,10 @@ impl Belief {
             let is_uncertain = doubt.deviations.get(name).is_some_and(|deviation| *deviation > 0.0);
             if is_uncertain { LEVEL } else { 0.0 }
         };
+        let mut level = DVec2::ZERO;
         if table.tilt == DVec2::ZERO {
-            table.tilt = DVec2::new(tilt("tilt.x"), tilt("tilt.y"));
+            level = DVec2::new(tilt("tilt.x"), tilt("tilt.y"));
+            table.tilt = level;
         }
         let known = |(name, deviation): (&String, &f64)| {
             let value = TableDoubt::value(&table, name).filter(|_| *deviation > 0.0);
@@ -52,7 +59,7 @@ impl Belief {
         };
         let (names, means): (Vec<_>, Vec<_>) = doubt.deviations.iter().filter_map(known).unzip();
         let factor = doubt.factor(&names.iter().map(String::as_str).collect::<Vec<_>>())?;
-        Ok(Self { table, names, means, factor })
+        Ok(Self { table, level, names, means, factor })
     }
 
     /// Number of uncertain constants.
@@ -67,6 +74,26 @@ impl Belief {
         // On a steeper table balls might never stop.
         let limit = MAX_TILT_SHARE * steepest_tilt(&table);
         Table { tilt: table.tilt.clamp_length_max(limit), ..table }
+    }
+
+    /// Returns an estimated table without the part of its slope that stands for zero. A slope that remains negligible beside its `doubt` is
+    /// zero: shots on a level table are simpler.
+    pub fn without_level(&self, table: Table, doubt: &TableDoubt) -> Table {
+        let share = |name: &str, tilt: f64, level: f64| {
+            let deviation = doubt.deviations.get(name).copied().unwrap_or(0.0);
+            if (tilt - level).abs() < NEGLIGIBLE_SLOPE * deviation { 0.0 } else { tilt - level }
+        };
+        let tilt = DVec2::new(share("tilt.x", table.tilt.x, self.level.x), share("tilt.y", table.tilt.y, self.level.y));
+        Table { tilt, ..table }
+    }
+
+    /// Returns the mean of a constant before the calibration, without the part of a slope that stands for zero.
+    pub fn mean_before(&self, name: &str, mean: f64) -> f64 {
+        match name {
+            "tilt.x" => mean - self.level.x,
+            "tilt.y" => mean - self.level.y,
+            _ => mean,
+        }
     }
 
     /// Returns the values of the constants for these unknowns, before they are clamped to the table's limits.

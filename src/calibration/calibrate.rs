@@ -193,12 +193,13 @@ pub fn calibrate(
     }
     let (belief, found) = if left_out.is_empty() { (belief, found) } else { fit(table, doubt, &kept)? };
     let covariance = belief.covariance(&found.covariance);
-    let doubt = Some(belief.doubt(&covariance));
-    let after = Table { name: name.to_owned(), doubt, ..belief.table(&found.unknowns) };
+    let doubt = belief.doubt(&covariance);
+    let after = belief.without_level(belief.table(&found.unknowns), &doubt);
+    let after = Table { name: name.to_owned(), doubt: Some(doubt), ..after };
     let after = Table::from_toml(&toml::to_string(&after).map_err(|error| TableError::Syntax(error.to_string()))?)?;
     let change = |(index, (name, before, before_deviation)): (usize, (&str, f64, f64))| Change {
         name: name.to_owned(),
-        before,
+        before: belief.mean_before(name, before),
         before_deviation,
         after: TableDoubt::value(&after, name).unwrap_or(before),
         after_deviation: covariance[index][index].max(0.0).sqrt(),

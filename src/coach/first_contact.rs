@@ -62,7 +62,7 @@ impl FirstContact {
     /// # Errors
     /// [`UnknownFirstContact`], which lists the accepted names.
     pub fn parse(word: &str, names: [&'static str; BALLS]) -> Result<Self, UnknownFirstContact> {
-        let found = Self::ALL.into_iter().find(|first| first.word(names) == word);
+        let found = Self::ALL.into_iter().find(|first| first.word(names).eq_ignore_ascii_case(word));
         found.ok_or_else(|| UnknownFirstContact { word: word.to_owned(), names })
     }
 

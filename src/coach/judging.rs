@@ -151,8 +151,8 @@ fn complete_rates(judged: &[JudgedPiece], candidates: usize, count: usize) -> Ve
 }
 
 /// Returns the indices of the shots that are made more often than the first one, less their effort penalties, best
-/// first. If the first one is a former answer, another shot must be better by [`MIN_IMPROVEMENT`]. In a `plan`, it must also leave a next
-/// shot that is known to be at least as easy, unless nothing is known of either.
+/// first. If the first one is a former answer, another shot must be better by [`MIN_IMPROVEMENT`]. In a `plan`, both points must also be made
+/// at least as often, as far as the next one is known, unless nothing is known of either.
 fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>], plan: bool) -> Vec<usize> {
     let worth = |index: usize| rates[index].map(|rate| rate.rate - pool[index].effort_penalty);
     let was_advised = pool.first().is_some_and(|first| first.shot.source == Source::Former);
@@ -161,7 +161,9 @@ fn made_more_often(pool: &[Candidate], rates: &[Option<SuccessRate>], plan: bool
     let next = |index: usize| pool[index].next.known();
     let leaves_enough = |index: &usize| match (next(0), next(*index)) {
         _ if !plan => true,
-        (Some(bar), Some(own)) => own >= bar,
+        (Some(bar), Some(own)) => {
+            rates[0].zip(rates[*index]).is_some_and(|(first, other)| other.rate * own >= first.rate * bar)
+        }
         // If neither is known, this point decides alone.
         (bar, own) => bar.is_none() && own.is_none(),
     };
@@ -337,10 +339,12 @@ mod tests {
         assert!(better(&[(0, 0.0), (85, 0.0)]).is_empty());
         assert!(better(&[(133, 0.15)]).is_empty());
         assert_eq!(better(&[(90, 0.0), (0, 0.0), (133, 0.0)]), [3, 1]);
-        let next = [NextValue::Known(0.5), NextValue::Known(0.6), NextValue::Known(0.4), NextValue::Assumed(0.9)];
+        let next = [NextValue::Known(0.5), NextValue::Known(0.6), NextValue::Known(0.3), NextValue::Assumed(0.9)];
         let pool = next.map(|next| Candidate { next, ..candidate(cue, Route::Direct, 0.0) });
         let rates = [200, 300, 300, 300].map(|made| Some(SuccessRate::new(made, 1000)));
-        assert_eq!(made_more_often(&pool, &rates, true), [1], "the next shot is more difficult, or not known");
+        assert_eq!(made_more_often(&pool, &rates, true), [1], "both points are made less often, or that is not known");
+        let harder = [pool[0], Candidate { next: NextValue::Known(0.4), ..pool[2] }];
+        assert_eq!(made_more_often(&harder, &rates[..2], true), [1], "0.3 times 0.4 is more than 0.2 times 0.5");
         let unknown = [pool[3], pool[2], pool[3]];
         assert_eq!(made_more_often(&unknown, &rates[..3], true), [2], "of neither is the next shot known");
     }

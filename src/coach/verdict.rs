@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::words::{LengthUnit, number_word};
 use crate::{
     game::{Point, Rule, Tally},
-    simulation::{CushionContacts, OffTable, Recording},
+    simulation::{CushionContacts, EventKind, OffTable, Recording},
     table::{BALLS, CueBall, Layout, Table},
 };
 
@@ -200,8 +200,8 @@ fn cushion_words(count: u32) -> String {
     format!("{} {unit}", number_word(count))
 }
 
-/// Finds the closest approach of the cue ball to one of these balls after its first `cushions` cushions. `None` if it only
-/// moves away from that ball, which then was not missed.
+/// Finds the closest approach of the cue ball to one of these balls after its first `cushions` cushions and its first hit, if there is one.
+/// `None` if it only moves away from that ball, which then was not missed.
 fn miss(table: &Table, recording: &Recording, cushions: u32, balls: &[usize]) -> Option<Miss> {
     let mut contacts = CushionContacts::default();
     let rails = recording.events().iter().filter(|event| contacts.follow(0, event).is_some());
@@ -209,6 +209,8 @@ fn miss(table: &Table, recording: &Recording, cushions: u32, balls: &[usize]) ->
         None => 0.0,
         Some(before) => rails.map(|event| event.time).nth(before as usize)?,
     };
+    let mut hits = recording.events().iter().filter(|event| matches!(event.kind, EventKind::BallBall(0, _)));
+    let start = hits.next().map_or(start, |first| start.max(first.time));
     let all = balls.iter().filter_map(|ball| Some((*ball, nearest(table, recording, start, *ball)?)));
     let (ball, (time, gap)) = all.min_by(|(_, (_, one)), (_, (_, other))| one.total_cmp(other))?;
     (time - start >= SAMPLING_INTERVAL).then(|| Miss {
@@ -316,6 +318,14 @@ mod tests {
         Verdict::of(rule, &table, &layout, &recording)
     }
 
+    /// Earlier the words described yellow next to the cue ball before the stroke.
+    #[test]
+    fn only_what_follows_the_first_hit_counts_as_a_miss() {
+        let Verdict { miss, tally, .. } = verdict("-1,0 -0.95,0.12 0,0", "0,0,0,0,0.6", Rule::StraightRail);
+        assert_eq!(tally.hit, [false, true]);
+        assert!(miss.is_none_or(|miss| miss.gap > 0.5), "{miss:?}");
+    }
+
     #[test]
     fn miss_side_and_gap_are_seen_along_the_path() {
         // Straight along the middle to the right: yellow 10 cm to the left of the path, red far behind.
@@ -378,9 +388,9 @@ mod tests {
         // Yellow is hit full and takes all the speed; red lies behind it.
         let full = said("-0.1,0 0,0 0.2,0.12", "0,-0.1,0,0,0.3");
         assert_eq!(full, "No point: stopped 17 cm short of red");
-        // Draw pulls the cue ball back from its closest point to red.
+        // Draw pulls the cue ball back from yellow, where it is closest to red.
         let drawn = said("-0.15,0 0,0.02 0.2,0.12", "0,-0.4,0,0,1");
-        assert_eq!(drawn, "No point: came within 22 cm of red");
+        assert_eq!(drawn, "No point: yellow was hit, red was not");
         // The cue ball stops level with yellow, or beyond it.
         let short = |place: &str| said(&format!("-1,0 {place},0.15 -1.3,-0.6"), "0,0,0,0,0.17");
         assert_eq!(short("-0.595"), "No point: no ball was hit, stopped 8.8 cm short of yellow");

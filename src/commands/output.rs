@@ -73,7 +73,17 @@ pub fn shot_text(cue: &CueInputs) -> String {
 /// States how often a player of this skill makes a shot, with the 95 % interval.
 pub fn chance_words(skill: Skill, rate: f64, [low, high]: [f64; 2]) -> String {
     let [rate, low, high] = [rate, low, high].map(|share| 100.0 * share);
-    format!("a player of skill \"{skill}\" makes it {rate:.1} % of the time ({low:.1} to {high:.1} %)")
+    format!("{} makes it {rate:.1} % of the time ({low:.1} to {high:.1} %)", player_words(skill))
+}
+
+/// Names the player of a skill; one without a name by the average at three-cushion, because nobody knows the errors by heart.
+pub fn player_words(skill: Skill) -> String {
+    let name = skill.to_string();
+    if name.contains('=') {
+        format!("a player who averages {:.2} at three-cushion", Skill::average(skill.scale()))
+    } else {
+        format!("a player of skill \"{name}\"")
+    }
 }
 
 /// Returns the result of a command that refused `refused` lines of its input. A person at a terminal has seen the reasons and can retype
@@ -110,7 +120,8 @@ pub fn plural(count: usize, thing: &str) -> String {
 /// States the skill and the rule, for commands in which only the command line sets them.
 pub fn player_and_rule_words(skill: Skill, rule: Rule) -> String {
     format!(
-        "For a player of skill \"{skill}\" under the rule {rule}; --skill and --rule choose others. The screen's skill and rule are not used."
+        "For {} under the rule {rule}; --skill and --rule choose others. The screen's skill and rule are not used.",
+        player_words(skill)
     )
 }
 

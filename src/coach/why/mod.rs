@@ -119,7 +119,7 @@ pub struct Why {
     /// The second-best shot.
     pub second: Option<Difference>,
     /// Numbers, from 2, of the shots with a higher estimated make probability than the first one that has no explanation but chance: the
-    /// attempts that chose the first shot say otherwise.
+    /// difference is not significant, and the attempts that chose the first shot say otherwise.
     #[serde(skip)]
     unsure: Vec<usize>,
     /// Whether the search stopped at the first shot that makes the point.
@@ -177,7 +177,8 @@ pub fn why(
     let is_unsure = |other: &Alternative| {
         let own = (rate(advice.make_probability), advice.next_probability);
         let its = (rate(other.make_probability), other.next_probability);
-        own.0.zip(its.0).is_some_and(|(own, its)| own < its)
+        let rates = advice.make_probability.zip(other.make_probability);
+        rates.is_some_and(|(own, its)| own.rate < its.rate && !its.is_significantly_above(&own))
             && !leads_by_plan(own, its)
             && Drawback::of(other, advice).is_none()
     };

@@ -106,10 +106,10 @@ impl Why {
     pub fn facts_beyond_list(&self, cue_ball: CueBall) -> impl Iterator<Item = String> {
         let luck = match &self.unsure[..] {
             [] => None,
-            [number] => Some(format!("shot {number}: maybe by chance")),
+            [number] => Some(format!("shot {number} may lead by luck")),
             [numbers @ .., last] => {
                 let numbers: Vec<_> = numbers.iter().map(usize::to_string).collect();
-                Some(format!("shots {} and {last}: maybe by chance", numbers.join(", ")))
+                Some(format!("shots {} and {last} may lead by luck", numbers.join(", ")))
             }
         };
         let reasons = self.reasons(cue_ball, "shot 2");
@@ -281,8 +281,8 @@ mod tests {
             assert!(sentence.contains("%, maybe by chance"), "{sentence}");
         }
         let first = second(&[2]).facts_beyond_list(CueBall::White).next().unwrap();
-        assert!(first.starts_with("Shot 2: maybe by chance"), "{first}");
-        for (unsure, words) in [(&[3][..], "Shot 3: maybe"), (&[2, 3], "Shots 2 and 3: maybe")] {
+        assert!(first.starts_with("Shot 2 may lead by luck"), "{first}");
+        for (unsure, words) in [(&[3][..], "Shot 3 may lead"), (&[2, 3], "Shots 2 and 3 may lead")] {
             let first = second(unsure).facts_beyond_list(CueBall::White).next().unwrap();
             assert!(first.starts_with(words), "{first}");
         }

@@ -36,9 +36,10 @@ pub fn table_lengths(table: &Table, speed: f64) -> Option<f64> {
 /// Names of strokes of one table length, of two, and so on; longer ones have the last name.
 pub const PACES: [&str; 5] = ["very soft", "soft", "medium", "hard", "very hard"];
 
-/// Returns the name of a stroke of this number of table lengths.
+/// Returns the name of a stroke of this number of table lengths, rounded to a tenth as it is reported.
 pub fn pace_word(lengths: f64) -> &'static str {
-    PACES[(lengths.round() as usize).clamp(1, PACES.len()) - 1]
+    let reported = (10.0 * lengths).round() / 10.0;
+    PACES[(reported.round() as usize).clamp(1, PACES.len()) - 1]
 }
 
 /// Formats a number of table lengths in words, to a tenth.
@@ -51,6 +52,11 @@ pub fn lengths_words(lengths: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_name_agrees_with_the_rounded_number() {
+        assert_eq!([3.44, 3.46, 3.5].map(pace_word), ["medium", "hard", "hard"]);
+    }
 
     #[test]
     fn one_length_is_singular() {

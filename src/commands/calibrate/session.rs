@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use super::{Args, failure, listing::words, report_result};
 use crate::{
     calibration::{
-        Edit, Entries, Entry, FAR_END, PROTOCOL, RAILS, Test, edit_entries, load_entries_or_empty, missing_daily_tests,
+        DAILY_TESTS, Edit, Entries, Entry, FAR_END, PROTOCOL, RAILS, Test, edit_entries, load_entries_or_empty,
+        missing_daily_tests,
     },
     commands::{
         Failure,
@@ -30,8 +31,15 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
     let (mut shown, mut refused) = (None, 0);
     while let Some(test) = session.next() {
         if shown != Some((test.name, session.entries.trials.len())) {
-            let number = 1 + PROTOCOL.iter().position(|one| one.name == test.name).unwrap_or_default();
-            words(number, test).iter().for_each(print_note);
+            let all = PROTOCOL.iter().map(|one| one.name);
+            let place = if args.daily {
+                DAILY_TESTS.iter().position(|name| *name == test.name)
+            } else {
+                all.into_iter().position(|name| name == test.name)
+            };
+            // The daily check has each of its tests once.
+            let repetitions = if args.daily { 1 } else { test.repetitions };
+            words(1 + place.unwrap_or_default(), &Test { repetitions, ..*test }).iter().for_each(print_note);
             shown = Some((test.name, session.entries.trials.len()));
         }
         let names: Vec<&str> = test.field_names().collect();

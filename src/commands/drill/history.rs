@@ -110,7 +110,7 @@ fn average(record: &Record) -> String {
 }
 
 /// Formats the high run, or "-" if the order of the attempts is unknown.
-fn high_run(record: &Record) -> String {
+pub(super) fn high_run(record: &Record) -> String {
     if record.innings > 0 { record.high_run.to_string() } else { "-".to_owned() }
 }
 

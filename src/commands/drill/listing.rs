@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::{
     Workspace,
+    history::high_run,
     positions::tag,
     score::{Score, words},
 };
@@ -84,7 +85,7 @@ pub fn list(args: &ListArgs) -> Result<(), Failure> {
             exercise.rule.to_string(),
             number(record.made),
             number(record.tried),
-            number(record.high_run as usize),
+            high_run(&record),
             exercise.title.clone(),
         ]);
     }

@@ -9,7 +9,7 @@ use crate::{
         Failure,
         input::{parse_seed, search_limits, table_by_name, whole_number, whole_number_from},
         lookup::skill_by_name,
-        output::{player_and_rule_words, print_note},
+        output::{player_and_rule_words, player_words, print_note},
         typed_stroke::TypedStroke,
     },
     drills::{Exercise, Goal, Session, Venue},
@@ -82,7 +82,8 @@ impl PlayOptions {
         match session.exercises.first().filter(|_| session.is_game()) {
             Some(game) => print_note(player_and_rule_words(skill, game.rule)),
             None => print_note(format_args!(
-                "For a player of skill \"{skill}\"; --skill chooses another. The screen's skill is not used."
+                "For {}; --skill chooses another. The screen's skill is not used.",
+                player_words(skill)
             )),
         }
         if let Some(level) = session.coach_skill {

@@ -25,7 +25,7 @@ use super::{
         whole_number_from,
     },
     lookup::{policy_by_name, skill_by_name},
-    output::{chance_words, impulse_words, player_and_rule_words, units},
+    output::{chance_words, impulse_words, player_and_rule_words, player_words, units},
     request::{Key, Keys, RuleName},
 };
 use crate::{
@@ -412,7 +412,7 @@ fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &Recommend
 /// States the make probability that the networks predict for their shot, if they do.
 fn predicted_chance(predicted: Option<f64>, skill: Skill) -> String {
     predicted.map_or_else(String::new, |rate| {
-        format!("; they say that a player of skill \"{skill}\" makes it {:.0} % of the time", 100.0 * rate)
+        format!("; they say that {} makes it {:.0} % of the time", player_words(skill), 100.0 * rate)
     })
 }
 

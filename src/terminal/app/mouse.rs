@@ -33,7 +33,7 @@ impl App {
             Kind::ScrollUp => self.wheel(event, -1),
             Kind::ScrollDown => self.wheel(event, 1),
             Kind::Drag(Left) if self.key_context() == KeyContext::Coach && self.overlay.is_none() => {
-                let pointer = table_mapping(&self.coach, self.area).nearest_metres(event.column, event.row)?;
+                let pointer = table_mapping(&self.coach, self.area).extended_metres(event.column, event.row)?;
                 self.coach.drag_to(pointer)
             }
             Kind::Up(Left) => {
@@ -90,7 +90,7 @@ impl App {
         let select = Action::Coach(CoachAction::SelectBall(colour));
         let effect = self.attempt(Condition::Coach(CoachCondition::Idle), select);
         if !has_moved && self.disabled_reason(Condition::Coach(CoachCondition::Placing)).is_none() {
-            self.coach.start_drag(mapping.nearest_metres(event.column, event.row)?);
+            self.coach.start_drag(mapping.extended_metres(event.column, event.row)?);
         }
         effect
     }

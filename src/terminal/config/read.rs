@@ -2,6 +2,7 @@
 
 use std::{fmt, io, path::Path};
 
+use crossterm::event::KeyCode;
 use toml::{
     Spanned,
     de::{DeTable, DeValue},
@@ -12,7 +13,7 @@ use crate::{
     terminal::{
         Settings,
         config::entries::{ENTRIES, Entry},
-        keymap::remap::chord,
+        keymap::{Chord, remap::chord},
     },
 };
 
@@ -143,6 +144,10 @@ fn read_keys(settings: &mut Settings, keys: &DeTable, mut add: impl FnMut(usize,
             add(place, refused(written));
             continue;
         };
+        if pressed == Chord::ctrl(KeyCode::Char('c')) {
+            add(place, format!("\"{written}\" always quits; give another key its meaning"));
+            continue;
+        }
         match value.get_ref().as_str() {
             Some(text) => match chord(text) {
                 Some(meant) => settings.keys.add(pressed, meant),

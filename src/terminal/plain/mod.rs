@@ -203,17 +203,15 @@ impl Conversation {
                 self.request.first = FirstContact::parse(&word, names).map_err(|error| error.to_string())?;
                 self.drop_shots(format!("Met first: {word}."))
             }
-            Command::PlanNow => speech::plan(self.request.plan, self.shots.get(self.chosen).and_then(|shot| shot.next)),
+            Command::PlanNow => self.plan_words(),
             Command::Chances => self.with_chosen_shot(|talk, _| {
-                let of =
-                    |shot: &ShotCandidate| speech::chance(shot.is_attempt, shot.rate, talk.request.skill).join(" ");
+                let of = |shot: &ShotCandidate| {
+                    speech::chance(talk.attempt_words(shot), shot.rate, talk.request.skill).join(" ")
+                };
                 let line = |(number, shot): (usize, &ShotCandidate)| format!("Shot {number}. {}", of(shot));
                 Ok((1..).zip(&talk.shots).map(line).collect::<Vec<_>>().join("\n"))
             })?,
-            Command::Why => self.with_chosen_shot(|talk, _| {
-                let why = talk.why.as_ref().ok_or("No reason is known why the first shot is best.")?;
-                Ok(format!("The first shot. {}", why.words(talk.cue_ball(), talk.units)))
-            })?,
+            Command::Why => self.with_chosen_shot(|talk, _| talk.reasons())?,
             Command::Shot => self.ask()?,
             Command::Try(words) => self.try_stroke(&words)?,
             Command::Other if self.shots.len() > 1 => {
@@ -335,6 +333,37 @@ impl Conversation {
         Ok(format!("{}\n{}.", self.describe()?, verdict.words(self.cue_ball(), self.units.length)))
     }
 
+    /// Says whether the next point counts too.
+    fn plan_words(&self) -> String {
+        if self.request.skill.is_perfect() {
+            return "The next point does not count for a player without errors, who makes every shot.".to_owned();
+        }
+        speech::plan(self.request.plan, self.shots.get(self.chosen).and_then(|shot| shot.next))
+    }
+
+    /// Says why the first shot is recommended.
+    fn reasons(&self) -> Answer {
+        if let Some(attempt) = self.shots.first().and_then(|first| self.attempt_words(first)) {
+            return Ok(attempt);
+        }
+        let why = self.why.as_ref().ok_or("No reason is known why the first shot is best.")?;
+        Ok(format!("The first shot. {}", why.words(self.cue_ball(), self.units)))
+    }
+
+    /// Says of an attempt that it makes no point, and why none does.
+    fn attempt_words(&self, shot: &ShotCandidate) -> Option<String> {
+        let first = self.request.first;
+        let rule = first.forbidden_by(Point::of(self.request.rule, self.table(), self.layout()));
+        let none = || match rule {
+            Some(rule) => {
+                let opening = first.opening_words(self.cue_ball().names());
+                format!("There is no point{opening}: {rule}; this is only an attempt.")
+            }
+            None => "No point was found; this is the best attempt.".to_owned(),
+        };
+        shot.is_attempt.then(none)
+    }
+
     /// Describes the chosen shot.
     fn describe(&self) -> Answer {
         self.with_chosen_shot(|talk, shot| {
@@ -354,7 +383,7 @@ impl Conversation {
                     pattern.map(|pattern| format!("Pattern: {}: {}.", pattern.name, pattern.course_of(&technique))),
                 );
             }
-            lines.extend(speech::chance(shot.is_attempt, shot.rate, talk.request.skill));
+            lines.extend(speech::chance(talk.attempt_words(shot), shot.rate, talk.request.skill));
             let why = talk.why.as_ref().filter(|_| talk.chosen == 0);
             lines.extend(why.map(|why| why.words(cue_ball, units)));
             let system = recording.filter(|_| !shot.is_attempt).and_then(|shot| guide(talk.table(), &shot));

@@ -135,14 +135,13 @@ pub fn words(table: &Table, unit: LengthUnit) -> String {
     )
 }
 
-/// The player's success rate at a shot, and a sentence if it is only an attempt that makes no point.
-pub fn chance(is_attempt: bool, rate: Option<SuccessRate>, skill: Skill) -> Vec<String> {
-    let none = is_attempt.then(|| "No point was found; this is the best attempt.".to_owned());
+/// The player's success rate at a shot, after the sentence about an attempt that makes no point.
+pub fn chance(attempt: Option<String>, rate: Option<SuccessRate>, skill: Skill) -> Vec<String> {
     let rate = rate.map(|rate| {
         let [middle, low, high] = [rate.rate, rate.low, rate.high].map(percent);
         format!("{} makes it {middle} percent of the time, between {low} and {high}.", player(skill))
     });
-    none.into_iter().chain(rate).collect()
+    attempt.into_iter().chain(rate).collect()
 }
 
 /// Average of this skill at three-cushion, to two decimals.

@@ -73,18 +73,16 @@ impl Mapping {
 
     /// The position on the table at the centre of a screen cell, m; `None` outside the bed.
     pub fn to_metres(&self, column: u16, row: u16) -> Option<DVec2> {
-        self.bed.contains((column, row).into()).then(|| {
-            let cell = DVec2::new(f64::from(column - self.bed.x) + 0.5, f64::from(row - self.bed.y) + 0.5);
-            let from_corner = cell / self.scale();
-            DVec2::new(from_corner.x - 0.5 * self.extent.x, 0.5 * self.extent.y - from_corner.y)
-        })
+        self.bed.contains((column, row).into()).then(|| self.extended_metres(column, row)).flatten()
     }
 
-    /// Like [`Self::to_metres`], but for the nearest cell of the bed; `None` only if the bed is empty.
-    pub fn nearest_metres(&self, column: u16, row: u16) -> Option<DVec2> {
-        let Rect { x, y, width, height } = self.bed;
-        let nearest = |at: u16, from: u16, count: u16| at.clamp(from, from + count.saturating_sub(1));
-        self.to_metres(nearest(column, x, width), nearest(row, y, height))
+    /// Like [`Self::to_metres`], but also outside the bed, so that the mouse can drag a ball to the cushions; `None` only if the bed is
+    /// empty.
+    pub fn extended_metres(&self, column: u16, row: u16) -> Option<DVec2> {
+        let corner = DVec2::new(f64::from(self.bed.x), f64::from(self.bed.y));
+        let from_corner = (DVec2::new(f64::from(column), f64::from(row)) + 0.5 - corner) / self.scale();
+        let place = DVec2::new(from_corner.x - 0.5 * self.extent.x, 0.5 * self.extent.y - from_corner.y);
+        (!self.bed.is_empty()).then_some(place)
     }
 
     /// Columns across a ball at true scale.

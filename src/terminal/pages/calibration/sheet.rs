@@ -7,7 +7,7 @@ use crate::{
     calibration::{
         Calibration, DAILY_TESTS, Edit, Entries, Entry, EntryProblem, NextTest, PROTOCOL, Test, next_day_doubt, prior,
     },
-    table::{Table, TableDoubt},
+    table::{Rails, Table, TableDoubt},
     terminal::{Evaluation, EvaluationTask, pages::moved_index},
 };
 
@@ -218,12 +218,8 @@ impl Sheet {
             let doubt = table.doubt.clone().unwrap_or_default();
             return (table.clone(), next_day_doubt(table, &doubt));
         }
-        let usual = Table::default();
-        let is_as_large = |one: &Table, other: &Table| {
-            [one.length, one.width, one.radius] == [other.length, other.width, other.radius]
-        };
-        // A calibrated table is not a valid prior, because its strokes would count twice.
-        let base = if table.doubt.is_some() && is_as_large(table, &usual) { usual } else { table.clone() };
+        // What these strokes have told of the table would count twice.
+        let base = table.doubt.as_ref().map_or_else(|| table.clone(), |doubt| before_calibration(table, doubt));
         let base = Table { doubt: None, ..base };
         let doubt = prior(&base);
         (base, doubt)
@@ -280,6 +276,20 @@ impl Sheet {
     }
 }
 
+/// Returns a calibrated table with the constants of `match` in place of those that its calibration has estimated.
+fn before_calibration(table: &Table, doubt: &TableDoubt) -> Table {
+    let usual = Table::default();
+    let mut base = Table { name: usual.name.clone(), ..table.clone() };
+    for name in doubt.deviations.keys() {
+        if let Some(value) = TableDoubt::value(&usual, name) {
+            base = TableDoubt::with_value(&base, name, value);
+        }
+    }
+    // The calibration finds rails that differ from the others; before it, none does.
+    let Rails { left, right, bottom, top, .. } = usual.rail;
+    Table { rail: Rails { left, right, bottom, top, ..base.rail }, ..base }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -301,7 +311,10 @@ mod tests {
         let textbook = Table::preset("textbook").unwrap();
         assert_eq!(sheet(false).prior_table(&textbook).0, textbook);
         let small = Table { length: 2.54, width: 1.27, ..calibrated() };
-        assert_eq!(sheet(false).prior_table(&small).0.length, 2.54, "match is larger");
+        let (base, _) = sheet(false).prior_table(&small);
+        assert_eq!((base.length, base.rolling_friction), (2.54, Table::default().rolling_friction));
+        let own_balls = Table { ball_mass: 0.205, ..calibrated() };
+        assert_eq!(sheet(false).prior_table(&own_balls).0, Table { ball_mass: 0.205, ..Table::default() });
         let (today, doubt) = sheet(true).prior_table(&calibrated());
         assert_eq!(today, calibrated());
         assert!(doubt.deviations["mu_r"] > calibrated().doubt.unwrap().deviations["mu_r"], "a day later");

@@ -269,8 +269,10 @@ impl CoachPage {
     /// Switches to another table.
     pub fn set_table(&mut self, table: &Table) {
         if table != self.table() {
+            let before = *self.layout();
             self.set_query(table, CoachQuery { policy: None, ..self.query.clone() });
-            self.message = Some(Message::good(format!("the table is now {}; Enter asks the coach", table.name)));
+            let balls = if *self.layout() == before { "" } else { ", with the balls on the opening spots" };
+            self.message = Some(Message::good(format!("the table is now {}{balls}; Enter asks the coach", table.name)));
         }
     }
 
