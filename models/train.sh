@@ -175,9 +175,12 @@ context context-r3-seventh --from "$folder/context-r3-sixth" --seed 411 --steps 
 # that calibration.
 train context-three-cushion --from "$folder/context-three-cushion-31st" --reward three-cushion --seed 772 --steps 192 --set calibrated=32768
 train context-one-cushion-seventh --from "$folder/context-one-cushion-sixth" --reward one-cushion --seed 772 --steps 192 --set calibrated=32768
-train context-r3 --from "$folder/context-r3-seventh" --reward r3 --seed 772 --steps 192 --set calibrated=32768
-# One cushion with paths to the first ball by a cushion.
+train context-r3-calibrated --from "$folder/context-r3-seventh" --reward r3 --seed 772 --steps 192 --set calibrated=32768
+# One cushion and straight rail with paths to the first ball by a cushion.
 speeds="head_speeds=[[0.5, 2.0], [1.4, 3.6], [2.8, 6.0]]"
 context context-one-cushion-eighth --from "$folder/context-one-cushion-seventh" --seed 787 --steps 2400000 $guided_iteration $keep_actor $rails \
     --set critic_learning_rate=0.0012 --set actor_learning_rate=0.0005 --set actor_batch_size=64 --set heads=9 --set "$speeds"
 train context-one-cushion --from "$folder/context-one-cushion-eighth" --seed 788 --steps 4500000 --set searched=0 --set imitation=0 $critic --set calibrated=32768
+context context-r3-eighth --from "$folder/context-r3-calibrated" --seed 791 --steps 2400000 $guided_iteration $keep_actor $rails \
+    --set critic_learning_rate=0.0012 --set actor_learning_rate=0.0005 --set actor_batch_size=64 --set heads=9 --set "$speeds"
+train context-r3 --from "$folder/context-r3-eighth" --seed 792 --steps 4500000 --set searched=0 --set imitation=0 $critic --set calibrated=32768

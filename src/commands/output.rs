@@ -78,11 +78,10 @@ pub fn chance_words(skill: Skill, rate: f64, [low, high]: [f64; 2]) -> String {
 
 /// Names the player of a skill; one without a name by the average at three-cushion, because nobody knows the errors by heart.
 pub fn player_words(skill: Skill) -> String {
-    let name = skill.to_string();
-    if name.contains('=') {
-        format!("a player who averages {:.2} at three-cushion", Skill::average(skill.scale()))
-    } else {
-        format!("a player of skill \"{name}\"")
+    let average = (100.0 * Skill::average(skill.scale())).round() / 100.0;
+    match skill.to_string() {
+        name if name.contains('=') => format!("a player who averages {average} at three-cushion"),
+        name => format!("a player of skill \"{name}\""),
     }
 }
 

@@ -9,8 +9,8 @@ fn play_states_skill_and_rule_with_words_wrapped() {
     let mut session = Session::start_command(command, 60, 24);
     session.wait_for("shot, coach, help or quit: ");
     let shown = session.screen().contents();
-    let beginning = "For a player of skill \"average=0.6\" under the rule\n\
-                     three-cushion; --skill and --rule choose others. The\n\
+    let beginning = "For a player who averages 0.6 at three-cushion under the\n\
+                     rule three-cushion; --skill and --rule choose others. The\n\
                      screen's skill and rule are not used.\n\
                      game (three-cushion): white 2d,2.51d  yellow 2d,2d  red\n\
                      6d,2d\n";
