@@ -156,3 +156,23 @@ impl Belief {
         doubt
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_level_table_stays_level_if_nothing_tells_of_its_slope() {
+        let table = Table { tilt: DVec2::ZERO, ..Table::default() };
+        let doubt = TableDoubt::of(&table);
+        let belief = Belief::new(&table, &doubt).unwrap();
+        let before = belief.table(&vec![0.0; belief.count()]);
+        assert_eq!((before.tilt, belief.mean_before("tilt.x", before.tilt.x)), (DVec2::splat(LEVEL), 0.0));
+        assert_eq!(belief.without_level(before.clone(), &doubt).tilt, DVec2::ZERO);
+        // A slope of a standard deviation along one side is found.
+        let along = doubt.deviations["tilt.x"];
+        let sloping = Table { tilt: before.tilt + DVec2::new(along, 0.0), ..before };
+        let found = belief.without_level(sloping, &doubt).tilt;
+        assert!((found.x - along).abs() < 1e-15 && found.y == 0.0, "{found}");
+    }
+}

@@ -47,17 +47,6 @@ fn exact_from(table: &Table, is_turned: bool) -> Vec<(usize, Trial)> {
 }
 
 #[test]
-fn a_level_table_stays_level_if_nothing_tells_of_its_slope() {
-    let (mut table, doubt) = base();
-    table.tilt = DVec2::ZERO;
-    let full_hit: Vec<_> = exact(&table).into_iter().filter(|(_, trial)| trial.test.name == "full-hit").collect();
-    let found = calibrate("own", &table, &doubt, &full_hit[..1]).unwrap();
-    assert_eq!(found.table.tilt, DVec2::ZERO);
-    let tilts: Vec<_> = found.constants.iter().filter(|change| change.name.starts_with("tilt")).collect();
-    assert!(tilts.len() == 2 && tilts.iter().all(|change| [change.before, change.after] == [0.0; 2]), "{tilts:?}");
-}
-
-#[test]
 fn a_certain_zero_tilt_stays_zero() {
     let (mut table, mut doubt) = base();
     table.tilt = DVec2::ZERO;

@@ -60,14 +60,14 @@ impl Description {
         })
     }
 
-    /// Prints the description.
-    pub fn describe(&self, out: &mut impl Write, units: Units) -> io::Result<()> {
+    /// Prints the description, with the pattern if the shot is `solved`.
+    pub fn describe(&self, out: &mut impl Write, units: Units, solved: bool) -> io::Result<()> {
         let numbers = &self.words.numbers;
         writeln!(out, "{}", self.sentence(units))?;
         writeln!(out, "{}", numbers.course(CueBall::White, units))?;
         writeln!(out, "{}", numbers.aim(units))?;
         match (self.pattern, &self.pattern_course) {
-            (Some(pattern), Some(course)) => writeln!(out, "Pattern: {pattern} ({course})."),
+            (Some(pattern), Some(course)) if solved => writeln!(out, "Pattern: {pattern} ({course})."),
             _ => Ok(()),
         }
     }

@@ -345,7 +345,7 @@ impl From<Recommendation> for RecommendAnswer {
 fn describe(out: &mut impl Write, args: &Args, table: &Table, answer: &RecommendAnswer) -> io::Result<()> {
     let shot = &answer.shot;
     if let Some(description) = &shot.description_in_words {
-        description.describe(out, units())?;
+        description.describe(out, units(), answer.solved != Some(false))?;
     }
     if let Some(why) = &answer.why {
         why.describe(out, units())?;

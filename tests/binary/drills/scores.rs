@@ -271,7 +271,8 @@ fn an_exam_of_one_category_has_its_exercises_only() {
     let lines = run_with_input(command(folder.path(), &args), &"0,0,0,0,1\n".repeat(20)).json();
     let result = of_kind(&lines, "result")[0];
     assert_eq!([&result["tried"], &result["over"]], [&json!(6), &json!(true)], "{lines:?}");
-    drill(folder.path(), &["exam", "--category", "own"]).fails(1, &["nobody has measured how difficult your own positions are"]);
+    drill(folder.path(), &["exam", "--category", "own"])
+        .fails(1, &["nobody has measured how difficult your own positions are"]);
     drill(folder.path(), &["exam", "--category", "banks"]).fails(2, &["there is no category \"banks\""]);
 }
 
