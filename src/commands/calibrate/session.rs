@@ -31,11 +31,10 @@ pub fn run(args: &Args, table: &Table, doubt: &TableDoubt) -> Result<(), Failure
     let (mut shown, mut refused) = (None, 0);
     while let Some(test) = session.next() {
         if shown != Some((test.name, session.entries.trials.len())) {
-            let all = PROTOCOL.iter().map(|one| one.name);
             let place = if args.daily {
                 DAILY_TESTS.iter().position(|name| *name == test.name)
             } else {
-                all.into_iter().position(|name| name == test.name)
+                PROTOCOL.iter().position(|one| one.name == test.name)
             };
             // The daily check has each of its tests once.
             let repetitions = if args.daily { 1 } else { test.repetitions };

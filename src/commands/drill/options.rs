@@ -39,8 +39,8 @@ pub struct PlayOptions {
     pub(super) budget_ms: Option<u64>,
     /// Number of simulations after which the coach starts nothing new.
     ///
-    /// With --seed and without --budget-ms, the same strokes then give the same session, however fast the machine is. As for `carom recommend`, a
-    /// minimum of work is always done in addition.
+    /// With --seed and without --budget-ms, the same strokes then give the same session, however fast the machine is. As for `carom
+    /// recommend`, a minimum of work is always done in addition.
     #[arg(long, value_name = "COUNT", value_parser = whole_number_from(1_u64))]
     pub(super) simulations: Option<u64>,
     /// Let the coach recommend neither jumps over a ball nor massés, which most clubs forbid.

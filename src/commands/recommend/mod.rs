@@ -88,8 +88,8 @@ pub struct Args {
     budget_ms: Option<u64>,
     /// Number of simulations after which the search starts nothing new.
     ///
-    /// Without --budget-ms, the answer is then the same however fast the machine is; with it, both limits apply. This is not a hard limit: a minimal
-    /// search and judging the shots that were found take thousands of simulations in addition.
+    /// Without --budget-ms, the answer is then the same however fast the machine is; with it, both limits apply. This is not a hard limit: a
+    /// minimal search and judging the shots that were found take thousands of simulations in addition.
     #[arg(long, value_parser = whole_number_from(1_u64))]
     simulations: Option<u64>,
     /// Return the networks' own shot, without any search.
